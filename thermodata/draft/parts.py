@@ -28,7 +28,8 @@ class DraftSource:
 @dataclass(frozen=True, slots=True)
 class DraftChannel:
     """channels.<name>, or a signal that no quantity fits (said.quantity None). signal: as it stands in the file; stream
-    where the file has several; only_in: the tests that have it, where not all of the source's do."""
+    where the file has several; only_in: the tests that have it, where not all of the source's do, and missing_in those
+    that lack it."""
 
     name: str
     source: str
@@ -37,6 +38,7 @@ class DraftChannel:
     said: Guess
     calibration: str | None = None
     only_in: tuple[str, ...] = ()
+    missing_in: tuple[str, ...] = ()
     note: str | None = None
 
 

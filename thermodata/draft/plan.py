@@ -174,11 +174,9 @@ def _channels(
         own = {id(f) for f in files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
-        made.append(
-            DraftChannel(
-                name, group.source, named, signal.stream if len(streams) > 1 else None, said, calibration, only, note
-            )
-        )
+        lacking = tuple(t for t in group.tests if t not in having) if only else ()
+        stream = signal.stream if len(streams) > 1 else None
+        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     return made, notes
 
 

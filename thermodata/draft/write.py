@@ -110,6 +110,8 @@ def _channel(c: DraftChannel) -> str:
         "at": said.at,
         "relative_to": "table" if moves else None,
         "calibration": c.calibration,
+        "only_in": c.only_in if 0 < len(c.only_in) <= len(c.missing_in) else None,
+        "missing_in": c.missing_in if len(c.missing_in) < len(c.only_in) else None,
     }
     notes = [
         said.comment(),

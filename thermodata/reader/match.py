@@ -10,6 +10,10 @@ from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 
 
+class NoSignalError(UsageError):
+    """A name that no signal of the file has, nor one that is meant by it."""
+
+
 def _without_unit(name: str) -> str:
     return split_unit(name)[0]
 
@@ -52,7 +56,7 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
     names_by_fold = {spell(s.name).casefold(): s.name for s in signals for spell in reversed(_SPELLINGS)}
     close = list(dict.fromkeys(names_by_fold[c] for c in get_close_matches(wanted.casefold(), names_by_fold, 3, 0.5)))
     listed = [s.name for s in signals[:20]] + (["..."] if len(signals) > 20 else [])
-    raise UsageError(
+    raise NoSignalError(
         f"no signal '{wanted}' in the file",
         expected=", ".join(close or listed) or "the file has none",
         got=wanted,

@@ -41,6 +41,8 @@ class Channel(Strict):
     relative_to: place that a displacement is measured against
     calibration: key of `calibrations`, or a list applied in order
     sensor: what measured it
+    only_in: the tests whose files have the signal, where others lack it; in these it is read where it stands
+    missing_in: the tests whose files lack it, the other way round
     notes: free text
     """
 
@@ -56,7 +58,13 @@ class Channel(Strict):
     relative_to: str | None = None
     calibration: str | list[str] | None = None
     sensor: Sensor | None = None
+    only_in: list[str] = Field(default=[], exclude_if=lambda tests: not tests)
+    missing_in: list[str] = Field(default=[], exclude_if=lambda tests: not tests)
     notes: str = ""
+
+    def may_lack(self, test: str) -> bool:
+        """Whether the files of a test need not have the signal."""
+        return test in self.missing_in or (bool(self.only_in) and test not in self.only_in)
 
     @model_validator(mode="after")
     def _one_origin(self) -> Channel:
@@ -67,6 +75,10 @@ class Channel(Strict):
             raise ValueError("a channel with 'signal' needs 'source'")
         if self.instead_of is not None and self.unit is None:
             raise ValueError("'instead_of' names the file's unit that 'unit' replaces: write both")
+        if self.only_in and self.missing_in:
+            raise ValueError(
+                "'only_in' and 'missing_in' say the same, one of the tests and one of the others: write one"
+            )
         return self
 
 

@@ -16,6 +16,7 @@ def check_campaign(campaign: Campaign, document: Document) -> None:
     _calibrations(campaign, document)
     _sources(campaign, document)
     _tests(campaign, document)
+    _tests_of_channels(campaign, document)
     _overruled(campaign, document)
 
 
@@ -52,6 +53,14 @@ def _channels(campaign: Campaign, document: Document) -> None:
         used = [channel.calibration] if isinstance(channel.calibration, str) else channel.calibration or []
         for calibration in used:
             _known("calibration", calibration, campaign.calibrations, document, ("channels", name, "calibration"))
+
+
+def _tests_of_channels(campaign: Campaign, document: Document) -> None:
+    tests = [test.id for test in campaign.tests]
+    for name, channel in campaign.channels.items():
+        for key in ("only_in", "missing_in"):
+            for i, test in enumerate(getattr(channel, key)):
+                _known("test", test, tests, document, ("channels", name, key, i))
 
 
 def _calibrations(campaign: Campaign, document: Document) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.reader.match import match_signal
+from thermodata.reader.match import NoSignalError, match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.store.raw.streams import RawStream
@@ -128,6 +128,10 @@ def bind(plan: TestPlan) -> None:
                 continue  # the source's absence is told once, not for each channel
             try:
                 raw, signal, unit = find_signal(source.raws, channel.signal)
+            except NoSignalError as error:
+                if not channel.may_lack(plan.test.id):
+                    plan.problems.append(_no_signal(name, error, plan.test.id))
+                continue
             except UsageError as error:
                 plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
                 continue
@@ -141,6 +145,12 @@ def bind(plan: TestPlan) -> None:
             _bind_derived(plan, channels, name, channel, ())
     order = list(plan.campaign.channels)
     plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
+
+
+def _no_signal(name: str, error: NoSignalError, test: str) -> str:
+    said = "; ".join(str(error).splitlines())
+    lead = " Or" if "try: " in said else "; try:"
+    return f"channel '{name}': {said}{lead} 'missing_in: [{test}]' in the channel where the test's files lack it"
 
 
 def _unit_problem(channel: Channel, unit: str | None, signal: Signal, raws: Iterable[RawStream]) -> str | None:
