@@ -21,6 +21,7 @@ def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | N
                 "name": s.name,
                 "reader": s.reader,
                 "files": s.files,
+                "encoding": s.encoding,
                 "table": s.table or None,
                 "questions": list(s.questions),
                 "clock": None

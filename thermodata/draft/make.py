@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.draft.baseline import model_text, model_text_of, responses_of
+from thermodata.draft.letters_of_files import declared_before
 from thermodata.draft.naming import plain
 from thermodata.draft.parts import Draft
 from thermodata.draft.plan import plan
@@ -33,7 +34,8 @@ class Drafted:
 
 
 def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
-    """force: a campaign file that is there becomes campaign.1.yaml; without it that is a UsageError, as is a folder
+    """force: a campaign file that is there becomes campaign.1.yaml, and the encoding that it declares is kept; without
+    it that is a UsageError, as is a folder
     without files. One of files that no reader claims is drafted too, with what would help. progress: is told (done, of,
     path)."""
     out = folder / "campaign.yaml"
@@ -43,7 +45,7 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             where=str(out),
             hint="--force keeps it as campaign.1.yaml and drafts anew",
         )
-    found = scan(folder, progress)
+    found = scan(folder, progress, declared_before(out) if out.exists() else None)
     if not found.logs and not found.ignored:
         raise UsageError(
             "a folder without files",

@@ -15,7 +15,8 @@ from thermodata.draft.table import TestTable
 @dataclass(frozen=True, slots=True)
 class DraftSource:
     """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
-    to be declared of its layout, with 'unknown' where a question asks for it."""
+    to be declared of its layout, with 'unknown' where a question asks for it; encoding: of its texts, where it has
+    to be seen."""
 
     name: str
     reader: str
@@ -23,6 +24,7 @@ class DraftSource:
     questions: tuple[str, ...] = ()
     table: Mapping[str, Any] = field(default_factory=dict)
     align: Alignment | None = None
+    encoding: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from thermodata.draft.guess import guess
 from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
+from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
@@ -64,6 +65,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             tuple(q for q in (*(hinted(a, g) for a in g.asks), zone_question(g, groups), *g.questions) if q),
             g.table,
             aligned.get(g.source),
+            common(f.letters for f in (*g.files, *g.calibrations)),
         )
         for g in groups
     )

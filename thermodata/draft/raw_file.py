@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from thermodata.draft.letters_of_files import common, letters_of
 from thermodata.draft.sample import Sample, sample_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
@@ -35,7 +36,7 @@ class RawFile:
     """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
     answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
-    its sheets are none."""
+    its sheets are none; letters: the encoding of a text that is no ASCII."""
 
     path: PurePosixPath
     reader: str
@@ -47,11 +48,12 @@ class RawFile:
     table: Mapping[str, Any] | None = None
     sheet: str | None = None
     besides: tuple[str, ...] = ()
+    letters: str | None = None
 
     @property
     def source(self) -> Source:
         """What the reader is told, so that it reads the file at all."""
-        return Source(table=self.table)
+        return Source(encoding=common((self.letters,)), table=self.table)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -82,13 +84,14 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_files(who: Reader, full: Path, path: PurePosixPath) -> list[RawFile]:
+def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> list[RawFile]:
     """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
+    encoding: what somebody declared for texts that are no UTF-8.
 
     ThermodataError where it cannot be read at all.
     """
-    size = full.stat().st_size
-    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size))
+    size, letters = full.stat().st_size, letters_of(full, encoding)
+    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
     names, besides = _sheets(whole.recording)
     if not names:
         return [whole]
@@ -107,7 +110,7 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     table: dict[str, Any] = dict(file.table or {})
     while True:
         try:
-            recording = described(who, full, Source(table=table or None))
+            recording = described(who, full, replace(file, table=table or None).source)
             break
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:

@@ -36,8 +36,9 @@ class Scan:
     failed: tuple[tuple[str, str], ...] = ()
 
 
-def scan(folder: Path, progress: Progress | None = None) -> Scan:
-    """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path)."""
+def scan(folder: Path, progress: Progress | None = None, encoding: str | None = None) -> Scan:
+    """All files below the folder; hidden ones, stores and links are left out. progress: (done, of, path); encoding:
+    what somebody declared for texts that are no UTF-8."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
     watch, spent = Watch(), 0.0
@@ -62,6 +63,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
                     like=str(like.path),
                     asked=like.asked,
                     table=like.table,
+                    letters=like.letters,
                 )
                 continue
             who, why = claimant(full)
@@ -69,7 +71,7 @@ def scan(folder: Path, progress: Progress | None = None) -> Scan:
                 ignored.append((str(path), why))
                 continue
             try:
-                found = described_files(who, full, path)
+                found = described_files(who, full, path, encoding)
             except _UNREAD as error:
                 failed.append((str(path), who.name))
                 ignored.append(

@@ -65,6 +65,8 @@ def _source(s: DraftSource) -> str:
     parts: dict[str, object] = {"reader": s.reader}
     if s.files:
         parts["files"] = s.files
+    if s.encoding:
+        parts["encoding"] = s.encoding
     if s.table:
         parts["table"] = s.table
     body = flow(parts)
@@ -85,15 +87,18 @@ def _source(s: DraftSource) -> str:
 def _sources_of_nobody(draft: Draft) -> list[str]:
     """A line for each kind of file, to be filled in by who knows what reads it."""
     kinds: dict[str, str] = {}
-    failed = dict(draft.failed)
+    failed, reasons = dict(draft.failed), dict(draft.not_used)
     for path in (*failed, *(path for path, _ in draft.not_used)):
         kinds.setdefault(PurePosixPath(path).suffix.lower() or PurePosixPath(path).name, path)
     lines = []
     for i, (kind, path) in enumerate(list(kinds.items())[:_MOST_KINDS], 1):
         if kind.startswith("."):
-            asked = "what is wrong with" if path in failed else "what wrote"
-            body = flow({"reader": failed.get(path, _OPEN), "files": "{test}" + kind})
-            lines.append(f"  # {f'log{i}' if i > 1 else 'log'}: {{{body}}}   # ? {asked} {one_line(path)}?")
+            asked = f"{'what is wrong with' if path in failed else 'what wrote'} {one_line(path)}?"
+            keys = {"reader": failed.get(path, _OPEN), "files": "{test}" + kind}
+            if "an encoding that the file does not name" in reasons.get(path, ""):
+                keys["encoding"] = _OPEN
+                asked = f"in which encoding is {one_line(path)}? write it, delete the '#', then thermodata init --force"
+            lines.append(f"  # {f'log{i}' if i > 1 else 'log'}: {{{flow(keys)}}}   # ? {asked}")
     return lines
 
 

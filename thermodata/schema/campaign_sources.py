@@ -110,7 +110,8 @@ class SourceSpec(Strict):
     reader: name of an installed reader: crio, cnc, mcap, table or another
     files: path below this file, a pattern with {test}, or a list
     timezone: IANA name of the zone of local times: Europe/Prague
-    encoding: of text; by default UTF-8, then cp1250 or cp1252 with a note
+    encoding: of text; by default UTF-8, then what its words tell (cp932, euc-jp, gb18030, big5, cp949),
+        cp1250 or cp1252, with a note
     table: layout of a table
     topics: of a recording: those to read; by default all
     clock: offset, or what to align it by

@@ -330,12 +330,12 @@ ASIAN = "时间;主轴转速 (rpm);温度（°C）\n" + "".join(
 @pytest.mark.parametrize(
     ("encoding", "text"),
     [
-        ("gb18030", ASIAN),
-        ("shift_jis", "時刻;主軸回転数;スピンドル温度\n" + ASIAN.split("\n", 1)[1]),
+        ("gb18030", "时;梦想;花园\n" + ASIAN.split("\n", 1)[1]),
+        ("cp932", "刻;桜吹雪;春眠不覚暁\n" + ASIAN.split("\n", 1)[1]),
         ("cp1251", "Время;Обороты;Температура\n" + ASIAN.split("\n", 1)[1]),
     ],
 )
-def test_encodings_of_other_scripts_are_declared_never_guessed(tmp_path: Path, encoding: str, text: str) -> None:
+def test_encodings_of_other_scripts_are_declared_where_no_word_tells(tmp_path: Path, encoding: str, text: str) -> None:
     path = tmp_path / "nc.csv"
     path.write_bytes(text.encode(encoding))
     with pytest.raises(FormatError, match="encoding that the file does not name") as caught:

@@ -1,4 +1,4 @@
-"""Which encoding a text is in: declared, marked, UTF-8, or cp1250/cp1252 by the letters
+"""Which encoding a text is in: declared, marked, UTF-8, one of East Asia by its words, or cp1250/cp1252 by the letters
 that stand beside those that differ.
 
 Nothing is ever dropped: `errors="ignore"` turns "µm" into "m", a factor of a million.
@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.east_asia import ENCODINGS, east_asian
 from thermodata.reader.text.letters import western_not_central
 
 _PART = 4 * 1024 * 1024
@@ -42,21 +43,32 @@ def _refuse_unproven(word: bytes | None) -> None:
 
 _RUN = re.compile(rb"[\x80-\xff]{4,}")
 _KANA = re.compile(rb"[\x82\x83][\x40-\xf1]")
-_DECLARE = "declare the source's encoding: gb18030 (Chinese), shift_jis (Japanese), euc_kr, big5, cp1251 (Cyrillic)"
+_DECLARE = (
+    "declare the source's encoding: cp932 or euc-jp (Japanese), gb18030 or big5 (Chinese), cp949 (Korean), cp1251 "
+    "(Cyrillic)"
+)
+# narrower names of the same encodings, and what programs of Windows write under them
+_WIDER = {"shift_jis": "cp932", "euc_kr": "cp949", "gb2312": "gb18030", "gbk": "gb18030", "big5": "cp950"}
 
 
-def _refuse_other_scripts(data: bytes) -> None:
-    """FormatError for text of several bytes a character or of another script: no word of a Western or Central
-    European language has four letters with diacritics in a row, and no choice between such encodings is proven."""
+def _other_script(data: bytes) -> re.Match[bytes] | None:
+    """Where text of several bytes a character or of another script begins: no word of a Western or Central European
+    language has four letters with diacritics in a row."""
     found = next((m for m in _RUN.finditer(data) if len(set(m[0])) > 1), None)
     if found is None and len(kana := _KANA.findall(data)) >= 3 and len(set(kana)) >= 3:
         found = _KANA.search(data)
+    return found
+
+
+def _refuse_other_scripts(data: bytes) -> None:
+    """FormatError for text of another script: words did not tell which encoding it is in."""
+    found = _other_script(data)
     if found is None:
         return
     at = found.start()
     line = data[data.rfind(b"\n", 0, at) + 1 :].split(b"\n", 1)[0][:200]
     seen = []
-    for name in ("gb18030", "shift_jis", "euc_kr", "cp1251"):
+    for name in (*ENCODINGS, "cp1251"):
         try:
             seen.append(f"{name}: {line.decode(name).strip()[:24]!r}")
         except UnicodeDecodeError:
@@ -72,9 +84,9 @@ def _refuse_other_scripts(data: bytes) -> None:
 
 def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | None]:
     """(encoding, note or None) of a file's bytes. Order: declared, byte order mark, UTF-8, UTF-16 without a
-    mark, then cp1250 or cp1252 by what stands beside the letters that differ. FormatError: the declared one is unknown
-    or fails, the text is of another script (Chinese, Japanese, Cyrillic: never guessed), either of the two may be
-    meant, or no single-byte encoding reads it."""
+    mark, one of East Asia whose words it holds, then cp1250 or cp1252 by what stands beside the letters that differ.
+    FormatError: the declared one is unknown or fails, the text is of another script and its words don't tell, either of
+    the two may be meant, or no single-byte encoding reads it."""
     if declared is not None:
         try:
             name = codecs.lookup(declared).name
@@ -96,6 +108,11 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         data.decode("utf-8")
         return "utf-8", None
     except UnicodeDecodeError as error:
+        east = east_asian(data)
+        if east is not None:
+            name, words = east
+            told = ", ".join(words[:4])
+            return name, f"not UTF-8 (byte {error.start}); read as {name}, by {told}: declare encoding if that is wrong"
         _refuse_other_scripts(data)
         name, unproven = _single_byte(data)
         _refuse_unproven(unproven)
@@ -139,8 +156,20 @@ def _try(data: bytes, encoding: str) -> str:
             where=f"byte {error.start}",
             expected=encoding,
             got=data[error.start : error.start + 4].hex(" "),
-            hint="declare the source's encoding",
+            hint=_wider(data, encoding) or "declare the source's encoding",
         ) from None
+
+
+def _wider(data: bytes, encoding: str) -> str | None:
+    """What to declare where a narrower name of the same encoding was, as shift_jis for a text with ① or №."""
+    wider = _WIDER.get(codecs.lookup(encoding).name)
+    if wider is None:
+        return None
+    try:
+        data.decode(wider)
+    except UnicodeDecodeError:
+        return None
+    return f"declare 'encoding: {wider}' for the source: it has signs that {encoding} lacks"
 
 
 def decode(data: bytes, declared: str | None = None) -> tuple[str, str, str | None]:
@@ -166,6 +195,11 @@ def decode_head(start: bytes) -> str | None:
         control = sum(start.count(bytes((b,))) for b in range(1, 32) if b not in (9, 10, 12, 13, 26))
         if control:
             return None
+        east = east_asian(start)
+        if east is not None:
+            return start.decode(east[0], "replace")
+        if _other_script(start) is not None:
+            return start.decode("ascii", "replace")  # nobody knows the letters: better none than wrong ones
         return start.decode(_single_byte(start)[0], "replace")
 
 
