@@ -85,6 +85,11 @@ def test_a_length_by_the_turn_is_no_length(written: str, target: str) -> None:
         linear_conversion(written, target)
 
 
+def test_a_torque_within_a_unit_is_one() -> None:
+    assert linear_conversion("um/Nm", "um/(N*m)") == (1.0, 0.0)
+    assert linear_conversion("kNm/deg", "Nm/deg") == pytest.approx((1000.0, 0.0))
+
+
 def test_an_energy_is_no_torque_and_a_rate_no_speed_unless_the_name_says_so() -> None:
     assert [quantities_of(u) for u in ("kWh", "1/h", "MHz", "s⁻¹", "Hz", "µm/m")] == [()] * 6
 

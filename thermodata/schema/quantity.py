@@ -95,6 +95,7 @@ AT_HAND = frozenset(
         *("mV", "mA", "W", "N", "kN", "Pa", "kPa", "MPa", "mbar", "l/h", "kg"),
     }
 )
+_NEWTON_METRE = re.compile(r"(?<![^\W\d_])([km]?)Nm(?![^\W\d_])")  # pint takes 'Nm' for a number of metres
 _QUANTITY_TEXT = re.compile(r"^\s*([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 
 
@@ -116,6 +117,7 @@ def normal_unit(text: str) -> str:
 
 
 def _powers(unit: str) -> str:
+    unit = _NEWTON_METRE.sub(r"(\1N*m)", unit)
     return re.sub(r"\b([kcdm]?m|ft|in)\^?([23])(?![\d.])", r"\1**\2", unit)
 
 
