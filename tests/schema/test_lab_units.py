@@ -71,7 +71,7 @@ def test_a_unit_is_what_a_lab_means_by_it(written: str, target: str, factor: flo
     "written",
     [
         *("Mm", "hm", "Min", "MIN", "PA", "PSi", "cd", "dc", "dez", "Dez", "ch", "pu", "my", "slpm", "scfm", "Nl/min"),
-        *("%FS", "dC", "kC", "m°C", "kVAr", "nMm", "Gs", "Tm", "EV", "das", "mmin"),
+        *("%FS", "dC", "kC", "m°C", "kVAr", "nMm", "Gs", "Tm", "EV", "das", "mmin", "ms-1"),
     ],
 )
 def test_what_only_a_table_of_prefixes_makes_a_unit_is_none(written: str) -> None:
@@ -94,8 +94,10 @@ def test_an_energy_is_no_torque_and_a_rate_no_speed_unless_the_name_says_so() ->
     assert [quantities_of(u) for u in ("kWh", "1/h", "MHz", "s⁻¹", "Hz", "µm/m")] == [()] * 6
 
 
-@pytest.mark.parametrize("header", ["Pumpe (HP)", "Ventil (CV)", "Wasser (in)", "Luft (at)", "Eingang [1]x"])
-def test_words_in_round_brackets_are_no_units(header: str) -> None:
+@pytest.mark.parametrize(
+    "header", ["Pumpe (HP)", "Ventil (CV)", "Wasser (in)", "Luft (at)", "Eingang [1]x", 'd["n"]', "W[%MW100]"]
+)
+def test_words_in_round_brackets_and_addresses_are_no_units(header: str) -> None:
     assert split_unit(header) == (header, None)
 
 

@@ -39,7 +39,7 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "inch": ("position",),
     "in": ("position",),
 }
-_FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:ms|s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
+_FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
 _SLOPE = re.compile(r"[uμnm]?m/m")
 _ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
 _ENERGY = re.compile(r"(?:Wh|J|[Cc]al|BTU)$")  # pint takes an energy for a torque

@@ -161,7 +161,7 @@ _TURN = r"(?:u|umdr|rev|revs|r|tr|tours?|giri|rot|obr|ot|turns?)\.?"
 _TIME = r"(?P<time>ms|s|sec|sek|min|h|hr|d)"
 _TURNS_PER = re.compile(rf"(?P<kilo>k?){_TURN}/{_TIME}", re.IGNORECASE)
 _PER_TIME = re.compile(rf"1?/{_TIME}")
-_PER_TIME_RAISED = re.compile(r"(?P<time>ms|s|min|h|d)(?:(?:\^|\*\*)?-1|⁻¹)")
+_PER_TIME_RAISED = re.compile(r"(?P<time>s|min|h|d)(?:(?:\^|\*\*)?-1|⁻¹)")
 _PER_TURN = re.compile(rf"(?P<length>mm|um|μm|in|inch)/{_TURN}", re.IGNORECASE)
 _FOOT_POUND = re.compile(
     r"(?P<length>ft|in)[-.·*]?lbf?|lbf?[-.·*]?(?P<behind>ft|in)|(?P<kilo>kgf|kp)[.·*]?(?P<metric>m|cm)", re.IGNORECASE

@@ -18,8 +18,8 @@ _BASE = (
 _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
 # what counts by the time, in units that are words as well where they stand alone
 _RATE = re.compile(r"^(?:in|inch|ft|gal|cc|[°º][CF]?)\s?/\s?(?:s|sec|min|h)$")
-# what holds a sign of degrees, per cent or inches is a unit, known or not: '0.05 °C', '%FS', '"'
-_HAS_SIGN = re.compile(r"^[^;\[\]]{0,12}[°º˚%‰\"″][^;\[\]]{0,12}$")
+# what holds a sign of degrees or per cent is a unit, known or not: '0.05 °C', '%FS', '"'; '%MW100' is an address
+_HAS_SIGN = re.compile(r"^(?!%[IQM][XBWDL]?\d)(?:[^;\[\]]{0,12}[°º˚%‰][^;\[\]]{0,12}|[\"″])$")
 # '°C*10', 'x1000 rpm': a unit and a factor whose sense (of the unit, or of the value) only the lab knows
 _TIMES_TEN = re.compile(r"\s*[*·×x]\s*10+$|^[*·×x]\s*10+\s*")
 _WORDS = ("HP", "CV", "OC")  # in round brackets: high pressure, a controlled value, an overcurrent
