@@ -121,6 +121,14 @@ def test_a_speed_in_degrees_or_by_the_hour_is_ingested_in_rpm(
     assert float(value) == pytest.approx(truth)
 
 
+@pytest.mark.parametrize(("unit", "size"), [("K", 1.0), ("mK", 0.001), ("0,1 K", 0.1), ("°K", 1.0)])
+def test_few_kelvin_are_a_difference_in_any_size_of_them(unit: str, size: float) -> None:
+    few = Values(500, 1 / size, 3 / size, 2 / size, 0.1, 0.5, 9, False, 1 / size)
+    assert guess("T_Lager_vorn", unit, values=few).quantity == "temperature_difference"
+    much = replace(few, low=293 / size, high=300 / size, median=295 / size)
+    assert guess("T_Lager_vorn", unit, values=much).quantity == "temperature"
+
+
 def test_a_unit_of_slopes_is_a_tilt_where_the_name_says_so() -> None:
     for unit in ("µm/m", "μm/m", "mm/m", "arcsec", "mrad"):
         assert guess("Inclinazione montante", unit).quantity == "tilt"

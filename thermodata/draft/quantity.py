@@ -102,8 +102,8 @@ def _stronger(named: tuple[str, ...], own: str, unit: str | None) -> bool:
 def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None) -> Guess:
     possible = units.quantities_of(unit)
     both = [q for q in possible if q in named]
-    if normal_unit(unit) == "K" and "temperature" in (*named, "temperature"):
-        return _kelvin(named, unit, values)
+    if (size := units.kelvins(unit)) is not None:
+        return _kelvin(named, unit, size, values)
     if both and (both[0] != "voltage" or "displacement" not in both):
         return Guess(both[0], unit, sure=True, basis=("name", "unit"))
     if "displacement" in both:
@@ -141,18 +141,18 @@ def _loosely(unit: str, quantity: str) -> bool:
     return quantity == "rotational_speed" and units.converts(unit, quantity)
 
 
-def _kelvin(named: tuple[str, ...], unit: str, values: Values | None) -> Guess:
-    """K is a temperature above 200 and a difference below, unless the name says which."""
+def _kelvin(named: tuple[str, ...], unit: str, size: float, values: Values | None) -> Guess:
+    """K is a temperature above 200 and a difference below, unless the name says which. size: of the unit [K]."""
     if "temperature_difference" in named:
         return Guess("temperature_difference", unit, sure=True, basis=("name", "unit"))
-    if values is not None and values.low > 200:
+    if values is not None and values.low * size > 200:
         return Guess("temperature", unit, sure="temperature" in named, basis=("unit", "values"))
-    if values is not None and values.high < 150 and values.low < 60:
+    if values is not None and values.high * size < 150 and values.low * size < 60:
         return Guess(
             "temperature_difference",
             unit,
             basis=("unit", "values"),
-            questions=(f"quantity: {values.span()} K is a difference; or are they degC?",),
+            questions=(f"quantity: {values.span()} {unit} is a difference; or are they degC?",),
         )
     return Guess("temperature", unit, basis=("unit",), questions=("quantity: temperature, or temperature_difference?",))
 

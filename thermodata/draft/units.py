@@ -79,6 +79,13 @@ def quantities_of(unit: str) -> tuple[str, ...]:
     return tuple(q for q in CANONICAL_UNIT if q not in _LOOSE and converts(unit, q))
 
 
+def kelvins(unit: str) -> float | None:
+    """How many K a unit is that counts from absolute zero ('mK', '0,1 K'), None where it is another."""
+    scale, bare = scaled_unit(unit)
+    size = {"K": 1.0, "dK": 0.1, "cK": 0.01, "mK": 0.001}.get(normal_unit(bare))
+    return None if size is None else scale * size
+
+
 def is_inclination(unit: str) -> bool:
     """Whether a unit is one of angles or of slopes, which a name may make a tilt: 'mm/m', 'µm/m', 'arcsec'."""
     bare = bare_unit(unit)

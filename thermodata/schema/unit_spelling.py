@@ -140,6 +140,7 @@ UNIT_SPELLING: dict[str, str] = {
     "on/off": "dimensionless",
     "k": "K",
     "kelvin": "K",
+    "°k": "K",
     "amps": "A",
     "ampere": "A",
     "amp": "A",
