@@ -8,12 +8,16 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.artefact import (
+    Z_ALONE,
     _step_score,
+    as_artefacts,
     beyond_slopes,
     find_steps,
     is_a_step,
     is_at_once,
+    most_sudden,
     noise_with_treads,
+    suddenly,
     tread_of_response,
 )
 from thermodata.diagnosis.commanded import over_three, tells, through_zero
@@ -44,6 +48,11 @@ def test_a_step_is_twelve_times_the_usual_change_three_noises_and_half_a_um(
     assert is_a_step(z, size, noise) is step
 
 
+@pytest.mark.parametrize(("z", "step"), [(5.01, True), (4.99, False)])
+def test_what_stands_alone_needs_five_times_the_usual_change(z: float, step: bool) -> None:
+    assert is_a_step(z, 5.0, 0.1, least=Z_ALONE) is step
+
+
 def rough(n: int, seed: int = 0) -> Float1D:
     return 0.05 * np.random.default_rng(seed).normal(size=n)
 
@@ -60,6 +69,47 @@ def steps(residual: Float1D, **more: dict) -> list[tuple[float, float]]:
 def test_a_step_is_found_between_its_samples() -> None:
     assert steps(stepped(100)) == [(99.5 * 60.0, pytest.approx(5.0, abs=0.2))]
     assert steps(rough(300)) == []
+
+
+def missing_much(other: float = 0.0, many: int = 2, slip: float = 5.0) -> Float1D:
+    """A model that lacks 14 um: lines over 20 min differ everywhere, and a slip is 7 times what they usually do. Much
+    later the probe is moved by `other`, for so many samples."""
+    i = np.arange(400)
+    return rough(400) + 14.0 * np.sin(i / 25) + slip * (i >= 110) + other * ((i >= 220) & (i < 220 + many))
+
+
+@pytest.mark.parametrize(("other", "found"), [(0.0, [109.5]), (2.3, [109.5]), (2.7, [])])
+def test_where_much_is_missing_a_slip_is_what_is_twice_as_sudden_as_all_else(other: float, found: list[float]) -> None:
+    course = missing_much(other)
+    score, _ = _step_score(course, np.arange(400) * 60.0, SIDE)
+    assert 5 < score[110] < 12
+    assert [at / 60 for at, _ in steps(course)] == found
+
+
+def test_a_step_that_stands_alone_says_by_how_much() -> None:
+    [artefact] = as_artefacts(find_steps(problem(Parts(missing_much(2.3)), noise=0.05)), "um")
+    assert "2.3 times as suddenly as anything else in this test" in artefact.why
+
+
+@pytest.mark.parametrize(("many", "found"), [(2, []), (8, [109.5])])
+def test_what_comes_back_stands_alone_and_is_no_slip(many: int, found: list[float]) -> None:
+    """The levels on both sides differ by less than half of what happens at once."""
+    blip = missing_much(slip=0.0) + 5.0 * ((np.arange(400) >= 110) & (np.arange(400) < 110 + many))
+    assert [at / 60 for at, _ in steps(blip)][:1] == found
+
+
+def test_how_suddenly_is_what_lies_beyond_the_slopes() -> None:
+    """At each sample the same as is asked of one; nothing at ends, and in holes."""
+    x, t = missing_much(2.3), np.arange(400) * 60.0
+    t[300:] += 600.0
+    every = suddenly(x, t, SIDE)
+    for i in (50, 109, 110, 111, 221):
+        rise = x[i + 1] - x[i - 2]
+        assert every[i] == pytest.approx(max(beyond_slopes(x, t, i, rise, SIDE), 0.0))
+    assert (every[[0, 1, 6, 399, 300]] == 0).all()
+    i, times = most_sudden(x, t, np.arange(400) == 110, SIDE)
+    assert (i, times) == (110, pytest.approx(every[110] / every[215:225].max()))
+    assert most_sudden(x, t, np.zeros(400, dtype=bool), SIDE)[1] == 0.0
 
 
 def test_at_most_three_steps_a_test() -> None:

@@ -17,12 +17,15 @@ from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.commanded import Commands, over_three
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.windows import in_windows
-from thermodata.plugin import Float1D
+from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0
 Z_LIMIT = 12.0
+Z_ALONE = 5.0  # where it is so many times as sudden as all else in its test
+ALONE = 2.0
+STAYS = 0.5  # of what such a one does at once, by which the levels differ at least
 MOST_STEPS = 3
 NOISES = 3.0  # a step is larger than this many times the noise,
 LEAST_UM = 0.5  # and than this
@@ -37,7 +40,8 @@ class Step:
     test: TestData
     at_s: float
     size: float
-    z: float
+    z: float  # times the usual change, of lines through both sides
+    alone: float = 0.0  # times the most sudden other change of the test, where that tells
 
 
 def find_steps(problem: Problem) -> list[Step]:
@@ -45,23 +49,25 @@ def find_steps(problem: Problem) -> list[Step]:
     where a test was measured in windows.
 
     The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
-    span, and the level before and after must differ by as much for SIDE_S. It must stand out from the slopes right
-    beside it, and the response itself must make it.
+    span, and the level before and after must differ by as much for SIDE_S. Where much is missing in the model, lines
+    differ everywhere; then Z_ALONE suffices, if nothing else in the test is half as sudden. It must stand out from the
+    slopes right beside it, and the response itself must make it.
     """
     steps = _steps(problem, tread_of_response(problem))
     windows = in_windows(problem)
     if windows is not None:
         known = {(s.test.key, s.at_s) for s in steps}
-        for step in _steps(windows, tread_of_response(problem)):
+        for step in _steps(windows, tread_of_response(problem), through=False):
             if not any(step.test.key == key and abs(step.at_s - at) <= 2 * windows.step_s for key, at in known):
                 steps.append(step)
     return sorted(steps, key=lambda s: -s.z)
 
 
-def _steps(problem: Problem, tread: float) -> list[Step]:
+def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step]:
+    """through: whether it was measured all the time, so that what nothing else is as sudden as stands out."""
     commands, steps = Commands(problem), []
     for k, block in enumerate(problem.blocks):
-        steps += _steps_in(block, problem, tread, partial(commands.explain, k))
+        steps += _steps_in(block, problem, tread, partial(commands.explain, k), through)
     return steps
 
 
@@ -78,7 +84,9 @@ def noise_with_treads(problem: Problem) -> float:
     return max(problem.noise, tread_of_response(problem) / float(np.sqrt(12)))
 
 
-def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[[int], bool]) -> list[Step]:
+def _steps_in(
+    block: Block, problem: Problem, tread: float, explained: Callable[[int], bool], through: bool
+) -> list[Step]:
     r, y, t = block.residual, block.response, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
@@ -88,23 +96,27 @@ def _steps_in(block: Block, problem: Problem, tread: float, explained: Callable[
     while len(steps) < MOST_STEPS:
         score, size = _step_score(r, t, side)
         score[looked] = 0.0
-        i = int(np.argmax(score))
+        i, alone = int(np.argmax(score)), 0.0
         if not is_a_step(float(score[i]), float(size[i]), problem.noise, tread):
-            break
+            large = [is_a_step(z, s, problem.noise, tread, Z_ALONE) for z, s in zip(score, size, strict=True)]
+            stays = np.abs(size) >= STAYS * suddenly(r, t, side)
+            i, alone = most_sudden(r, t, np.array(large) & stays, side)
+            if alone < ALONE or not through:
+                break
         # what happens there is judged where it stands out most: the shoulders of a bend are no slips
         looked[max(0, i - side // 2) : i + side // 2] = True
         own, seen = (beyond_slopes(x, t, i, float(size[i]), side) for x in (r, y))
         if not is_at_once(float(size[i]), own, seen) or explained(i):
             continue
-        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i])))
+        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i]), alone))
         since = np.where(np.arange(len(r)) >= i, size[i], 0.0)
         r, y = r - since, y - since
     return steps
 
 
-def is_a_step(z: float, size: float, noise: float, tread: float = 0.0) -> bool:
+def is_a_step(z: float, size: float, noise: float, tread: float = 0.0, least: float = Z_LIMIT) -> bool:
     """z: of the usual change. size: of the step, noise: of the response, tread: of its reading, all in its unit."""
-    return z >= Z_LIMIT and abs(size) >= tread + max(NOISES * noise, LEAST_UM)
+    return z >= least and abs(size) >= tread + max(NOISES * noise, LEAST_UM)
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
@@ -152,6 +164,33 @@ def beyond_slopes(x: Float1D, t: Float1D, i: int, sign: float, side: int) -> flo
     return float(np.sign(sign) * rise - steeper * (t[i + 1] - t[i - 2]))
 
 
+def most_sudden(x: Float1D, t: Float1D, among: Bool1D, side: int) -> tuple[int, float]:
+    """(sample before which x, shape (m,), changes most suddenly of those in `among`, shape (m,); how many times as
+    suddenly as it does anywhere else: not within half a side, where the same change is seen)."""
+    sudden = suddenly(x, t, side)
+    i = int(np.argmax(np.where(among, sudden, 0.0)))
+    elsewhere = np.abs(np.arange(len(x)) - i) > side // 2
+    most = float(sudden[elsewhere].max(initial=0.0))
+    return i, float(sudden[i]) / max(most, 1e-9) if among[i] else 0.0
+
+
+def suddenly(x: Float1D, t: Float1D, side: int) -> Float1D:
+    """`beyond_slopes` before each sample, in the direction of its own rise, shape (m,); 0 at ends and holes."""
+    from numpy.lib.stride_tricks import sliding_window_view
+
+    many = min(BESIDE + 1, side - 1)
+    y, at = sliding_window_view(x, many), sliding_window_view(t, many)
+    dt = at - at.mean(axis=1)[:, None]
+    slope = np.einsum("ij,ij->i", dt, y) / np.maximum(np.einsum("ij,ij->i", dt, dt), 1e-300)
+    inner = np.arange(many + 1, len(x) - many)
+    rise = over_three(x, t)[inner]
+    sign = np.sign(rise)
+    steeper = np.maximum(sign * slope[inner - 1 - many], sign * slope[inner + 1])
+    beyond = np.zeros(len(x))
+    beyond[inner] = np.abs(rise) - steeper * (t[inner + 1] - t[inner - 2])
+    return np.maximum(np.nan_to_num(beyond), 0.0)
+
+
 def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     """Straight lines through each run of `side` samples: (value one sample after its end, value at its start)."""
     from numpy.lib.stride_tricks import sliding_window_view
@@ -164,6 +203,12 @@ def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
     return y_mean + slope * (x[:, -1] + step - x_mean), y_mean + slope * (x[:, 0] - x_mean)
 
 
+def _stands_out(step: Step) -> str:
+    if step.alone:
+        return f"{step.alone:.1f} times as suddenly as anything else in this test"
+    return f"{step.z:.0f} times the usual change"
+
+
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
     return [
         Artefact(
@@ -172,8 +217,8 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             test=s.test.test,
             at_s=s.at_s,
             size_um=s.size,
-            why=f"the displacement jumps by {s.size:+.1f} {unit} from one measurement to the next, {s.z:.0f} times "
-            "the usual change, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
+            why=f"the displacement jumps by {s.size:+.1f} {unit} from one measurement to the next, "
+            f"{_stands_out(s)}, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
         )
         for s in steps
     ]
