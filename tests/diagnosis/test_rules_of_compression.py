@@ -84,3 +84,18 @@ def test_a_step_that_was_found_gives_the_rest_of_the_test_an_offset_of_its_own()
     ):
         np.testing.assert_allclose(columns, 0.0, atol=1e-12)
     assert np.ptp(cut.blocks[1].residual) == 5.0, "another test has no step"
+
+
+@pytest.mark.parametrize(("parted_s", "left_out"), [(0.0, []), (29.0, []), (31.0, [39, 40]), (91.0, [38, 39, 40, 41])])
+def test_samples_that_a_step_parts_are_left_out(parted_s: float, left_out: list[int]) -> None:
+    """Nearer to it than the means are long; what a candidate does is taken at the others."""
+    y = np.where(np.arange(100) < 40, 0.0, 5.0) - 2.5 * (np.arange(100) == 40)
+    whole = problem(Parts(y, base=y[:, None], slack=y[:, None]), Parts(y))
+    cut = whole.split({("c", "t0"): [39.5 * STEP_S]}, parted_s=parted_s).blocks[0]
+    kept = np.setdiff1d(np.arange(100), left_out)
+    assert cut.t_s.tolist() == (kept * STEP_S).tolist()
+    assert np.abs(cut.residual).max() == pytest.approx(0.0 if left_out else 2.5, abs=0.1)
+    assert cut.size == len(cut.residual) == len(cut.base) == len(cut.slack) == len(cut.segment) == len(kept)
+    column = np.sin(np.arange(100.0))
+    of_kept = column[kept] - np.where(kept < 40, column[kept[kept < 40]].mean(), column[kept[kept >= 40]].mean())
+    assert cut.compress(column[:, None])[:, 0] == pytest.approx(of_kept)

@@ -9,6 +9,7 @@ import pytest
 
 from thermodata.diagnosis.artefact import (
     Z_ALONE,
+    Step,
     _step_score,
     as_artefacts,
     beyond_slopes,
@@ -17,10 +18,12 @@ from thermodata.diagnosis.artefact import (
     is_at_once,
     most_sudden,
     noise_with_treads,
+    size_of_step,
     suddenly,
     tread_of_response,
 )
 from thermodata.diagnosis.commanded import over_three, tells, through_zero
+from thermodata.diagnosis.investigate import _without_steps
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 
@@ -110,6 +113,36 @@ def test_how_suddenly_is_what_lies_beyond_the_slopes() -> None:
     i, times = most_sudden(x, t, np.arange(400) == 110, SIDE)
     assert (i, times) == (110, pytest.approx(every[110] / every[215:225].max()))
     assert most_sudden(x, t, np.zeros(400, dtype=bool), SIDE)[1] == 0.0
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.5, 0.7])
+def test_the_size_of_a_step_is_that_of_its_levels_where_a_mean_parts_it(part: float) -> None:
+    """Also where the machine warms quickly after it, so that lines over 20 min on both sides say half of it."""
+    i = np.arange(300)
+    course = 9.0 * (i >= 100) - 9.0 * part * (i == 100) - 6.0 * (1 - np.exp(-np.maximum(i - 100, 0) / 12))
+    [(_, size)] = steps(rough(300) + course)
+    assert size == pytest.approx(9.0, abs=0.5)
+
+
+@pytest.mark.parametrize(("every", "left_out"), [(1, 2), (2, 2), (3, 1), (5, 2)])
+def test_what_holds_a_part_of_a_step_is_not_weighed(every: int, left_out: int) -> None:
+    """The two samples beside it, and the means that either of them is in, where candidates are weighed in fewer."""
+    course = 5.0 * (np.arange(300) >= 100) - 2.0 * (np.arange(300) == 100)
+    parts = course.reshape(-1, every).mean(axis=1)
+    weighed = problem(Parts(parts), noise=0.05)
+    t_s = (np.arange(len(parts)) * every + (every - 1) / 2) * 60.0
+    weighed = replace(weighed, step_s=60.0 * every, blocks=(replace(weighed.blocks[0], t_s=t_s),))
+    left = _without_steps(weighed, [Step(weighed.blocks[0].test, 99.5 * 60.0, 5.0, 20.0)], 60.0)
+    assert left.rows == weighed.rows - left_out
+    assert np.abs(left.blocks[0].residual).max() < 1e-9
+
+
+@pytest.mark.parametrize("slope", [-1.0, 0.0, 1.0])
+def test_a_size_is_told_beside_slopes_without_both_samples_at_the_step(slope: float) -> None:
+    k = np.arange(300)
+    x = slope * k + 5.0 * (k >= 100) + 40.0 * ((k == 99) | (k == 100))
+    assert size_of_step(x, MINUTES, 100, SIDE) == pytest.approx(5.0)
+    assert size_of_step(x[96:104], MINUTES[96:104], 4, 4) == pytest.approx(5.0), "of coarse samples a side has four"
 
 
 def test_at_most_three_steps_a_test() -> None:

@@ -108,8 +108,9 @@ def _steps_in(
         own, seen = (beyond_slopes(x, t, i, float(size[i]), side) for x in (r, y))
         if not is_at_once(float(size[i]), own, seen) or explained(i):
             continue
-        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), float(size[i]), float(score[i]), alone))
-        since = np.where(np.arange(len(r)) >= i, size[i], 0.0)
+        by = size_of_step(r, t, i, side)
+        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), by, float(score[i]), alone))
+        since = np.where(np.arange(len(r)) >= i, by, 0.0)
         r, y = r - since, y - since
     return steps
 
@@ -148,6 +149,15 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
 def is_at_once(size: float, in_residual: float, in_response: float) -> bool:
     """Whether a step of a size is more than a bend and is the displacement's own, by what `beyond_slopes` has of it."""
     return in_residual >= WITHIN * abs(size) and SEEN * abs(size) <= in_response <= abs(size) / SEEN
+
+
+def size_of_step(x: Float1D, t: Float1D, i: int, side: int) -> float:
+    """How far the lines through the samples just before and after the interval before sample i lie apart in its middle.
+    The samples at both its ends are left out: one of them is the mean of both levels, where a step parts it."""
+    many = min(BESIDE + 1, side - 1)
+    at = (t[i - 1] + t[i]) / 2
+    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
+    return float(np.polyfit(t[after] - at, x[after], 1)[1] - np.polyfit(t[before] - at, x[before], 1)[1])
 
 
 def beyond_slopes(x: Float1D, t: Float1D, i: int, sign: float, side: int) -> float:

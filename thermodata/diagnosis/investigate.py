@@ -85,7 +85,7 @@ def investigate(
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     steps = find_steps(fine)
     faults = _faults(fitted, data, fine, base)
-    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -139,17 +139,19 @@ def causes_of(
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     steps = find_steps(fine)
-    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps)
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
 
 
-def _without_steps(problem: Problem, steps: Sequence[Step]) -> Problem:
+def _without_steps(problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
+    """With a free offset after each step, and without the samples around it, for one of them is a mean of both levels.
+    seen_s: between the samples in which steps were looked for."""
     at: dict[tuple[str, str], list[float]] = {}
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
-    return problem.split(at)
+    return problem.split(at, parted_s=problem.step_s / 2 + 0.99 * seen_s)
 
 
 def _judged(

@@ -49,6 +49,14 @@ class Block:
         """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k), without what is free."""
         return freed(_group_mean(columns, self.group, self.weight, self.size), self.test, self.t_s, self.segment)
 
+    def without(self, rows: Bool1D) -> Block:
+        """The same as if some of its samples, shape (m,), had not been measured."""
+        kept = ~rows
+        number = np.where(rows, -1, np.cumsum(kept) - 1)
+        arrays = {n: getattr(self, n)[kept] for n in ("t_s", "response", "residual", "base", "slack", "segment")}
+        group = np.where(self.group >= 0, number[self.group], -1)
+        return replace(self, **arrays, group=group, size=int(kept.sum()))
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -80,11 +88,14 @@ class Problem:
             blocks.append(replace(b, **arrays))
         return replace(self, blocks=tuple(blocks), kept={})
 
-    def split(self, at: dict[tuple[str, str], list[float]]) -> Problem:
-        """The same with further free offsets: after each of the times (s) found in a test."""
+    def split(self, at: dict[tuple[str, str], list[float]], parted_s: float = 0.0) -> Problem:
+        """The same with further free offsets: after each of the times (s) found in a test. parted_s: nearer to one than
+        this, a sample is the mean of what was before and after it, and is left out; 0 where none is."""
         blocks = []
         for block in self.blocks:
             times = at.get(block.test.key, [])
+            if times and parted_s:
+                block = block.without(_nearest(block.t_s, times) < parted_s)
             segment = np.searchsorted(np.sort(np.asarray(times, dtype=float)), block.t_s, side="right").astype(np.int64)
             both = np.column_stack([block.response, block.residual, block.base, block.slack])
             free, k = freed(both, block.test, block.t_s, segment), 2 + block.base.shape[1]
@@ -99,6 +110,11 @@ class Problem:
                 )
             )
         return replace(self, blocks=tuple(blocks), kept={})
+
+
+def _nearest(t_s: Float1D, times: Sequence[float]) -> Float1D:
+    """How far the nearest of some times is, shape (m,)."""
+    return np.asarray(np.abs(t_s[:, None] - np.asarray(times)[None, :]).min(axis=1))
 
 
 def freed(columns: Float2D, test: TestData, t_s: Float1D, segment: Int1D) -> Float2D:
