@@ -121,6 +121,27 @@ def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
     assert timings(asked, CHANNELS).off == []
 
 
+@pytest.mark.parametrize("slip", [-40.0, -12.0, 12.0, 40.0])
+def test_a_slip_that_some_shift_lays_on_a_command_tells_no_clock(slip: float) -> None:
+    """Of a test in which commands act at once as in all others: what is told without its largest jump counts."""
+    asked = off_by(0, at_once=1.0)
+    first = asked.blocks[0]
+    late = np.flatnonzero(np.abs(np.diff(first.test.values["n"])) > 2000)[0] + 20
+    slipped = first.response + slip * (np.arange(len(first.response)) >= late)
+    asked = replace(asked, blocks=(replace(first, response=slipped), *asked.blocks[1:]))
+    assert timings(asked, CHANNELS).off == []
+
+
+@pytest.mark.parametrize("samples", [-60, 25])
+def test_a_clock_that_is_off_in_one_test_is_told_beside_a_slip(samples: int) -> None:
+    asked = off_by(0, apart={2: samples})
+    one = asked.blocks[2]
+    slipped = replace(one, response=one.response + 9.0 * (np.arange(len(one.response)) >= 150))
+    asked = replace(asked, blocks=(*asked.blocks[:2], slipped, *asked.blocks[3:]))
+    (found,) = timings(asked, CHANNELS).off
+    assert (found.test, found.shift_s) == (one.test.test, -60.0 * samples)
+
+
 def test_of_one_test_and_without_commands_of_another_source_nothing_is_said() -> None:
     assert timings(off_by(11, tests=1), CHANNELS).in_all == ()
     same = {name: replace(c, source="daq") for name, c in CHANNELS.items()}

@@ -15,7 +15,7 @@ import numpy as np
 from thermodata.diagnosis.commanded import COMMANDS, POWERS
 from thermodata.diagnosis.known import FloatND
 from thermodata.diagnosis.problem import Problem
-from thermodata.plugin import Float1D, Float2D, Int1D
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -150,7 +150,7 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
 class _Sums:
     """Of each test and shift, what commands do between samples beside the jumps of the displacement. tests: their keys.
     shifts_s: shape (s,). gram: shape (tests, s, k, k). cross: shape (tests, s, k). energy: of the jumps, shape
-    (tests,)."""
+    (tests,). loudest: gram, cross and energy at each test's largest jump, and around it."""
 
     tests: tuple[tuple[str, str], ...]
     step_s: float
@@ -158,6 +158,7 @@ class _Sums:
     gram: FloatND
     cross: FloatND
     energy: Float1D
+    loudest: tuple[FloatND, FloatND, Float1D]
 
     def in_all(self, source: str) -> Timing:
         left = np.array([self._left(i, self._gains(i)) for i in range(len(self.tests))])
@@ -171,10 +172,25 @@ class _Sums:
 
     def in_one(self, source: str, i: int, at_s: float) -> Timing:
         """at_s: by which all the others are moved."""
-        left = self._left(i, self._gains(i)[self._nearest(at_s)])
+        gains = self._gains(i)[self._nearest(at_s)]
         campaign, test = self.tests[i]
-        found = self._timing(source, 1 - left / max(float(self.energy[i]), 1e-300), at_s)
-        return replace(found, campaign=campaign, test=test)
+        shares = self._shares(i, gains)
+        found = replace(self._timing(source, shares, at_s), campaign=campaign, test=test)
+        quiet = self._without_loudest()._shares(i, gains)
+        near = float(quiet[self._near(at_s)].max())
+        if clock_is_off(
+            replace(found, share=float(quiet[self._nearest(found.shift_s + at_s)]), unmoved=near), self.step_s
+        ):
+            return found
+        # a probe that slips once is met by some command at some shift
+        return replace(found, shift_s=0.0, share=float(shares[self._nearest(at_s)]))
+
+    def _without_loudest(self) -> _Sums:
+        gram, cross, energy = self.loudest
+        return replace(self, gram=self.gram - gram, cross=self.cross - cross, energy=self.energy - energy)
+
+    def _shares(self, i: int, gains: FloatND) -> Float1D:
+        return np.asarray(1 - self._left(i, gains) / max(float(self.energy[i]), 1e-300))
 
     def _nearest(self, shift_s: float) -> int:
         return int(np.argmin(np.abs(self.shifts_s - shift_s)))
@@ -194,8 +210,12 @@ class _Sums:
         return np.asarray(self.energy[i] - 2 * along + np.einsum("sj,sjk,sk->s", gains, self.gram[i], gains))
 
     def _timing(self, source: str, shares: Float1D, all_s: float) -> Timing:
-        best, near = int(np.argmax(shares)), np.abs(self.shifts_s - all_s) <= 1.01 * self.step_s
-        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), float(shares[near].max()))
+        best = int(np.argmax(shares))
+        unmoved = float(shares[self._near(all_s)].max())
+        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved)
+
+    def _near(self, shift_s: float) -> Bool1D:
+        return np.asarray(np.abs(self.shifts_s - shift_s) <= 1.01 * self.step_s)
 
 
 def _sums(problem: Problem, names: list[str]) -> _Sums | None:
@@ -213,17 +233,33 @@ def _sums(problem: Problem, names: list[str]) -> _Sums | None:
     many = int(acts.sum())
     gram, cross = np.zeros((len(tests), len(shifts_s), many, many)), np.zeros((len(tests), len(shifts_s), many))
     energy = np.zeros(len(tests))
-    for block, columns in zip(problem.blocks, held, strict=True):
+    loudest = np.zeros_like(gram), np.zeros_like(cross), np.zeros_like(energy)
+    most_of = _largest_jumps(problem)
+    for k, (block, columns) in enumerate(zip(problem.blocks, held, strict=True)):
         i, jump = tests.index(block.test.key), beyond_trend(block.response[:, None], block.t_s)[:, 0]
         used = np.isfinite(jump)
         y = jump[used]
         energy[i] += float(y @ y)
+        near = np.abs(np.flatnonzero(used) - most_of.get(k, -len(jump))) <= AROUND
+        loudest[2][i] += float(y[near] @ y[near])
         for s, shift_s in enumerate(shifts_s):
             logged = np.interp(block.t_s - shift_s, block.test.t_s, np.arange(len(block.test.t_s)))
             x = beyond_trend(columns[np.round(logged).astype(np.int64)][:, acts] / size[acts], block.t_s)[used]
             gram[i, s] += x.T @ x
             cross[i, s] += x.T @ y
-    return _Sums(tuple(tests), problem.step_s, shifts_s, gram, cross, energy)
+            loudest[0][i, s] += x[near].T @ x[near]
+            loudest[1][i, s] += x[near].T @ y[near]
+    return _Sums(tuple(tests), problem.step_s, shifts_s, gram, cross, energy, loudest)
+
+
+def _largest_jumps(problem: Problem) -> dict[int, int]:
+    """Number of a block -> its sample with the largest jump of the displacement in the whole test."""
+    found: dict[tuple[str, str], tuple[float, int, int]] = {}
+    for k, block in enumerate(problem.blocks):
+        jump = np.abs(np.nan_to_num(beyond_trend(block.response[:, None], block.t_s)[:, 0]))
+        if len(jump) and (most := float(jump.max())) > found.get(block.test.key, (0.0, 0, 0))[0]:
+            found[block.test.key] = most, k, int(jump.argmax())
+    return {k: i for _, k, i in found.values()}
 
 
 def _shifts(most: int, step_s: float) -> Int1D:
