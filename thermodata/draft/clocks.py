@@ -15,6 +15,7 @@ from thermodata.errors import ThermodataError
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
+_TOGETHER_NS = 120_000_000_000  # by how much two logs that begin and end together differ in length, as at ingest
 _ZONES = (
     "UTC",
     "Europe/Prague",
@@ -68,6 +69,42 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     return f"timezone? local times, {ahead} from the other sources' UTC: " + (
         f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"
     )
+
+
+def start_question(group: Group, groups: Sequence[Group]) -> str | None:
+    """What to ask about a source without dates beside one that has them; None where none has, or where they last as
+    long in every test: then they begin and end together."""
+    if not group.files or not all(_undated(f) for f in group.files):
+        return None
+    for other in groups:
+        if other is group or any(_undated(f) for f in other.files):
+            continue
+        for test, files in group.tests.items():
+            here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
+            if here is not None and there is not None and abs(there - here) > _TOGETHER_NS:
+                return (
+                    f"when did it begin? it has no dates; '{other.source}' has, and lasts {_hours(there)} h in {test} "
+                    f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "
+                    "clock: {offset: 0 s} if they begin together"
+                )
+    return None
+
+
+def _undated(file: RawFile) -> bool:
+    return file.recording.clock == "relative" and file.recording.start_ns is None
+
+
+def _lasts_ns(files: Sequence[RawFile]) -> int | None:
+    """From the first to the last row; None where a file's end was not looked at."""
+    ends = [(f.sample.first_ns, f.sample.last_ns) for f in files if f.sample.whole]
+    known = [(a, b) for a, b in ends if a is not None and b is not None]
+    if not files or len(known) < len(files):
+        return None
+    return max(b for _, b in known) - min(a for a, _ in known)
+
+
+def _hours(ns: int) -> str:
+    return f"{ns / _HOUR_NS:.3g}"
 
 
 def _begin(files: Sequence[RawFile]) -> int | None:

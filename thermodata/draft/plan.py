@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from thermodata.draft.clocks import alignments, zone_question
+from thermodata.draft.clocks import Alignment, alignments, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
 from thermodata.draft.hints import hinted
@@ -62,7 +62,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.source,
             g.reader,
             g.template,
-            tuple(q for q in (*(hinted(a, g) for a in g.asks), zone_question(g, groups), *g.questions) if q),
+            tuple(q for q in (*(hinted(a, g) for a in g.asks), *_of_clocks(g, groups, aligned), *g.questions) if q),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -299,3 +299,11 @@ def _test(
         conditions[key] = value
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
+
+
+def _of_clocks(
+    group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]
+) -> tuple[str | None, str | None]:
+    """Questions about a source's zone, and when it began, unless its clock is had from another's."""
+    known = group.source in aligned or any(a.there == group.source for a in aligned.values())
+    return zone_question(group, groups), None if known else start_question(group, groups)

@@ -65,8 +65,22 @@ def test_a_start_at_which_nothing_else_was_recorded_is_said(tmp_path: Path) -> N
     assert any("nothing was recorded that has dates: hall is" in loss and "earlier" in loss for loss in losses), losses
 
 
-def test_without_a_start_they_begin_with_a_log_of_their_length_and_a_long_one_tells_nothing(tmp_path: Path) -> None:
-    began, _, losses = ingested(tmp_path / "alike", "", -15.0)
+@pytest.mark.parametrize(
+    ("longer_s", "sure"),
+    [(-170.0, False), (-110.0, True), (10.0, True), (70.0, True), (130.0, False), (79210.0, False)],
+)
+def test_without_a_start_they_begin_with_a_log_of_their_length_and_no_other_tells(
+    tmp_path: Path, longer_s: float, sure: bool
+) -> None:
+    """Two minutes longer or shorter at most: else the two did not begin together, or did not end together."""
+    lasts_s = 7190.0  # a row every 10 s; the hall's stands every minute, and its last is a minute before its end
+    began, _, losses = ingested(tmp_path, "", -15.0, (lasts_s + longer_s + 60) / 3600)
+    assert began == -15.0
+    assert bool(losses) is not sure, losses
+    assert all("nothing says when 'daq' began" in loss for loss in losses)
+
+
+def test_that_they_began_together_can_be_said(tmp_path: Path) -> None:
+    together = DAQ.replace("Chicago}", "Chicago, clock: {offset: 0 s}}")
+    began, _, losses = ingested(tmp_path, "", -15.0, 2.5, (together, HALL))
     assert (began, losses) == (-15.0, [])
-    _, _, losses = ingested(tmp_path / "long", "", -86400.0, 30.0)
-    assert any("nothing says when 'daq' began" in loss for loss in losses), losses

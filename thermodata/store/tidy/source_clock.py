@@ -16,7 +16,7 @@ from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.timeline import Timeline, make_timeline
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
-_LONGER = 1.5  # than the probes' record: a log that begins and ends with them is not
+_TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +79,7 @@ def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
                 f"source '{source.name}' has a relative clock: taken to start with the test; "
                 "set clock: {align_to: ...} or {offset: ...} where it does not"
             )
-        if probes and with_dates is dated:
-            plan.problems += _too_long(plan, dated, probes)
+        plan.problems += _in_doubt(plan, with_dates, [s for s in undated if not _is_told(s)])
     return base_ns, notes
 
 
@@ -101,16 +100,26 @@ def _beside(plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], un
     ]
 
 
-def _too_long(plan: TestPlan, dated: list[SourcePlan], probes: list[SourcePlan]) -> list[str]:
-    """Probes without a date, beside a log that runs for so long that its first row is no start of theirs."""
+def _is_told(source: SourcePlan) -> bool:
+    """Whether the campaign file says what its clock has to do with the others'."""
+    return source.spec.clock.offset is not None or source.spec.clock.align_to is not None
+
+
+def _in_doubt(plan: TestPlan, dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
+    """Logs without a date that last longer than what has dates, or shorter: they did not begin together, or did not end
+    together, and nothing says which."""
     log_s = (max(map(last_ns, dated)) - min(map(first_ns, dated))) / 1e9
-    own_s = max(last_ns(s) - first_ns(s) for s in probes) / 1e9
-    if log_s <= _LONGER * own_s + _NEAR_S:
+    lasts_s = {s.name: (last_ns(s) - first_ns(s)) / 1e9 for s in undated}
+    names = [n for n, s in lasts_s.items() if abs(log_s - s) > _TOGETHER_S]
+    if not names:
         return []
-    names = ", ".join(s.name for s in probes)
+    probes = any(s.name in names for s in plan.reference)
+    say = "give the test its start: 2026-03-04 08:15" if probes else "declare the source's clock: {align_to: ...}"
+    own_s = lasts_s[names[0]]
     return [
-        f"test '{plan.test.id}': nothing says when '{names}' began: it lasts {own_s / 3600:.3g} h, what has dates "
-        f"{log_s / 3600:.3g} h, and is taken to begin with that; try: give the test its start: 2026-03-04 08:15"
+        f"test '{plan.test.id}': nothing says when '{', '.join(names)}' began: it lasts {own_s / 3600:.3g} h, "
+        f"what has dates {log_s / 3600:.3g} h, and is taken to begin with that; try: {say}, or, where they did begin "
+        "together, clock: {offset: 0 s}"
     ]
 
 

@@ -1,0 +1,37 @@
+"""A log without dates beside one that has them: what is asked of when it began."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.draft.make import draft_files
+
+
+def asked(folder: Path, earlier_s: int, *, dated: bool = True) -> list[str]:
+    """What a draft asks of 2 h of probes without dates, beside a log that began so much earlier and ended with them."""
+    (folder / "raw").mkdir(parents=True)
+    t = np.arange(0, 7200, 10)
+    rows = "\n".join(["t [s],Disp Z [um]", *(f"{x},{np.sin(x / 999):.3f}" for x in t), ""])
+    (folder / "raw" / "daq_one.csv").write_text(rows)
+    at = np.datetime64("2026-06-01T13:00:00") + (np.arange(-earlier_s, 7200, 10)).astype("timedelta64[s]")
+    air = "\n".join(["time,Hall air [degC]", *(f"{x}Z,{20 + i / 400:.2f}" for i, x in enumerate(at)), ""])
+    if dated:
+        (folder / "raw" / "hall_one.csv").write_text(air)
+    made = draft_files(folder).draft
+    return [q for s in made.sources for q in s.questions if "when did it begin?" in q]
+
+
+@pytest.mark.parametrize(("earlier_s", "questions"), [(0, 0), (120, 0), (130, 1), (1800, 1)])
+def test_when_a_log_without_dates_began_is_asked_where_it_is_not_as_long_as_the_others(
+    tmp_path: Path, earlier_s: int, questions: int
+) -> None:
+    found = asked(tmp_path, earlier_s)
+    assert len(found) == questions
+    assert all("clock: {offset: 0 s} if they begin together" in q for q in found)
+
+
+def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> None:
+    assert asked(tmp_path, 1800, dated=False) == []
