@@ -105,7 +105,7 @@ MUTANTS = [
     diagnosis(
         "probability.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"
     ),
-    diagnosis("probability.py", "TOLD_APART = 0.85", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
+    diagnosis("probability.py", "TOLD_APART = 0.93", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
     diagnosis(
         "probability.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
     ),
@@ -237,12 +237,12 @@ MUTANTS = [
     diagnosis("investigate.py", " and any_stands_out(", " and not any_stands_out(", "it is looked for in vain"),
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
-    diagnosis("refinement.py", "MOST = 0.6", "MOST = 0.3", "another mode is claimed as a cause"),
+    diagnosis(
+        "refinement.py", "MOST, SURE = 0.6, 0.85", "MOST, SURE = 0.3, 0.85", "another mode is claimed as a cause"
+    ),
     diagnosis("refinement.py", "\nKEPT = 0.5", "\nKEPT = 0.0", "a known heat is missing by another reading"),
     diagnosis("refinement.py", "drop >= MOST and prob", "drop >= 0 and prob", "a mode of a known heat is a cause"),
-    diagnosis(
-        "refinement.py", "(scored) >= TOLD_APART", "(scored) >= 0.65", "what may be a mode of a known heat is a cause"
-    ),
+    diagnosis("refinement.py", "(scored) >= SURE", "(scored) >= 0.65", "what may be a mode of a known heat is a cause"),
     diagnosis(
         "refinement.py",
         "return not scored.candidate.of_motion and ",

@@ -20,7 +20,7 @@ CLAIMED = 0.65  # a claim is this probable at least;
 # where nobody declared any place it names a channel, not physics, and there is nothing that it could be taken for
 PLACELESS_CLAIMED = 0.5
 # what is so probable is told from other parts by its timing: they are not named beside it
-TOLD_APART = 0.85
+TOLD_APART = 0.93
 
 
 def probability(scored: Scored) -> float:

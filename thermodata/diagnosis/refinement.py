@@ -16,7 +16,7 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
-from thermodata.diagnosis.probability import TOLD_APART, probability, sharpness
+from thermodata.diagnosis.probability import probability, sharpness
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.rules import STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
@@ -28,8 +28,9 @@ MODE = "it is another mode of what the model has"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
-# what takes away so much of what is left (as a share of the error) is missing, not another mode of what is there
-MOST = 0.6
+# what takes away so much of what is left (as a share of the error), and is so probable, is missing, not another mode of
+# what is there
+MOST, SURE = 0.6, 0.85
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
@@ -165,9 +166,9 @@ class Refinement:
 
 
 def _is_surely_missing(scored: Scored) -> bool:
-    """Whether it takes away most, and is told from other parts by its timing. A motion has the timing of no part: what
+    """Whether it takes away most, and is sure. A motion has the timing of no part: what
     one lag of a known part leaves follows the same motion."""
-    return not scored.candidate.of_motion and scored.drop >= MOST and probability(scored) >= TOLD_APART
+    return not scored.candidate.of_motion and scored.drop >= MOST and probability(scored) >= SURE
 
 
 def _surrounds(candidate: CandidateEffect) -> bool:
