@@ -502,7 +502,7 @@ MUTANTS = [
     diagnosis("artefact.py", "WITHIN = 0.7", "WITHIN = 0.0", "where heat begins is a slip"),
     diagnosis("artefact.py", "SEEN = 0.3", "SEEN = 0.01", "what the model does is a slip"),
     diagnosis("artefact.py", "looked[max(0, i - side // 2) : i + side // 2]", "looked[i]", "a shoulder is a slip"),
-    diagnosis("artefact.py", "steeper * (t", "0 * steeper * (t", "bends are slips"),
+    diagnosis("artefact.py", "rise - steeper * (t[i + 1]", "rise - 0 * steeper * (t[i + 1]", "bends are slips"),
     diagnosis("artefact.py", "SHARP = 0.4", "SHARP = 0.0", "steep rises are slips"),
     diagnosis("artefact.py", "LEAST_UM = 0.5", "LEAST_UM = 0.0", "trifles are slips"),
     diagnosis("commanded.py", '(*COMMANDS, "temperature")', "COMMANDS", "another workpiece is a slip"),
