@@ -49,6 +49,23 @@ def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(of_
     assert sum(c.claimed for c in found.candidates) == 1
 
 
+def test_a_locked_test_that_is_a_copy_of_an_open_one_is_left_out_and_said() -> None:
+    """Of it nothing is looked at; a claim is then told as without locked tests."""
+    data = make_data(of_nut)
+    again = replace(data.tests[2], test="again", role="locked")
+    answered = answer(
+        fit_model(base(), copied := replace(data, tests=(*data.tests[:-1], again)), uncertainty=False),
+        copied,
+        effects(),
+        "m",
+    )
+    assert answered.locked == ()
+    assert answered.diagnosis.candidates[0].claimed
+    assert answered.diagnosis.candidates[0].locked_rmse_um_after is None
+    [said] = [a for a in answered.diagnosis.artefacts if a.kind == "copy"]
+    assert (said.test, "'t2'" in said.why) == ("again", True)
+
+
 def test_locked_figures_are_filled_for_the_claim_only(of_a_missing_screw: Diagnosis) -> None:
     others = of_a_missing_screw.candidates[1:]
     assert len(others) > 3

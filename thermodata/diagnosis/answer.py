@@ -12,6 +12,7 @@ from thermodata.diagnosis.advice import advice
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import Confirmation, confirm
+from thermodata.diagnosis.copies import as_artefacts, copies
 from thermodata.diagnosis.detection import LARGE, Limit
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
@@ -60,7 +61,9 @@ def answer(
     usable = [t for t in tests if response.can_predict(t)]
     asked_of = sound(fitted, index, data, usable, library)
     refitted, data, usable = asked_of.fitted, asked_of.data, list(asked_of.tests)
-    locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t)]
+    same = copies(fitted.tests(data, "locked"), tests, response.name)
+    again = {one.key for one, _ in same}
+    locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t) and t.key not in again]
     investigation = investigate(
         refitted.responses[index],
         data,
@@ -70,7 +73,7 @@ def answer(
         as_fitted=response,
         locked=locked,
         others=OtherAxes(asked_of.spec, response.name, data, library),
-        known_faults=asked_of.faults,
+        known_faults=(*asked_of.faults, *as_artefacts(same, response.name)),
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)

@@ -13,6 +13,7 @@ from thermodata.diagnosis.answer import answer, worst_response
 from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
+from thermodata.diagnosis.copies import copies
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.diagnosis.sound import sound
@@ -93,11 +94,12 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
     usable = [t for t in tests if response.can_predict(t)]
     asked_of = sound(model.fitted, index, model.data, usable, effects())
-    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if response.can_predict(t)]
+    again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, response.name)}
+    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if response.can_predict(t) and t.key not in again]
     if not locked:
         raise UsageError(
             "no locked test to confirm on",
-            expected="a test with role: locked, in which the model's channels were logged",
+            expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
             hint="give a test of the campaign the role locked, before anybody has looked at it",
         )
     confirmation = confirm(

@@ -158,7 +158,7 @@ class Candidate(Result):
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
-    kind: step, clock_offset, sign, gain, parameters or sensor
+    kind: step, clock_offset, sign, gain, parameters, sensor or copy
     campaign: id
     test: id; empty where all tests share it
     at_s: from the test's start [s]

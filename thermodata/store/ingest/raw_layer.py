@@ -106,6 +106,13 @@ class RawIngest:
             return None
         return {test for (test, _), files in self._source_files.items() if not files.isdisjoint(paths)}
 
+    def files_of_tests(self) -> dict[str, list[str]]:
+        """Test -> the source paths of its files."""
+        found: dict[str, list[str]] = {}
+        for (test, _), files in self._source_files.items():
+            found.setdefault(test, []).extend(files.paths)
+        return found
+
     def keys(self) -> set[str]:
         """The keys of the raw data of all listed files, as they stand now."""
         return {task.key for task in self._listed_tasks()}

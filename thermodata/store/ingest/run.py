@@ -22,6 +22,7 @@ from thermodata.store.ingest.left_alone import LeftAlone, OtherwiseError, TestNo
 from thermodata.store.ingest.losses import loss_row
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest
+from thermodata.store.ingest.same_content import same_content
 from thermodata.store.ingest.spec_lines import with_lines
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
@@ -108,6 +109,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     if differs is not None and not differs:
         return replace(IngestSummary(**summary_of(kept)), seconds=time.monotonic() - began)
     raw_layer.hashed(files)
+    files_of_tests = raw_layer.files_of_tests()
     lines = of_tests(here, kept, [t.id for t in campaign.tests]) if differs is not None and not every_test else {}
     left = left_alone(lines, raw_layer.tests_with(differs or ()))
     with store.marked_reader() as (con, mark):
@@ -155,7 +157,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
         losses=with_lines(losses, path),
-        notes=list(dict.fromkeys(unanswered(campaign) + said)),
+        notes=list(dict.fromkeys(same_content(files_of_tests, raw_layer.hashes()) + unanswered(campaign) + said)),
     )
     again = replace(summary, read=0, made=0, notes=[*summary.notes, NOTHING])
     # what was damaged and is made anew has the same rows: the views must see it all the same
