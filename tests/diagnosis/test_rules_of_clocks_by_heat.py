@@ -111,6 +111,8 @@ def test_one_temperature_alone_tells_nothing() -> None:
         ({"shift_s": 540.0}, False),
         ({"own": 0.499}, True),
         ({"own": 0.501}, False),
+        ({"rest": 0.399}, True),
+        ({"rest": 0.401}, False),
     ],
 )
 def test_a_disagreement_is_plain_where_much_more_is_foretold_once_it_is_mended(
@@ -149,6 +151,16 @@ def in_one(tests: list[TestData]) -> list[tuple[str, str | None, float]]:
 @pytest.mark.parametrize("source", ["log", "nc"])
 def test_a_log_that_is_late_in_one_test_is_told_by_the_others(source: str, minutes: float) -> None:
     assert in_one(logged({source: minutes}, only=(2,))) == [("t2", source, pytest.approx(-minutes, abs=4))]
+
+
+def test_of_a_test_in_which_the_machine_waits_nothing_is_said() -> None:
+    """What was warm before cools, and that is foretold whatever the commands do; a pump runs at hours of its own."""
+    tests = logged()
+    t = tests[2].t_s
+    n = 500.0 * ((t > 9000) & (t < 12_000))
+    cooling = {name: 20 + 15 * np.exp(-t / tau) for name, tau in (("T_front", 1200.0), ("T_nut", 2400.0))}
+    waits = replace(tests[2], values={**tests[2].values, "n": n, "v": np.zeros(len(t)), **cooling})
+    assert in_one([*tests[:2], waits, *tests[3:]]) == []
 
 
 @pytest.mark.parametrize("minutes", [-4, 0, 4])

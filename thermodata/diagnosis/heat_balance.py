@@ -37,7 +37,8 @@ class Disagreement:
     """warmed: the source of the temperatures. by: that of the commands. shift_s: by which commands, moved later,
     foretell most. share: of the squared rises, mean of the temperatures that tell; unmoved: the most near no shift.
     telling: how many temperatures tell. campaign, test: the one that is asked of; '' for all of them. own: of one test,
-    what is left with the gains of its own at the shift, in shares of what they leave unmoved."""
+    what is left with the gains of its own at the shift, in shares of what they leave unmoved. rest: share that would be
+    foretold there if no command worked, by what is warm already."""
 
     warmed: str
     by: str
@@ -48,9 +49,12 @@ class Disagreement:
     campaign: str = ""
     test: str = ""
     own: float = 0.0
+    rest: float = 0.0
 
     @property
     def plain(self) -> bool:
+        if self.share - self.rest < TELLS:
+            return False  # a test in which the machine waits: what cools foretells itself
         much = self.share >= max(LEAST_SHARE, BEATS * self.unmoved) and self.own <= MOST_OWN
         return much and self.telling >= LEAST_TELLING and abs(self.shift_s) >= LEAST_S
 
@@ -98,9 +102,11 @@ class Pair:
         found = self._disagreement(shares)
         if found is None:
             return None
-        left = 1 - self._by_its_own(i)[shares.max(axis=1) >= TELLS].mean(axis=0)
+        telling = shares.max(axis=1) >= TELLS
+        left, at = 1 - self._by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
+        rest = float(self._at_rest(i)[telling][:, at].mean())
         own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
-        return replace(found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own))
+        return replace(found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest)
 
     def foretold(self, campaign: str, test: str, about_s: Sequence[float]) -> list[float]:
         """The largest share that is foretold near each of some shifts, mean of the channels; test '': in all of them.
@@ -120,6 +126,11 @@ class Pair:
             return _share(self._left(i, self._gains(_but(self.tests, i))[:, self.shifts_s == 0]), self.energy[i])
         left = sum(self._left(t, self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
         return _share(np.asarray(left), self.energy.sum(axis=0))
+
+    def _at_rest(self, i: int) -> Float2D:
+        """The same of a test as if no command worked in it."""
+        gains = self._gains(_but(self.tests, i))[:, self.shifts_s == 0]
+        return _share(self._left(i, gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
 
     def _by_its_own(self, i: int) -> Float2D:
         """The same of a test with the gains that it gives itself."""
