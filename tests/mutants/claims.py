@@ -527,6 +527,7 @@ MUTANTS = [
     diagnosis(
         "heat_balance.py", "held[max(0, -shift) : n - max(0, shift)]", "held[: n - abs(shift)]", "shifts go one way"
     ),
+    diagnosis("heat_balance.py", "self.share - self.rest < TELLS", "False", "a test in which the machine waits tells"),
     diagnosis("clocks.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"),
     diagnosis("clocks.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"),
     diagnosis("clocks.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
