@@ -94,10 +94,10 @@ def test_a_step_that_stands_alone_says_by_how_much() -> None:
     assert "2.3 times as suddenly as anything else in this test" in artefact.why
 
 
-@pytest.mark.parametrize(("many", "found"), [(2, []), (8, [109.5])])
-def test_what_comes_back_stands_alone_and_is_no_slip(many: int, found: list[float]) -> None:
+@pytest.mark.parametrize(("size", "many", "found"), [(5.0, 2, []), (9.0, 2, []), (5.0, 8, [109.5])])
+def test_what_comes_back_stands_alone_and_is_no_slip(size: float, many: int, found: list[float]) -> None:
     """The levels on both sides differ by less than half of what happens at once."""
-    blip = missing_much(slip=0.0) + 5.0 * ((np.arange(400) >= 110) & (np.arange(400) < 110 + many))
+    blip = missing_much(slip=0.0) + size * ((np.arange(400) >= 110) & (np.arange(400) < 110 + many))
     assert [at / 60 for at, _ in steps(blip)][:1] == found
 
 
