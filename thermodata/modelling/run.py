@@ -144,7 +144,8 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     else:
         grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    diagnosis = load_diagnosis(store, parent.model)
+    # what was found before the data changed may be mended
+    diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain:
         refined = with_second_lags(grown, old.data)
