@@ -262,6 +262,15 @@ def test_the_grid_goes_on_beyond_the_bounds_twice_as_far_apart() -> None:
     np.testing.assert_allclose(apart, [*[2.0] * 4, *[1.0] * 9, *[2.0] * 2], rtol=0.1)
 
 
+@pytest.mark.parametrize(("step_s", "first"), [(60.0, 1.0), (960.0, 4.0), (4800.0, 20.0), (40_000.0, 40_000 / 240)])
+def test_nor_does_the_grid_reach_what_a_sample_does_not_resolve(step_s: float, first: float) -> None:
+    """Nor where a sample is longer than the bounds."""
+    taus = [p["tau"] for p in grid([Param("tau", "min", 30, 10, 120, "", reach=(1, 360))], step_s)]
+    assert taus[0] == pytest.approx(first)
+    assert np.isfinite(taus).all()
+    assert (np.diff(taus) > -1e-9).all()
+
+
 SCREW = PlainEffect("screw", "feed_{a}", needs=(Need("u", "temperature", ("axis.{a}.nut",)),))
 TWO_MODES = replace(
     NUT,

@@ -277,8 +277,10 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
     for p in params:
         seconds = SECONDS.get(p.unit)
         lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
-        if p.reach is not None:
-            axes.append(_within_and_beyond((lower, max(p.upper, lower)), p.reach, count))
+        if p.reach is not None and p.upper > lower:
+            # nor does what is added reach what a sample does not resolve
+            resolved = min(lower, max(p.reach[0], step_s / 4 / seconds)) if seconds else p.reach[0]
+            axes.append(_within_and_beyond((lower, p.upper), (resolved, p.reach[1]), count))
         elif seconds or (p.lower > 0 and p.upper / p.lower > 10):
             axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
         else:
