@@ -25,15 +25,21 @@ def letters_of(path: Path, declared: str | None = None) -> str | None:
         head = file.read(_HEAD)
     if b"\0" in head or head.isascii():
         return None
-    try:
-        codecs.getincrementaldecoder("utf-8")().decode(head)
+    if _is_utf8(head):
         return _PLAIN
-    except UnicodeDecodeError:
-        pass
     if declared is not None:
         return declared
     told = east_asian(head)
     return told[0] if told else _PLAIN
+
+
+def _is_utf8(head: bytes) -> bool:
+    """Whether the beginning of a file is; its last character may be cut."""
+    try:
+        codecs.getincrementaldecoder("utf-8")().decode(head)
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def common(found: Iterable[str | None]) -> str | None:
