@@ -81,6 +81,35 @@ def test_what_holds_the_probes_stands_in_the_same_air_as_the_frame() -> None:
     assert "ambient_frame:T_low" not in unread(LOW, replace(HOLDER, faulty="stuck"), has=(known,))
 
 
+@pytest.mark.parametrize(
+    ("channel", "name"),
+    [
+        (ChannelInfo("pump", "state", "1", at="coolant"), "coolant"),
+        (ChannelInfo("T_fluid", "temperature", "degC", at="coolant.supply"), "coolant_temperature"),
+        (ChannelInfo("T_part", "temperature", "degC", at="workpiece"), "workpiece"),
+        (ChannelInfo("P", "power", "kW", at="spindle"), "cutting_power"),
+        (ChannelInfo("load", "load", "%", at="spindle"), "cutting_load"),
+    ],
+)
+def test_what_holds_the_probes_warms_with_all_in_the_working_space(channel: ChannelInfo, name: str) -> None:
+    found = unread(channel)
+    assert found[f"{name}:{channel.name}"] == ("fixture",)
+    assert found[f"lag:{channel.name}"] == ("fixture",)
+    for sensor in (HOLDER, PROBE):
+        assert not any("fixture" in other for other in unread(channel, sensor).values())
+    known = Present("probe_temperature", frozenset({"T_holder"}), "probe")
+    assert unread(channel, replace(HOLDER, faulty="stuck"), has=(known,)) == {}
+
+
+def test_what_does_not_reach_the_working_space_warms_no_holder_of_probes() -> None:
+    assert unread(ChannelInfo("P_z", "power", "kW", at="axis.z.motor")) != {}, "the heat of its axis"
+    assert unread(ChannelInfo("P_table", "power", "kW", at="table")) == {}
+    assert unread(ChannelInfo("n", "rotational_speed", "rpm", at="spindle")) == {}
+    assert unread(ChannelInfo("T_chiller", "temperature", "degC", at="chiller.supply")) == {}
+    both = unread(ChannelInfo("T_fluid", "temperature", "degC", at="coolant"), OIL)
+    assert set(both) == {"coolant_temperature:T_fluid", "lag:T_fluid"}
+
+
 def test_a_difference_of_two_airs_and_the_sun_are_neither() -> None:
     found = unread(LOW, HIGH, SUN)
     assert "vertical_gradient:T_high,T_low" not in found

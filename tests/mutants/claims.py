@@ -80,6 +80,10 @@ MUTANTS = [
     diagnosis(
         "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
     ),
+    diagnosis("unread.py", "if all(warms_the_holder", "if False and all(warms_the_holder", "coolant is as sure as air"),
+    diagnosis("unread.py", "Part(AIR, HOLDER) in known or", "", "a holder that the model has is named beside coolant"),
+    diagnosis("unread.py", "or any(reads(channels, place) for", "or any(False for", "a holder with a sensor is named"),
+    diagnosis("unread.py", "channel.quantity in CUTS and", "", "a spindle's speed is taken for cutting"),
     diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
     diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
     diagnosis("probability.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),

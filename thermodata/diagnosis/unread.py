@@ -1,7 +1,8 @@
 """Which other part a candidate may be: one that warms at the same hours, and that its channels do not tell apart.
 
-One motion rubs in screw and guideway of an axis; frame and holder of the probes stand in the same air. A temperature
-tells its own part from one that has a sensor, and not from one that has none; a motion tells none from the other.
+One motion rubs in screw and guideway of an axis; frame and holder of the probes stand in the same air; coolant, chips
+and a hot part warm the holder too. A temperature tells its own part from one that has a sensor, and not from one that
+has none; a motion tells none from the other.
 """
 
 from __future__ import annotations
@@ -31,7 +32,11 @@ class Part:
 
 # of each kind of heat its parts, and the places that read them, the one to log first
 RUBS: Mapping[str, tuple[str, ...]] = {"screw": ("nut", "screw", "bearing"), "guide": ("guide",)}
-STANDS_IN_AIR: Mapping[str, tuple[str, ...]] = {"frame": ("hall", "outside"), "holder": ("fixture", "probe")}
+HOLDER = "holder"
+STANDS_IN_AIR: Mapping[str, tuple[str, ...]] = {"frame": ("hall", "outside"), HOLDER: ("fixture", "probe")}
+# what is in the working space, and so warms what holds the probes there: by place, and what the spindle does to a part
+IN_WORKING_SPACE = ("coolant", "workpiece")
+CUTS = frozenset({"power", "load"})
 MOTOR = "motor"  # it warms with all that its axis rubs
 
 
@@ -52,6 +57,10 @@ def unread(
 ) -> tuple[str, ...]:
     """Places of the parts that it may be as well; none for what doesn't sit in one heat. channels: the usable ones.
     known: parts that the model has."""
+    if all(warms_the_holder(channels[n]) for n in names):
+        places = STANDS_IN_AIR[HOLDER]
+        told = Part(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
+        return () if told else places[:1]
     heat = _one_heat(part_of(channels[n].at) for n in names)
     warm = sum(channels[n].quantity == TEMPERATURE for n in names)
     moving = all(is_motion(channels[n].quantity) for n in names)
@@ -75,6 +84,12 @@ def unread(
 def reads(channels: Mapping[str, Described], place: str) -> bool:
     """Whether a temperature is logged at a place."""
     return any(c.quantity == TEMPERATURE and holds(place, c.at) for c in channels.values())
+
+
+def warms_the_holder(channel: Described) -> bool:
+    """Whether what holds the probes warms with it, beside the machine."""
+    cuts = channel.quantity in CUTS and (channel.at or "").lower() == "spindle"
+    return cuts or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 
 def is_motion(quantity: str) -> bool:
