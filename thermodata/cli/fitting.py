@@ -51,6 +51,8 @@ def fit_command(session: Session, model: str) -> None:
     with counting_line() as tell, watched(tell):
         result = fit_named(store, model)
     session.answer(result, lambda: in_units_of(session, result.response, fit_text(result)))
+    for note in result.notes:
+        session.say(note)
 
 
 @command("compare")

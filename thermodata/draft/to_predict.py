@@ -47,9 +47,10 @@ def data_of(
 
 
 def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
+    from thermodata.modelling.coarse_readings import drawn
     from thermodata.view.load import load_dataset
 
-    data = load_dataset(store, campaign, step_s)
+    data = drawn(load_dataset(store, campaign, step_s))
     with store.reader() as con:
         rows = con.execute("select test from test where campaign = ? order by rowid", [campaign]).fetchall()
     there = {t.test for t in data.tests}

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
-from thermodata.modelling import nested
+from thermodata.modelling import coarse_readings, nested
 from thermodata.modelling.beside import Beside, beside
 from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.differences import TestDifference, differences
@@ -63,7 +63,7 @@ def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
 def load_data(store: Store, spec: Model) -> Dataset:
     from thermodata.view.load import load_dataset
 
-    return load_dataset(store, list(spec.campaign_ids), spec.step)
+    return coarse_readings.drawn(load_dataset(store, list(spec.campaign_ids), spec.step))
 
 
 def fit(
@@ -83,7 +83,10 @@ def fit(
     data = load_data(store, spec)
     fitted = fit_alone(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
-    result = result.model_copy(update=said)
+    terms = [term.bound for response in fitted.responses for term in response.terms]
+    read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
+    notes = [*said.pop("notes", []), *coarse_readings.said(data, read)]
+    result = result.model_copy(update={**said, "notes": notes})
     save_fit(
         store,
         spec=spec,

@@ -67,12 +67,14 @@ class TestData:
 
 @dataclass(frozen=True, slots=True)
 class Dataset:
-    """The tests of one or more campaigns on one step. channels: the union over tests, by name."""
+    """The tests of one or more campaigns on one step. channels: the union over tests, by name. drawn_k: temperatures
+    that were read in coarse steps and are drawn through them, with the step (`modelling.coarse_readings`)."""
 
     step_s: float
     tests: tuple[TestData, ...]
     channels: Mapping[str, ChannelInfo]
     data_version: str = ""
+    drawn_k: Mapping[str, float] = field(default_factory=dict)
 
     def test(self, campaign: str, test: str) -> TestData:
         return next(t for t in self.tests if t.key == (campaign, test))

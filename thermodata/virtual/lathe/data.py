@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.modelling.candidate import candidate_spec
+from thermodata.modelling.coarse_readings import drawn
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.quantity import CANONICAL_UNIT
@@ -70,7 +71,7 @@ def to_dataset(world: World) -> Dataset:
     """Every test on a grid of `STEP_S`; temperatures in degC, displacement in um along the machine's axes."""
     infos = channels_of(world)
     tests = tuple(_test(world, r, infos) for r in world.runs)
-    return Dataset(STEP_S, tests, infos, data_version=world.campaign)
+    return drawn(Dataset(STEP_S, tests, infos, data_version=world.campaign))
 
 
 def _test(world: World, run: Run, infos: dict[str, ChannelInfo]) -> TestData:
