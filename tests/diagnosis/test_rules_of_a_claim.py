@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, f
 from .hand_made import measure, scored
 
 CHANCE = "chance does as well"
-FALL = "tests in which it acts the error falls by"
+FALL = "tests in which it acts the error"
 FEW = "tests in which it acts more probable"
 GAIN = "its gain differs between tests by"
 LITTLE = "it explains"
@@ -307,3 +308,25 @@ def test_what_acts_alike_at_all_is_a_twin_where_the_tests_do_not_tell(
 
 def test_only_what_was_scored_on_left_out_tests_may_be_a_twin() -> None:
     assert equivalents(scored("a"), [scored("b", shape=())]) == []
+
+
+@pytest.mark.parametrize(
+    ("after", "said"), [(0.9, "falls by 10% only"), (1.0, "does not fall"), (1.2, "does not fall")]
+)
+def test_an_error_that_rises_does_not_fall_by_nothing(after: float, said: str) -> None:
+    (reason,) = failed_rules(scored(after=after, evidence=DULL), measure(), "um")[:1]
+    assert f"the error {said}" in reason
+    assert "0% only" not in reason.replace("10% only", "")
+
+
+@pytest.mark.parametrize(("in_parts", "said"), [(False, "tests"), (True, "parts")])
+def test_parts_of_few_tests_are_called_parts(in_parts: bool, said: str) -> None:
+    against = replace(measure(), in_parts=in_parts)
+    (reason,) = failed_rules(scored(after=1.0, evidence=DULL), against, "um")[:1]
+    assert reason.startswith(f"in the 10 {said} in which it acts")
+
+
+def test_what_it_explains_is_told_as_the_share_that_the_rule_asks() -> None:
+    little = scored(before=0.3, after=0.1, evidence=DULL)
+    assert "of the response's 4 um (limit 10%)" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
+    assert "it explains 0.28 um where it acts, 7.1% of" in " ".join(failed_rules(little, measure(spread=4.0), "um"))

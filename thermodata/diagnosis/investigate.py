@@ -164,10 +164,10 @@ def _judged(
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
     first = first_ranking(problem, asked)
     if first is None:
-        measure = Measure(spread, problem.noise, np.zeros(0))
+        measure = Measure(spread, problem.noise, np.zeros(0), problem.in_parts)
         return None, judge(problem, None, measure, lambda scored: None), measure
     chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
-    measure = Measure(spread, problem.noise, chance)
+    measure = Measure(spread, problem.noise, chance, problem.in_parts)
 
     def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement]:
         found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)

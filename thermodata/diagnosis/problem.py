@@ -79,6 +79,11 @@ class Problem:
     def rows(self) -> int:
         return sum(len(b.t_s) for b in self.blocks)
 
+    @property
+    def in_parts(self) -> bool:
+        """Whether tests are cut into parts in time."""
+        return len({b.test.key for b in self.blocks}) < len(self.blocks)
+
     def thinned(self, every: int) -> Problem:
         """Every n-th sample only: what is slow stays, and costs less. Its blocks compress nothing."""
         blocks = []

@@ -45,11 +45,18 @@ HALVES = 0.5  # what leaves no more than this share of the error contradicts tha
 @dataclass(frozen=True, slots=True)
 class Measure:
     """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
-    chance: the best evidence of chance, shape (draws,)."""
+    chance: the best evidence of chance, shape (draws,). in_parts: whether tests are so few that they are cut into parts
+    in time, of which each is left out in turn."""
 
     spread: float
     noise: float
     chance: Float1D
+    in_parts: bool = False
+
+    @property
+    def tests(self) -> str:
+        """What is left out in turn, in a word."""
+        return "parts" if self.in_parts else "tests"
 
     @property
     def noises(self) -> float:
@@ -90,7 +97,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
     """Every rule that a sound candidate keeps, in the order in which they are asked."""
     p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
     fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
-    told, worth = explained(scored), WORTH_SHARE * measure.spread
+    told, worth, tests = explained(scored), WORTH_SHARE * measure.spread, measure.tests
     strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
     sure = probability(scored) >= limit_of(scored)
     better = SURE_BETTER_LIMIT if sure else BETTER_LIMIT
@@ -108,69 +115,74 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         ),
         Rule(
             "fall",
-            f"fall of the error where it acts, its size from the other tests{unasked.format(STRONG)}, or it is as "
+            f"fall of the error where it acts, its size from the other {tests}{unasked.format(STRONG)}, or it is as "
             "probable as a claim asks",
             scored.drop,
             fall,
             "least",
             scored.drop >= fall or ((strong or sure) and scored.drop >= DOUBLES),
-            _too_little(scored, fall, unit),
+            _too_little(scored, fall, unit, tests),
         ),
         Rule(
             "tests",
-            "share of these tests that it makes more probable",
+            f"share of these {tests} that it makes more probable",
             scored.better,
             better,
             "least",
             scored.better >= better,
-            f"it makes {round(scored.better * count)} of the {count} tests in which it acts more probable (limit "
+            f"it makes {round(scored.better * count)} of the {count} {tests} in which it acts more probable (limit "
             f"{better:.0%})",
         ),
         Rule(
             "gain",
-            f"how much its gain differs between tests; not asked where the error falls by {FORETOLD:.0%}, or the "
+            f"how much its gain differs between {tests}; not asked where the error falls by {FORETOLD:.0%}, or the "
             f"evidence is {STRONG:g} a sample",
             scored.spread,
             SPREAD_LIMIT,
             "most",
             strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            f"its gain differs between tests by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
+            f"its gain differs between {tests} by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
             "everywhere",
         ),
         Rule(
             "others",
-            f"tests in which it acts{unasked.format(OVERWHELMING)} and the model has nothing of its family",
+            f"{tests} in which it acts{unasked.format(OVERWHELMING)} and the model has nothing of its family",
             count,
             LEAST_TESTS,
             "least",
             alone or count >= LEAST_TESTS,
-            "it acts in one test only: no other foretells it",
+            f"it acts in one {tests[:-1]} only: no other foretells it",
         ),
         Rule(
             "worth",
             f"what it explains where it acts{unasked.format(STRONG)}, or it is as probable as a claim asks and "
-            f"does {WORTH_SIZE:.0%} of the response by a gain that is alike in all tests",
+            f"does {WORTH_SIZE:.0%} of the response by a gain that is alike in all {tests}",
             told,
             worth,
             "least",
             strong or told >= worth or (sure and _does_much(scored, measure)),
-            f"it explains {told:.2g} {unit} where it acts, of {measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
+            f"it explains {told:.2g} {unit} where it acts, {_share(told, measure.spread)} of the response's "
+            f"{measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
             unit,
         ),
     ]
 
 
-def _too_little(scored: Scored, fall: float, unit: str) -> str:
+def _share(part: float, whole: float) -> str:
+    return f"{part / whole:.1%}" if whole > 0 else "none"
+
+
+def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
     """Why the error falls too little, its size from the other tests."""
     if scored.drop < DOUBLES:
         return (
-            f"its size from the other tests, the error more than doubles where it acts ({scored.error_before:.2f} -> "
-            f"{scored.error_after:.2f} {unit}): tests go against each other"
+            f"its size from the other {tests}, the error more than doubles where it acts ({scored.error_before:.2f} -> "
+            f"{scored.error_after:.2f} {unit}): {tests} go against each other"
         )
-    return (
-        f"in the {int(scored.acts.sum())} tests in which it acts the error falls by {max(scored.drop, 0):.0%} only, "
-        f"its size from the others (limit {fall:.0%})"
-    )
+    where = f"in the {int(scored.acts.sum())} {tests} in which it acts the error"
+    if scored.drop <= 0:
+        return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
+    return f"{where} falls by {scored.drop:.0%} only, its size from the others (limit {fall:.0%})"
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:
@@ -197,7 +209,7 @@ def surely(scored: Scored) -> Rule:
 
 def _in_short(scored: Scored) -> str:
     """What its probability hangs on."""
-    falls = f"where it acts the error falls by {max(scored.drop, 0):.0%}"
+    falls = f"where it acts the error {f'falls by {scored.drop:.0%}' if scored.drop > 0 else 'does not fall'}"
     beaten = scored.beaten and scored.candidate.around
     more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
     if scored.candidate.passive:
