@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.detection import Limit, of_each_effect
 from thermodata.diagnosis.probability import CLAIMED, probability, sharpness_asked
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -96,3 +97,12 @@ def test_the_limits_are_of_names_that_the_model_lacks() -> None:
 def test_the_sharpness_that_a_claim_asks_makes_it_as_probable(fall: float) -> None:
     one = scored(evidence=1000 * sharpness_asked(fall, scored().candidate), after=1 - fall)
     assert probability(one) == pytest.approx(CLAIMED)
+
+
+def test_of_each_effect_the_sensor_that_shows_it_best_is_told_and_advised() -> None:
+    """As `could_hide` tells them: another sensor of the same effect hides no more."""
+    near, far, other = (
+        Limit(scored(name, family="feed_x", channels=(channel,)).candidate, least, 0.1, 0)
+        for name, channel, least in (("screw", "T_nut_X", 2.0), ("screw", "feed_X", 9.0), ("motor", "T_motor_X", 4.0))
+    )
+    assert of_each_effect([far, other, near]) == [other, near]

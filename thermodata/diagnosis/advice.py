@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation
-from thermodata.diagnosis.detection import LARGE
+from thermodata.diagnosis.detection import LARGE, of_each_effect
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judgement, equivalents
 from thermodata.diagnosis.rules import rules
@@ -40,7 +40,7 @@ def advice(
         return next_test.to_bear_out(claims, data.channels)
     if judgement.verdict in ("none", "refine"):
         large = LARGE * investigation.measure.spread
-        for one in investigation.limits:
+        for one in of_each_effect(investigation.limits):
             if one.least > large and one.hides and one.like is not None:
                 return next_test.to_exclude(one.candidate, terms[one.like], data.channels)
         return None

@@ -61,6 +61,14 @@ def limits(known: Known, pool: Sequence[Columns], spread: float, owners: Int1D) 
     return sorted(found, key=lambda one: -one.least)
 
 
+def of_each_effect(limits: Sequence[Limit]) -> list[Limit]:
+    """Of each effect and family the sensor that shows it best, as the answer tells them; the largest first."""
+    best = {
+        (one.candidate.effect.name, one.candidate.family): one for one in sorted(limits, key=lambda one: -one.least)
+    }
+    return sorted(best.values(), key=lambda one: -one.least)
+
+
 def _has_a_name(candidate: CandidateEffect) -> bool:
     """A cause of the library, and no mode of another one."""
     return candidate.family not in (GENERIC, CONTROL) and not refines(candidate.effect) and not candidate.within
