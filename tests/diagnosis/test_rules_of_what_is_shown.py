@@ -243,6 +243,9 @@ def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
     assert advice("T_a", "T_b", same_effect=True) is None
     assert advice("T_a", "T_a") is None, "one channel by another name is no rival"
     assert to_separate(scored("a"), [], CHANNELS) is None
+    switch, its_lag = scored("a", channels=("n",)), scored("lag", family="generic", channels=("n",))
+    assert to_separate(scored("a", channels=("T_a",)), [its_lag, switch], CHANNELS) is None, "the same effect, twice"
+    assert to_separate(scored("a", channels=("T_a",)), [its_lag], CHANNELS) is not None
 
 
 @pytest.mark.parametrize(

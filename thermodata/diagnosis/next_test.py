@@ -42,11 +42,13 @@ _BY_DAY = "through a day and a night, the machine at rest"
 def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
     """The advice where several candidates explain the same."""
     mine = chosen.candidate
-    # the same effect by another driver is no other answer, nor is the same channel by another name
+    # the same effect by another driver is no other answer, nor are its channels by another name
+    same = [mine, *(t.candidate for t in twins if t.candidate.effect.name == mine.effect.name)]
+    own_channels = [set(one.channels) for one in same]
     others = [
         t.candidate
         for t in twins
-        if t.candidate.effect.name != mine.effect.name and set(t.candidate.channels) != set(mine.channels)
+        if t.candidate.effect.name != mine.effect.name and set(t.candidate.channels) not in own_channels
     ]
     if not others:
         return None
