@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.diagnosis import Candidate, Diagnosis, Unknown
 
 
 def candidate(rank: int, effect: str, **more: Any) -> Candidate:
@@ -26,7 +26,7 @@ def candidate(rank: int, effect: str, **more: Any) -> Candidate:
     return Candidate(**{**given, **more})
 
 
-def text(verdict: Any, *candidates: Candidate, top: int = 8) -> str:
+def text(verdict: Any, *candidates: Candidate, top: int = 8, unknown: Unknown | None = None) -> str:
     found = Diagnosis(
         model="m",
         response="dZ",
@@ -37,6 +37,7 @@ def text(verdict: Any, *candidates: Candidate, top: int = 8) -> str:
         weak_spots=[],
         candidates=list(candidates),
         artefacts=[],
+        unknown=unknown,
     )
     return diagnosis_text(found, top)
 
@@ -72,3 +73,25 @@ def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promi
     assert "could be explained" not in said
     assert "nothing logged explains" not in said
     assert "one candidate alone takes away up to 90 % of the squared residual" in said
+
+
+def test_errors_that_are_not_of_the_users_own_model_say_what_stands_beside() -> None:
+    why = "where it acts (1 of 2 tests), beside sun:T, the error falls (5.00 -> 1.00 um)"
+    said = text("effect", candidate(1, "screw", claimed=True, rmse_um_before=5.0, why=why), candidate(2, "rest"))
+    assert "both with" in said
+    assert "sun:T" in next(line for line in said.splitlines() if line.startswith("1 "))
+    assert "both with" not in text("effect", candidate(1, "screw", claimed=True), candidate(2, "rest"))
+
+
+def test_parts_of_tests_are_not_called_tests() -> None:
+    part = {"campaign": "c", "test": "a", "from_s": 0.0, "to_s": 1.0, "acts": True}
+    parts = [{**part, "rmse_um_before": 2.0, "rmse_um_after": 1.0}] * 2
+    said = text("effect", candidate(1, "screw", left_out=parts)).splitlines()[-1]
+    assert said.startswith("left-out: each open test in turn, foretold by a fit to the others; 1 open test is too few")
+
+
+def test_states_have_commas_within_and_are_parted_otherwise() -> None:
+    hints = Unknown(time_constants_h=[1.4], hours_of_day=[], states=["at rest, A rising", "n 800 rpm, A falling"])
+    said = text("unknown", unknown=hints)
+    assert "  states: at rest, A rising; n 800 rpm, A falling" in said
+    assert "  memory (its autocorrelation falls to 1/e) [h]: 1.40" in said

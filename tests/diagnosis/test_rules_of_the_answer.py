@@ -22,6 +22,7 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 from thermodata.diagnosis.sound import Sound
 from thermodata.diagnosis.suspect import Suspect
+from thermodata.report.verdict import beside
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown
 from thermodata.schema.model import Model
@@ -399,6 +400,19 @@ class TestAnswer:
         claimed = replace(FIRST, sse_after=beside_others**2 * FIRST.rows, own_after=beside_others**2 * FIRST.rows)
         found = self.answered(monkeypatch, spec, claim(claimed))
         assert found.candidates[0].rmse_um_after == pytest.approx(shown)
+
+    def test_figures_beside_other_candidates_name_them_and_alone_none_takes_away_as_much(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """From 1 to 0.3 beside the model alone, and from 3 to 0.2 beside another one."""
+        hidden = replace(FIRST, sse_before=9.0 * FIRST.rows, sse_after=0.04 * FIRST.rows, others=("other:T_a",))
+        found = self.answered(monkeypatch, spec, claim(hidden, OTHER))
+        first = next(c for c in found.candidates if c.effect == "first")
+        assert (first.rmse_um_before, first.rmse_um_after) == pytest.approx((3.0, 0.2))
+        assert beside(first, found.rmse_um) == ["other:T_a"]
+        assert found.explainable == pytest.approx(0.91), "the model's own error from 1 to 0.3"
+        shown_alone = self.answered(monkeypatch, spec, claim(replace(FIRST, others=("other:T_a",)), OTHER))
+        assert [beside(c, found.rmse_um) for c in shown_alone.candidates if c.effect == "first"] == [[]]
 
     @pytest.mark.parametrize(("others", "before"), [((), 1.0), ((OTHER,), 3.0)])
     def test_what_falls_is_the_models_own_error_where_nothing_stands_beside_the_claim(

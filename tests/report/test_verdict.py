@@ -13,8 +13,8 @@ from thermodata.report.data import ReportData
 from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
-from thermodata.report.verdict import explainable, listed, named, probability, told, verdict_sentence
-from thermodata.schema.diagnosis import Candidate, ClockMoved, Diagnosis, PutRight
+from thermodata.report.verdict import explainable, in_parts, listed, named, probability, told, verdict_sentence
+from thermodata.schema.diagnosis import Candidate, ClockMoved, Diagnosis, LeftOut, PutRight, Rung
 
 from .conftest import diagnosis
 
@@ -35,6 +35,10 @@ def one(effect: str, **more: Any) -> Candidate:
         "why": f"because of {effect}",
     }
     return Candidate(**{**given, **more})
+
+
+def among(*others: str) -> str:
+    return f"where it acts (4 of 4 tests), beside {' and '.join(others)}, the error falls (2.00 -> 1.00 um)"
 
 
 def claim(effect: str, share: float | None = 0.94, **more: Any) -> Candidate:
@@ -68,12 +72,15 @@ def test_one_claim_is_told_with_its_probability_and_both_errors() -> None:
 
 
 def test_all_claims_of_one_answer_are_told() -> None:
-    a, b, c = claim("screw"), claim("sun", 0.7, rmse_um_before=2.0), claim("oil", None)
-    assert verdict_sentence(found("effect", [a, b])) == (
+    def all_of(*names: str) -> list[Candidate]:
+        given: dict[str, Any] = {"screw": {}, "sun": {"share": 0.7, "rmse_um_before": 2.0}, "oil": {"share": None}}
+        return [claim(n, why=among(*(f"{o}:T" for o in names if o != n)), **given[n]) for n in names]
+
+    assert verdict_sentence(found("effect", all_of("screw", "sun"))) == (
         "missing: screw (T), probability 94 %, and sun (T), probability 70 %; error on left-out tests, each beside the "
         "other: screw 4.00 -> 1.00 um, sun 2.00 -> 1.00 um; locked tests with both 5.00 -> 2.00 um"
     )
-    text = verdict_sentence(found("effect", [a, b, c]))
+    text = verdict_sentence(found("effect", all_of("screw", "sun", "oil")))
     assert text.startswith("missing: screw (T), probability 94 %, sun (T), probability 70 %, and oil (T); ")
     assert "each beside the others: " in text
     assert "locked tests with all 3 " in text
@@ -103,6 +110,54 @@ def test_no_error_falls_upward() -> None:
     assert "error on left-out tests (falls where it acts only; over all: 0.610 -> 0.800 um)" in text
     assert "locked tests (judged by their shape where it acts; from their first samples on: 0.500 -> 0.600 um)" in text
     assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
+
+
+@pytest.mark.parametrize(("fall", "falls"), [(0.01, True), (-0.3, False)])
+def test_an_error_that_falls_nowhere_is_not_said_to_fall_where_the_effect_acts(fall: float, falls: bool) -> None:
+    rung = Rung(name="fall", asks="", value=fall, limit=0.15, unit="1", at="least", holds=True, asked=True)
+    mode = one("mode", refinement=True, rmse_um_before=1.38, rmse_um_after=1.48, rungs=[rung])
+    text = verdict_sentence(found("refine", [mode]))
+    assert ("(falls where it acts only; over all: 1.38 -> 1.48 um)" in text) is falls
+    assert ("(does not fall, though the evidence speaks for it: 1.38 -> 1.48 um)" in text) is not falls
+
+
+def test_errors_beside_other_candidates_are_none_of_the_users_model_and_say_so() -> None:
+    hidden = claim("screw", rmse_um_before=7.04, rmse_um_after=4.92, why=among("lag:t8", "lag:t2"))
+    assert "error on left-out tests beside lag:t8 and lag:t2: 7.04 -> 4.92 um" in verdict_sentence(
+        found("effect", [hidden])
+    )
+    own = found("effect", [hidden], rmse_um=7.04)
+    assert "error on left-out tests 7.04 -> 4.92 um" in verdict_sentence(own), "from the model's own error"
+    screw, sun = claim("screw"), claim("sun", why=among("screw:T"))
+    assert "error on left-out tests: screw alone 4.00 -> 1.00 um, sun beside screw:T 4.00 -> 1.00 um; " in (
+        verdict_sentence(found("effect", [screw, sun]))
+    )
+    both = [claim("screw", why=among("sun:T")), sun]
+    assert "each beside the other: screw 4.00 -> 1.00 um, sun 4.00 -> 1.00 um" in verdict_sentence(
+        found("effect", both)
+    )
+
+
+def test_what_is_not_excluded_says_how_probable_it_is() -> None:
+    assert verdict_sentence(found("none", [one("sun", probability=0.14)])).endswith(
+        "; not excluded: sun (T), probability 14 %"
+    )
+
+
+@pytest.mark.parametrize(
+    ("tests", "said"),
+    [
+        (("a", "b"), ""),
+        (("a", "a"), "1 open test is too few to leave one out, so 2 parts of it are"),
+        (("a", "a", "b", "b"), "2 open tests are too few to leave one out, so 4 parts of them are"),
+    ],
+)
+def test_where_parts_of_tests_are_left_out_that_is_said(tests: Sequence[str], said: str) -> None:
+    parts = [
+        LeftOut(campaign="c", test=t, from_s=0, to_s=1, acts=True, rmse_um_before=2, rmse_um_after=1) for t in tests
+    ]
+    assert in_parts(found("none", [one("sun", left_out=parts)])) == said
+    assert in_parts(found("none", [one("sun")])) == ""
 
 
 @pytest.mark.parametrize(("shape", "said"), [((0.4, 0.3), "judged by their shape"), ((0.4, 0.5), "get worse")])
@@ -209,7 +264,7 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     mode = [one("mode", refinement=True, drivers=["T_b"])]
     screw = one("screw", probability=0.24, unread=["axis.z.guide"])
     text = verdict_sentence(found(verdict, [*mode, screw]))
-    assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide")
+    assert text.endswith("; not excluded: screw (T) or heat at axis.z.guide, probability 24 %")
     again = one("lag", probability=0.24, drivers=["T_b"])
     for slight in (one("screw", probability=0.09), one("screw", probability=None), again):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))

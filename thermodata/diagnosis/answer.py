@@ -140,7 +140,9 @@ def _diagnosis(
     # what refines the model is no missing cause, also where more is missing than it gives
     head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
-    scored, alone = [s for s, _ in shown if len(s.rows)], investigation.selection
+    alone = investigation.selection
+    # beside others a candidate takes away what they leave; of one alone that says nothing
+    scored = [s for s in alone.first.ranked if len(s.rows)] if alone is not None else []
     return Diagnosis(
         model=model_id,
         response=problem.response,

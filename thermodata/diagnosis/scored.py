@@ -26,7 +26,7 @@ class Scored:
     length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
     another cause that was selected has more evidence a sample. doubts: of a claim, in how many of two ways the locked
     tests do not bear it out (`locked.Looked`). also_on: (channel, probability there) of each other axis on which it is
-    missing too, where that was asked."""
+    missing too, where that was asked. others: ids of the candidates that it was weighed beside."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -45,6 +45,7 @@ class Scored:
     beaten: bool = False
     doubts: int = 0
     also_on: tuple[tuple[str, float], ...] = ()
+    others: tuple[str, ...] = ()
 
     @property
     def acts(self) -> Bool1D:

@@ -223,8 +223,12 @@ def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise
     found = []
     for one in chosen:
         others = [c for c in chosen if c is not one]
-        found.append(rank_in(beside(problem, others), [one.columns], noise).ranked[0])
+        found.append(_weighed_beside(rank_in(beside(problem, others), [one.columns], noise).ranked[0], others))
     return found
+
+
+def _weighed_beside(one: Scored, others: Sequence[Scored]) -> Scored:
+    return replace(one, others=tuple(o.candidate.id for o in others))
 
 
 def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[float]:
@@ -263,7 +267,8 @@ def _member(
     if best is not None and gives_way(own, best, eligible) and sound(best):
         # what it replaces leaves it the credit for what likelier and less likely members explain alike
         gained = best.evidence - own.evidence
-        return Member(chosen[number], replace(best, credit=(own.credit or own.evidence) + gained), ranking.ranked)
+        swapped = replace(_weighed_beside(best, others), credit=(own.credit or own.evidence) + gained)
+        return Member(chosen[number], swapped, ranking.ranked)
     return Member(chosen[number], own, ranking.ranked)
 
 

@@ -21,13 +21,15 @@ def why(
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests."""
     unit, count = investigation.problem.unit, int(s.acts.sum())
     others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
+    others = others if member is not None else list(s.others)
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
+    tests = investigation.measure.tests
     way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"where it acts ({count} of {len(s.rows)} tests){beside} the error {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other tests, and it makes "
-        f"{improves} of {count} more probable; its gain differs between tests by {s.spread:.0%}"
+        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error {way} "
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests}, and it makes "
+        f"{improves} of {count} more probable; its gain differs between {tests} by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if among(member, judgement.claims):

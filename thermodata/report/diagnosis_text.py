@@ -9,7 +9,16 @@ from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import explained
 from thermodata.report.log_faults import log_faults
 from thermodata.report.table import table
-from thermodata.report.verdict import explainable, noise_words, probability, put_right, told, verdict_sentence
+from thermodata.report.verdict import (
+    beside,
+    explainable,
+    in_parts,
+    noise_words,
+    probability,
+    put_right,
+    told,
+    verdict_sentence,
+)
 from thermodata.report.words import duration, heat_lines, number
 
 if TYPE_CHECKING:
@@ -76,7 +85,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     figures = [left, locked, noise_words(found), explainable(found)]
     parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
     if found.candidates:
-        parts.append(_candidates_text(found.candidates[:top]))
+        parts.append(_candidates_text(found.candidates[:top], found.rmse_um))
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))
@@ -96,11 +105,11 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(
             "what is left behaves like\n"
             + "\n".join(
-                f"  {name}: {', '.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
-                for name, key in (
-                    ("time constants [h]", "time_constants_h"),
-                    ("hours of the day", "hours_of_day"),
-                    ("states", "states"),
+                f"  {name}: {between.join(number(v) if isinstance(v, float) else str(v) for v in hints[key])}"
+                for name, key, between in (
+                    ("memory (its autocorrelation falls to 1/e) [h]", "time_constants_h", ", "),
+                    ("hours of the day", "hours_of_day", ", "),
+                    ("states", "states", "; "),  # commas stand within one
                 )
                 if hints[key]
             )
@@ -115,16 +124,19 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(hides)
     if found.next_test:
         parts.append(f"next test: {found.next_test}")
-    parts.append(explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else [])))
+    words = explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else []))
+    left_out, *others = words.splitlines()
+    parts.append("\n".join(["; ".join(filter(None, [left_out, in_parts(found)])), *others]))
     return "\n\n".join(parts)
 
 
-def _candidates_text(candidates: Sequence[Candidate]) -> str:
+def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str:
     rows = [
         {
             **c.model_dump(),
             "claimed": "yes" if c.claimed else "refines" if c.refinement else "",
             "probability": probability(c.probability),
+            "beside": beside(c, left),
         }
         for c in candidates
     ]
@@ -137,6 +149,7 @@ def _candidates_text(candidates: Sequence[Candidate]) -> str:
         ("p_value", "p"),
         ("rmse_um_before", "before [um]"),
         ("rmse_um_after", "after [um]"),
+        *([("beside", "both with")] if any(r["beside"] for r in rows) else []),
         ("equivalent", "can't be told from"),
     ]
     return table(rows, columns, widest=44)

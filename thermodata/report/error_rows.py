@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
-from thermodata.report.verdict import claims_of
+from thermodata.report.verdict import beside, claims_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.diagnosis import Candidate
 
@@ -69,7 +69,9 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
     claims = _all_added(data)
-    if len(claims) == 1 and claims[0].rmse_um_after is not None:
+    # errors beside other candidates are of no model that anybody has
+    left = data.reason.rmse_um if data.reason else None
+    if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
         return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "")
     if data.diagnosis and data.diagnosis.rmse_um is not None:
         return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, "")

@@ -20,7 +20,7 @@ from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.system_charts import system_charts
-from thermodata.report.verdict import probability, told, verdict_sentence
+from thermodata.report.verdict import beside, probability, told, verdict_sentence
 from thermodata.report.words import base_role, change, duration, heat_lines, number, typeset
 from thermodata.report.write import page_values, write_page
 
@@ -85,6 +85,7 @@ def render(data: ReportData) -> str:
         ],
         checks=[c for c in data.checks if not c.passed],
         told=told,
+        beside=beside,
         several=len(data.responses) > 1,
         phased=[s for s in data.scores if s.phase != "all"],
         locked_note=locked_note(data),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -85,13 +87,17 @@ def _verdict(found: Diagnosis) -> str:
     claims, refined = claims_of(found), refinements_of(found)
     beside = f"what the model has can be refined by {listed([named(c) for c in refined])}" if refined else ""
     if found.verdict == "effect" and claims:
-        return "; ".join(filter(None, [_missing(claims), beside]))
+        return "; ".join(filter(None, [_missing(claims, found.rmse_um), beside]))
     if found.verdict == "unknown":
-        again = f"{beside}, {_left_out(refined)}: add {'it' if len(refined) == 1 else 'them'} and ask again"
+        again = (
+            f"{beside}, {_left_out(refined, found.rmse_um)}: add {'it' if len(refined) == 1 else 'them'} and ask again"
+        )
         return "; ".join(filter(None, [_unclaimed(found), again if beside else ""]))
     open_still = _not_excluded(found)
     if found.verdict == "refine" and beside:
-        return "; ".join(filter(None, ["no cause is missing", f"{beside}, {_left_out(refined)}", open_still]))
+        return "; ".join(
+            filter(None, ["no cause is missing", f"{beside}, {_left_out(refined, found.rmse_um)}", open_still])
+        )
     if found.verdict == "none":
         return "; ".join(filter(None, [f"no effect is missing: {_left_over(found)}", open_still]))
     return {
@@ -109,7 +115,7 @@ def _not_excluded(found: Diagnosis) -> str:
         return ""
     if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)):
         return ""
-    return f"not excluded: {_or_elsewhere(first)}"
+    return f"not excluded: {_or_elsewhere(first)}, {_how_sure(first)}"
 
 
 def _left_over(found: Diagnosis) -> str:
@@ -119,10 +125,10 @@ def _left_over(found: Diagnosis) -> str:
     left = f"{number(found.rmse_um)} um are left on left-out tests"
     if found.noise_um is None:
         return f"{left}, too little to ask about"
-    noise = f"noise{_between(found)} of {number(found.noise_um)} um"
+    noise = f"noise ({number(found.noise_um)} um{_between(found)})"
     if found.rmse_um <= NOISY * found.noise_um:
         return f"{left}, and they are {noise}"
-    return f"{left}, more than the {noise}, but no more than models leave of a machine that lacks nothing"
+    return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing"
 
 
 def _between(found: Diagnosis) -> str:
@@ -134,11 +140,11 @@ def noise_words(found: Diagnosis) -> str:
     return "" if found.noise_um is None else f"noise {number(found.noise_um)} um{_between(found)}"
 
 
-def _missing(claims: Sequence[Candidate]) -> str:
+def _missing(claims: Sequence[Candidate], left: float | None) -> str:
     names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c)])) for c in claims]
     # commas stand within a name and its probability
     text = f"missing: {names[0] if len(names) == 1 else ', and '.join([', '.join(names[:-1]), names[-1]])}"
-    return f"{text}; {_left_out(claims)}{_locked(claims)}"
+    return f"{text}; {_left_out(claims, left)}{_locked(claims)}"
 
 
 def _or_elsewhere(one: Candidate) -> str:
@@ -149,12 +155,32 @@ def _how_sure(one: Candidate) -> str:
     return "" if one.probability is None else f"probability {probability(one.probability)}"
 
 
-def _left_out(some: Sequence[Candidate]) -> str:
-    """What each gives on left-out tests. Over all of them an error may rise though it falls where the effect acts."""
+def _left_out(some: Sequence[Candidate], left: float | None) -> str:
+    """What each gives on left-out tests. Over all of them an error may rise though it falls where the effect acts.
+    left: the error of the user's own model."""
     if len(some) == 1:
-        return _from_to("error on left-out tests", some[0].rmse_um_before, some[0].rmse_um_after)
-    each = [f"{_from_to(c.effect, c.rmse_um_before, c.rmse_um_after)}" for c in some]
-    return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}"
+        others = listed(beside(some[0], left))
+        return _from_to("error on left-out tests" + (f" beside {others}:" if others else ""), some[0])
+    ids = {c.id for c in some}
+    if all(set(beside(c, left)) == ids - {c.id} for c in some):
+        each = [_from_to(c.effect, c) for c in some]
+        return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}"
+    each = [_from_to(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
+    return f"error on left-out tests: {', '.join(each)}"
+
+
+def _beside_or_alone(others: Sequence[str]) -> str:
+    return f"beside {listed(others)}" if others else "alone"
+
+
+def beside(one: Candidate, left: float | None) -> list[str]:
+    """Ids of the candidates that its errors on left-out tests have in the model too, without it and with it, as its
+    sentence names them; empty where they are of the user's own model. left: the error of that [um]."""
+    before = one.rmse_um_before
+    if before is None or (left is not None and math.isclose(before, left, rel_tol=1e-6)):
+        return []
+    found = re.search(r", beside (.+?), the error ", one.why)
+    return found[1].split(" and ") if found else []
 
 
 def _locked(claims: Sequence[Candidate]) -> str:
@@ -177,11 +203,17 @@ def _locked(claims: Sequence[Candidate]) -> str:
     return f"; locked tests{all_of} (judged by their shape where it acts; from their first samples on: {figures})"
 
 
-def _from_to(what: str, before: float | None, after: float | None) -> str:
+def _from_to(what: str, one: Candidate) -> str:
+    before, after = one.rmse_um_before, one.rmse_um_after
     if before is None or after is None:
         return f"{what} not known"
     figures = f"{number(before)} -> {number(after)} um"
-    return f"{what} {figures}" if after < before else f"{what} (falls where it acts only; over all: {figures})"
+    if after < before:
+        return f"{what} {figures}"
+    falls = next((r.value for r in one.rungs if r.name == "fall"), None)
+    if falls is not None and falls <= 0:
+        return f"{what} (does not fall, though the evidence speaks for it: {figures})"
+    return f"{what} (falls where it acts only; over all: {figures})"
 
 
 def _unclaimed(found: Diagnosis) -> str:
@@ -196,6 +228,16 @@ def _unclaimed(found: Diagnosis) -> str:
         f"something is missing{seen}, and the evidence suffices to name no cause; the likeliest that was logged is "
         f"{named(first)}, probability {probability(first.probability)}"
     )
+
+
+def in_parts(found: Diagnosis) -> str:
+    """'2 open tests are too few to leave one out, so 4 parts of them are left out in turn'; '' where tests are."""
+    parts = next((c.left_out for c in found.candidates if c.left_out), [])
+    tests = len({(p.campaign, p.test) for p in parts})
+    if tests == len(parts):
+        return ""
+    few = "1 open test is" if tests == 1 else f"{tests} open tests are"
+    return f"{few} too few to leave one out, so {len(parts)} parts of {'it' if tests == 1 else 'them'} are"
 
 
 def explainable(found: Diagnosis) -> str:
