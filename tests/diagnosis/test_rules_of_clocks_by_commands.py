@@ -184,8 +184,26 @@ def test_all_that_a_source_logged_is_put_where_it_happened() -> None:
 def test_a_jump_is_beyond_the_slope_around_it_and_none_over_a_hole() -> None:
     t = np.arange(40) * 60.0
     x = 0.5 * np.arange(40.0) + 3.0 * (np.arange(40) >= 20)
-    jump = beyond_trend(x[:, None], t)[:, 0]
+    jump = beyond_trend(x[:, None], t, 60.0)[:, 0]
     assert jump[19] == pytest.approx(3.0 - 3.0 / 5)
     assert jump[10] == pytest.approx(0.0)
     assert np.isnan(jump[:5]).all()
-    assert np.isnan(beyond_trend(x[:, None], t + 600.0 * (np.arange(40) >= 20))[15:25]).all()
+    assert np.isnan(beyond_trend(x[:, None], t + 600.0 * (np.arange(40) >= 20), 60.0)[15:25]).all()
+
+
+def test_bursts_of_measuring_tell_no_clock_for_heat_acts_between_them() -> None:
+    t = np.arange(40) * 360.0  # a minute's mean every six
+    x = 3.0 * (np.arange(40) >= 20)
+    assert np.isnan(beyond_trend(x[:, None], t, 60.0)).all()
+    assert np.isfinite(beyond_trend(x[:, None], t, 360.0)[5:-5]).all()
+
+
+@pytest.mark.parametrize(
+    ("minutes", "elsewhere", "off"),
+    [(60, 0.05, True), (60, 0.09, False), (65, 0.05, True), (66, 0.05, False), (114, 0.05, False), (20, 0.09, True)],
+)
+def test_an_hour_stands_out_of_what_chance_gives_at_other_shifts(minutes: int, elsewhere: float, off: bool) -> None:
+    found = Timing("nc", 60.0 * minutes, 0.135, 0.0, "c", "t0", elsewhere)
+    assert clock_is_off(found, 60.0) is off
+    of_all = replace(found, test="", elsewhere=0.135)
+    assert clock_is_off(of_all, 60.0) is (minutes not in (66, 114)), "all tests speak for it"

@@ -21,7 +21,8 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 MOST_S = 1800.0  # shifts that are asked, either way,
 MOST_SAMPLES = 60  # and no more than these;
-HOURS, ABOUT_S = (1, 2), 300.0  # and whole hours, give or take: a time zone, or daylight saving
+HOURS, ABOUT_S = (1, 2), 300.0  # and whole hours, give or take: a time zone, or daylight saving,
+RIM = 2.0  # asked for so many times as far: what chance gives, and what is best beyond is no whole hour
 AROUND = 5  # samples on either side of a jump that its slope is taken over
 RIDGE = 0.1  # of a column's squares: what hardly changes in the other tests must not foretell a large jump
 LEAST_SHARE = 0.1  # of the squared jumps, which the other tests foretell at the best shift
@@ -34,7 +35,7 @@ GIVE_OR_TAKE = 2  # samples between the shift found and the right one, at most
 class Timing:
     """shift_s: by which a source's commands foretell most when moved later; of one test beyond what all are moved by.
     share: of the squared jumps, foretold by the other tests at that shift. unmoved: the most within a sample of none.
-    campaign, test: the one that is asked of; '' for all of them."""
+    campaign, test: the one that is asked of; '' for all of them. elsewhere: the most at shifts that are not near it."""
 
     source: str
     shift_s: float
@@ -42,6 +43,7 @@ class Timing:
     unmoved: float
     campaign: str = ""
     test: str = ""
+    elsewhere: float = 0.0
 
     @property
     def tells(self) -> bool:
@@ -104,6 +106,11 @@ def commands_of(source: str, channels: Mapping[str, ChannelInfo]) -> list[tuple[
 def clock_is_off(timing: Timing, step_s: float) -> bool:
     """step_s: between two samples, nearer than two of which nothing is known."""
     late = abs(timing.shift_s) >= max(LEAST_S, (GIVE_OR_TAKE + 0.5) * step_s)
+    from_hour_s = abs(timing.shift_s - 3600.0 * round(timing.shift_s / 3600.0))
+    if abs(timing.shift_s) > MOST_S:
+        # among so many shifts some stands out by chance, in a test by itself
+        by_chance = timing.elsewhere if timing.test else 0.0
+        late &= from_hour_s <= ABOUT_S and timing.share >= BEATS * by_chance
     return late and timing.tells and timing.share >= BEATS * timing.unmoved
 
 
@@ -212,7 +219,9 @@ class _Sums:
     def _timing(self, source: str, shares: Float1D, all_s: float) -> Timing:
         best = int(np.argmax(shares))
         unmoved = float(shares[self._near(all_s)].max())
-        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved)
+        others = np.abs(self.shifts_s - self.shifts_s[best]) > 1.01 * AROUND * self.step_s
+        elsewhere = float(shares[others].max(initial=0.0))
+        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved, elsewhere=elsewhere)
 
     def _near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= 1.01 * self.step_s)
@@ -236,7 +245,7 @@ def _sums(problem: Problem, names: list[str]) -> _Sums | None:
     loudest = np.zeros_like(gram), np.zeros_like(cross), np.zeros_like(energy)
     most_of = _largest_jumps(problem)
     for k, (block, columns) in enumerate(zip(problem.blocks, held, strict=True)):
-        i, jump = tests.index(block.test.key), beyond_trend(block.response[:, None], block.t_s)[:, 0]
+        i, jump = tests.index(block.test.key), beyond_trend(block.response[:, None], block.t_s, problem.step_s)[:, 0]
         used = np.isfinite(jump)
         y = jump[used]
         energy[i] += float(y @ y)
@@ -244,7 +253,8 @@ def _sums(problem: Problem, names: list[str]) -> _Sums | None:
         loudest[2][i] += float(y[near] @ y[near])
         for s, shift_s in enumerate(shifts_s):
             logged = np.interp(block.t_s - shift_s, block.test.t_s, np.arange(len(block.test.t_s)))
-            x = beyond_trend(columns[np.round(logged).astype(np.int64)][:, acts] / size[acts], block.t_s)[used]
+            held_then = columns[np.round(logged).astype(np.int64)][:, acts] / size[acts]
+            x = beyond_trend(held_then, block.t_s, problem.step_s)[used]
             gram[i, s] += x.T @ x
             cross[i, s] += x.T @ y
             loudest[0][i, s] += x[near].T @ x[near]
@@ -256,7 +266,7 @@ def _largest_jumps(problem: Problem) -> dict[int, int]:
     """Number of a block -> its sample with the largest jump of the displacement in the whole test."""
     found: dict[tuple[str, str], tuple[float, int, int]] = {}
     for k, block in enumerate(problem.blocks):
-        jump = np.abs(np.nan_to_num(beyond_trend(block.response[:, None], block.t_s)[:, 0]))
+        jump = np.abs(np.nan_to_num(beyond_trend(block.response[:, None], block.t_s, problem.step_s)[:, 0]))
         if len(jump) and (most := float(jump.max())) > found.get(block.test.key, (0.0, 0, 0))[0]:
             found[block.test.key] = most, k, int(jump.argmax())
     return {k: i for _, k, i in found.values()}
@@ -264,7 +274,7 @@ def _largest_jumps(problem: Problem) -> dict[int, int]:
 
 def _shifts(most: int, step_s: float) -> Int1D:
     """In samples, in order."""
-    about = np.arange(-int(ABOUT_S / step_s), int(ABOUT_S / step_s) + 1)
+    about = np.arange(-int(RIM * ABOUT_S / step_s), int(RIM * ABOUT_S / step_s) + 1)
     hours = [sign * round(h * 3600.0 / step_s) + about for h in HOURS for sign in (-1, 1)]
     return np.unique(np.concatenate([np.arange(-most, most + 1), *hours])).astype(np.int64)
 
@@ -282,13 +292,13 @@ def _powers(test: TestData, names: list[str]) -> Float2D:
     return np.column_stack(columns)
 
 
-def beyond_trend(x: Float2D, t_s: Float1D) -> Float2D:
+def beyond_trend(x: Float2D, t_s: Float1D, step_s: float) -> Float2D:
     """What x, shape (m, k), changes by over the two intervals around each sample, beyond the mean slope around it: NaN
-    at ends and where a hole is."""
+    at ends, and where samples are further apart than step_s: in bursts of measuring, heat acts between two of them."""
     jump = np.full(x.shape, np.nan)
     if len(x) > 2 * AROUND:
         wide = t_s[2 * AROUND :] - t_s[: -2 * AROUND]
-        whole = np.abs(wide - 2 * AROUND * np.median(np.diff(t_s))) < 0.6 * np.median(np.diff(t_s))
+        whole = np.abs(wide - 2 * AROUND * step_s) < 0.6 * step_s
         near = x[AROUND + 1 : len(x) - AROUND + 1] - x[AROUND - 1 : len(x) - AROUND - 1]
         jump[AROUND:-AROUND] = np.where(whole[:, None], near - (x[2 * AROUND :] - x[: -2 * AROUND]) / AROUND, np.nan)
     return jump
