@@ -28,6 +28,7 @@ _SIDES = ("front", "rear", "left", "right")
 _PLAIN = (
     "headstock",
     "ram",
+    "tailstock",
     "saddle",
     "crossbeam",
     "workpiece",

@@ -66,7 +66,8 @@ _PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
     "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
     "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
-    "pracovni~vreteno pracovni~vretene workspindle work~spindle",
+    "pracovni~vreteno pracovni~vretene pracovniho~vretene pracovniho~vretena pracovnim~vretenu pracovnim~vreteni "
+    "pracovni~vretenik pracovniho~vreteniku pracovnim~vreteniku workspindle work~spindle",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement cuscinett palier. "
     "paliers.",
@@ -95,6 +96,7 @@ _PLACE_WORDS: dict[str, str] = {
     "tavola. plateau.",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
+    "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
     "ram": "ram. pinole traghuls traghuels ^smykadl 滑枕 quill.",
     "saddle": "saddle schlitten ^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",

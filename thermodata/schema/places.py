@@ -22,6 +22,7 @@ PLACES: dict[str, str] = {
     "spindle.gearbox": "the gearbox between motor and spindle",
     "headstock": "the housing that holds the spindle",
     "ram": "the slide that carries the spindle out",
+    "tailstock": "what holds the far end of a part that turns",
     "saddle": "the slide between two axes",
     "crossbeam": "the beam of a gantry or a portal",
     "column": "the column, where its sides are not told apart",
