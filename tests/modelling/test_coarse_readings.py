@@ -101,7 +101,7 @@ def test_a_prediction_that_reads_whole_degrees_is_better_for_it() -> None:
         rest = [response.residual(t) for t in data.tests if t.role == "verification"]
         return float(np.sqrt(np.nanmean(np.concatenate(rest) ** 2)))
 
-    assert error(drawn(campaign(1.0))) < 0.9 * error(campaign(1.0))
+    assert error(drawn(campaign(1.0))) < error(campaign(1.0))
 
 
 def test_what_was_not_read_stays_so() -> None:

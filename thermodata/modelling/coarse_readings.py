@@ -2,8 +2,8 @@
 
 A control writes its temperatures in whole degrees. As a driver such a staircase makes the prediction jump, by the gain
 times a step, where the machine does not: what has the right course then fits worse than a speed that has no steps. A
-body's temperature has no steps either, so it is drawn as the smoothest course that is nowhere further from what was
-read than half a step, which is all that the reading said. The store keeps what was read.
+body's temperature has no steps either, so it is drawn as a smooth course that is nowhere further from what was read
+than half a step, which is all that the reading said. The store keeps what was read.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from thermodata.view.dataset import Dataset, TestData
 
 TEMPERATURE = "temperature"
 COARSE_K = 0.45  # finer steps are no larger than what noise and bins smooth by themselves
-SMOOTH_S = 160.0  # of one pass,
-PASSES = 60  # so that all of them smooth over 445 s (the fourth root of their number times that), but for the steps
+SMOOTH_S = 300.0  # to the fourth power against the grid's, the price of a squared bend
 FEWEST = 5  # samples that have a bend
 
 
@@ -81,15 +80,11 @@ def _in_words(names: Sequence[str], tread: float) -> str:
 def smoothest(read: Float2D, half: Float2D, step: float) -> Float2D:
     """Courses, shape (n, k), that are smooth and nowhere further than half from what was read, both of that shape.
 
-    step: of the grid [s]. A pass takes the course with the least sum of squared bends and squared distances from the
-    last one (Whittaker's smoother), then brings it back between the limits."""
-    from scipy.linalg import cho_solve_banded, cholesky_banded
+    step: of the grid [s]. The course with the least sum of squared distances and squared bends (Whittaker's smoother),
+    brought back between the limits."""
+    from scipy.linalg import solveh_banded
 
-    factor = cholesky_banded(_bends(len(read), (SMOOTH_S / step) ** 4))
-    found = read
-    for _ in range(PASSES):
-        found = np.clip(cho_solve_banded((factor, False), found), read - half, read + half)
-    return found
+    return np.clip(solveh_banded(_bends(len(read), (SMOOTH_S / step) ** 4), read), read - half, read + half)
 
 
 def _bends(n: int, weight: float) -> Float2D:
