@@ -84,7 +84,8 @@ def smoothest(read: Float2D, half: Float2D, step: float) -> Float2D:
     brought back between the limits."""
     from scipy.linalg import solveh_banded
 
-    return np.clip(solveh_banded(_bends(len(read), (SMOOTH_S / step) ** 4), read), read - half, read + half)
+    smooth = solveh_banded(_bends(len(read), (SMOOTH_S / step) ** 4), read)
+    return np.asarray(np.clip(smooth, read - half, read + half), dtype=np.float64)
 
 
 def _bends(n: int, weight: float) -> Float2D:
