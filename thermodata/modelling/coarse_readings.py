@@ -20,7 +20,7 @@ from thermodata.view.dataset import Dataset, TestData
 
 TEMPERATURE = "temperature"
 COARSE_K = 0.45  # finer steps are no larger than what noise and bins smooth by themselves
-SMOOTH_S = 300.0  # to the fourth power against the grid's, the price of a squared bend
+SMOOTH_S = 150.0  # to the fourth power against the grid's, the price of a squared bend
 FEWEST = 5  # samples that have a bend
 
 
