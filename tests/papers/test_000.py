@@ -313,8 +313,7 @@ def test_no_input_is_best_and_none_fails(lab: Lab) -> None:
         for direction in "XYZ":
             mine = {r["name"][2:]: r for r in rows if r["response"] == f"d{direction}" and r["test"] == "mean"}
             cause = PRINTED[f"{direction}T{axis.upper()}"][0]
-            # one of the three is logged in steps of 1 K
-            assert all(mine[cause]["fit"] > mine[kind]["fit"] - 0.5 for kind in INPUTS), (axis, direction)
+            assert all(mine[cause]["fit"] > mine[kind]["fit"] for kind in INPUTS if kind != cause), (axis, direction)
             assert all(mine[kind]["fit"] > 80 for kind in INPUTS), (axis, direction)
             best.add(max(mine, key=lambda kind: mine[kind]["fit"]))
         for row in rows:
