@@ -146,6 +146,14 @@ def test_a_true_jump_stays_where_it_is() -> None:
     assert np.flatnonzero(np.abs(np.diff(found[:, 0])) > 10).tolist() == [99, 199]
 
 
+@pytest.mark.parametrize("step", [1.0, 0.1, 0.02, 0.01, 1e-3, 1e-6])
+def test_no_grid_is_too_fine(step: float) -> None:
+    read = np.round(np.sin(np.arange(20_000) / 900.0) * 9)[:, None]
+    found = smoothest(read, np.full_like(read, 0.5), step)
+    assert np.isfinite(found).all()
+    assert np.abs(found - read).max() <= 0.5 + 1e-9
+
+
 @settings(max_examples=60, deadline=None)
 @given(
     st.lists(st.integers(-40, 120), min_size=5, max_size=80),

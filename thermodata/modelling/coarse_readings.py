@@ -21,6 +21,7 @@ from thermodata.view.dataset import Dataset, TestData
 TEMPERATURE = "temperature"
 COARSE_K = 0.45  # finer steps are no larger than what noise and bins smooth by themselves
 SMOOTH_S = 150.0  # to the fourth power against the grid's, the price of a squared bend
+MOST_PRICE = 1e10  # more, as on grids finer than 0.5 s, and float64 no longer solves it
 FEWEST = 5  # samples that have a bend
 
 
@@ -84,14 +85,15 @@ def smoothest(read: Float2D, half: Float2D, step: float) -> Float2D:
     brought back between the limits."""
     from scipy.linalg import solveh_banded
 
-    smooth = solveh_banded(_bends(len(read), (SMOOTH_S / step) ** 4), read)
+    price = min((SMOOTH_S / step) ** 4, MOST_PRICE)
+    smooth = solveh_banded(_bends(len(read), price), read)
     return np.asarray(np.clip(smooth, read - half, read + half), dtype=np.float64)
 
 
-def _bends(n: int, weight: float) -> Float2D:
-    """One plus weight times the sum of squared second differences, as its upper bands, shape (3, n)."""
+def _bends(n: int, price: float) -> Float2D:
+    """One plus price times the sum of squared second differences, as its upper bands, shape (3, n)."""
     bands = np.zeros((3, n))
-    bends: Float1D = np.full(n - 2, weight)
+    bends: Float1D = np.full(n - 2, price)
     bands[2] = 1.0
     for at, times in ((0, 1.0), (1, 4.0), (2, 1.0)):
         bands[2, at : n - 2 + at] += times * bends
