@@ -51,7 +51,7 @@ def screw(size: float) -> Add:
 
 def test_what_heads_the_list_is_not_said_to_be_hidden() -> None:
     """It is selected, and hides itself: that a known effect does nearly all of it would contradict the list."""
-    found = diagnosed(make_data(screw(6.0)))
+    found = diagnosed(make_data(screw(3.5)))
     assert (found.verdict, found.candidates[0].id) == ("unknown", SCREW)
     assert found.limits, "others are told"
     assert SCREW not in [one.id for one in found.limits]

@@ -41,7 +41,8 @@ def on_two_axes() -> dict[bool, Diagnosis]:
             }
             valid = {**test.valid, "dX": np.ones(len(bearing), bool)}
             channels = {**CHANNELS, "dX": X} if logged else CHANNELS
-            tests.append(replace(test, values=values, valid=valid, channels=channels))
+            if test.role != "locked":  # they would speak for it, too
+                tests.append(replace(test, values=values, valid=valid, channels=channels))
         data = replace(data, tests=tuple(tests), channels={**CHANNELS, "dX": X} if logged else CHANNELS)
         found[logged] = answer(fit_model(base(), data, uncertainty=False), data, effects(), "m").diagnosis
     return found

@@ -13,9 +13,10 @@ from thermodata.diagnosis import investigate as investigating
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns
+from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.investigate import Investigation, investigate
+from thermodata.diagnosis.judge import Judged
 from thermodata.diagnosis.known_effects import base_columns, otherwise, owners
-from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
@@ -182,7 +183,8 @@ class TestJudged:
         assert "spindle_bearing:T_bearing" not in self.asked
         assert "lag:T_hall" in self.asked
         assert (found.judgement.verdict, found.selection) == ("not_testable", None)
-        assert found.borne_out([]) is None
+        one = scored()
+        assert found.borne_out(Judged(one, one, None, ()), ()) is None
 
     def test_steps_are_looked_for_in_fine_samples_and_candidates_weighed_in_2400(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
@@ -260,18 +262,18 @@ class TestJudged:
             return self.investigated(monkeypatch, data, fitted.responses[0], some, refined=["mode"], **more)
 
         found = investigated(members, locked=locked)
-        result = found.borne_out(found.judgement.claims)
+        result = found.borne_out(found.judgement.claims[0], ())
         assert result is not None
         assert result.holds
         assert asked == [(4, 3, ["mode", "blunt"], ["cause"]), (4, 3, ["mode"], ["cause"])]
         asked.clear()
         holds[:] = [False]
         found = investigated(members[:2], locked=locked)
-        result = found.borne_out(found.judgement.claims)
+        result = found.borne_out(found.judgement.claims[0], ())
         assert result is not None
         assert not result.holds
         assert len(asked) == 1, "nothing but refinements stood beside it"
-        assert investigated(members).borne_out(found.judgement.claims) is None, "there are no locked tests"
+        assert investigated(members).borne_out(found.judgement.claims[0], ()) is None, "there are no locked tests"
 
     def test_wrong_parameters_are_those_of_the_model_that_is_asked_about(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel

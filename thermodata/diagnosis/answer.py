@@ -11,13 +11,13 @@ from thermodata.diagnosis import ladder
 from thermodata.diagnosis.advice import advice
 from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Confirmation, confirm
+from thermodata.diagnosis.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.copies import as_artefacts, copies
 from thermodata.diagnosis.detection import LARGE, Limit
+from thermodata.diagnosis.foretold import Looked
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.left_on_locked import contradicted
-from thermodata.diagnosis.locked import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.other_axes import OtherAxes
@@ -53,8 +53,8 @@ def answer(
     *,
     left_on_locked: Mapping[str, float] | None = None,
 ) -> Answer:
-    """Diagnose the response that the model predicts worst; locked tests are opened for a claim only, once.
-    left_on_locked: response -> their error, where it is known already."""
+    """Diagnose the response that the model predicts worst; locked tests are opened once, for what is claimed
+    or likely. left_on_locked: response -> their error, where it is known already."""
     tests = fitted.tests(data)
     index = worst_response(fitted, tests)
     response = fitted.responses[index]
@@ -77,39 +77,46 @@ def answer(
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)
-    if not judgement.claims:
-        judgement = contradicted(judgement, known, response, locked)
-        locked = []
-    else:
-        added: dict[tuple[str, ...], Confirmation] = {}
-        asked: dict[tuple[str, ...], frozenset[tuple[str, str]] | None] = {}
+    opened = bool(locked and (judgement.claims or judgement.likely))
+    if opened or judgement.claims:
+        fits = Fits(fitted.spec, index, data, usable, locked, refitted)
 
-        def names(claims: Sequence[Judged]) -> tuple[str, ...]:
-            return tuple(c.scored.candidate.id for c in claims)
-
-        def confirmed(claims: Sequence[Judged]) -> Confirmation:
-            key = names(claims)
-            if key not in added:
-                chosen = [c.scored.candidate for c in claims]
-                added[key] = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
-            return added[key]
-
-        def look(claims: Sequence[Judged]) -> Looked | None:
-            foretold = investigation.borne_out(claims)
-            if foretold is None:
-                return None
-            asked[names(claims)] = foretold.tests
-            return Looked(foretold, confirmed(claims).on(foretold.tests), investigation.measure.floor)
+        def look(some: Sequence[Judged]) -> list[Looked] | None:
+            found = []
+            for number, one in enumerate(some):
+                others = [*some[:number], *some[number + 1 :]]
+                foretold = investigation.borne_out(one, others)
+                if foretold is None:
+                    return None
+                beside = [o.scored.candidate for o in others]
+                added = fits.foretold(beside, one.scored.candidate, foretold.tests)
+                found.append(Looked(foretold, added, investigation.measure.floor))
+            return found
 
         judgement = kept_where_they_hold(
-            judgement, look, lambda twin: claimable(twin, investigation.measure, response.unit), response.unit
+            judgement,
+            look,
+            lambda twin: claimable(twin, investigation.measure, response.unit),
+            investigation.conclude,
+            response.unit,
         )
-        if kept := judgement.claims:
-            confirmation = replace(confirmed(kept), asked=asked.get(names(kept)))
+        if judgement.claims:
+            chosen = [c.scored.candidate for c in judgement.claims]
+            confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
+            confirmation = replace(confirmation, asked=_asked(judgement.claims))
+    if not judgement.claims:
+        judgement = contradicted(judgement, known, response, locked)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
     beside = {"locked_rmse_um": known, "put_right": asked_of.told}
-    return Answer(found.model_copy(update=beside), tuple(locked))
+    return Answer(found.model_copy(update=beside), tuple(locked) if opened else ())
+
+
+def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
+    """The keys of the locked tests in which one of them acts; None: all."""
+    tests = [c.scored.looked.foretold.tests for c in claims if c.scored.looked is not None]
+    found = [t for t in tests if t is not None]
+    return frozenset[tuple[str, str]]().union(*found) if found and len(found) == len(tests) else None
 
 
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
@@ -164,7 +171,9 @@ def _diagnosis(
         else None,
         next_test=advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data, terms),
         response_um=investigation.measure.spread,
-        limits=[_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
+        limits=[]
+        if judgement.claims
+        else [_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
         chance=ladder.chance(investigation.measure),
     )
 

@@ -19,7 +19,7 @@ from thermodata.diagnosis.present import (
     modes,
     stands_for,
 )
-from thermodata.diagnosis.unread import is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.unread import is_holder, is_motion, part_of, parts_of, unread
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
 from thermodata.modelling.candidate import with_effect
@@ -53,7 +53,8 @@ class CandidateEffect:
     declared where it sits, while others have a place. log_prior: how much less probable than others before any data.
     kin: how near it is to what the model has already (`Kin`). unforetold: why left-out tests can't be asked of it; None
     where they can. unread: places of other parts that it may be (`diagnosis.unread`). around: whether it reads nothing
-    but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions."""
+    but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
+    of_holder: whether it reads the temperature of what holds the probes, which warms with all in the working space."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -66,6 +67,7 @@ class CandidateEffect:
     unread: tuple[str, ...] = ()
     around: bool = False
     of_motion: bool = False
+    of_holder: bool = False
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -171,6 +173,7 @@ def candidates(
                     unread=other,
                     around=around,
                     of_motion=of_motion,
+                    of_holder=all(is_holder(usable[n]) for n in names),
                 )
             )
     named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}

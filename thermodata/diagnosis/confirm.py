@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.locked import Foretold
+from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.problem import freed
 from thermodata.diagnosis.scored import ACTS
 from thermodata.modelling.fit import fit_model
@@ -58,14 +58,7 @@ class Confirmation:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
         if tests is None:
             return self.foretold
-        some = [s for s in self.shapes if s.key in tests]
-        rows = sum(s.rows for s in some)
-        if not rows:
-            return None
-        before, after, changed = (
-            float(np.sqrt(sum(getattr(s, name) for s in some) / rows)) for name in ("before", "after", "changed")
-        )
-        return Foretold(before, after, changed, tests=tests)
+        return _foretold([s for s in self.shapes if s.key in tests], tests)
 
     @property
     def foretold(self) -> Foretold | None:
@@ -126,6 +119,51 @@ def confirm(
         tuple(_shape(ours, theirs, t) for t in usable),
         acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
     )
+
+
+class Fits:
+    """Of a model with candidates, to all open tests, each made once; and what they leave on the locked tests."""
+
+    def __init__(
+        self,
+        spec: Model,
+        index: int,
+        data: Dataset,
+        tests: Sequence[TestData],
+        locked: Sequence[TestData],
+        base: FittedModel,
+    ) -> None:
+        """index: of the response among the model's responses. base: the fit without any candidate."""
+        self.spec, self.index, self.data = on_all_open(spec, tests, locked), index, data
+        self.locked = locked
+        self._kept = {frozenset[str](): base.responses[index]}
+
+    def foretold(
+        self, others: Sequence[CandidateEffect], one: CandidateEffect, tests: frozenset[tuple[str, str]] | None
+    ) -> Foretold | None:
+        """What one adds to the model with others, by shape on some of the locked tests (None: all); None where none of
+        them can be predicted."""
+        ours, theirs = self._of(others), self._of([*others, one])
+        usable = [t for t in self.locked if tests is None or t.key in tests]
+        usable = [t for t in usable if ours.can_predict(t) and theirs.can_predict(t)]
+        return _foretold([_shape(ours, theirs, t) for t in usable], tests)
+
+    def _of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
+        key = frozenset(c.id for c in candidates)
+        if key not in self._kept:
+            fitted = fit_model(extended(self.spec, candidates), self.data, uncertainty=False)
+            self._kept[key] = fitted.responses[self.index]
+        return self._kept[key]
+
+
+def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
+    rows = sum(s.rows for s in shapes)
+    if not rows:
+        return None
+    before, after, changed = (
+        float(np.sqrt(sum(getattr(s, name) for s in shapes) / rows)) for name in ("before", "after", "changed")
+    )
+    return Foretold(before, after, changed, tests=tests)
 
 
 def _acting(

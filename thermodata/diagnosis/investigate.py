@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -16,11 +16,12 @@ from thermodata.diagnosis.clocks import timings
 from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
+from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.gain_by import gains_by_condition
-from thermodata.diagnosis.judge import Judged, Judgement, judge
+from thermodata.diagnosis.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.known import Known, known, rms
 from thermodata.diagnosis.known_effects import owners, remembered
-from thermodata.diagnosis.locked import Foretold, foretell
+from thermodata.diagnosis.locked import foretell
 from thermodata.diagnosis.logging_faults import (
     clock_offsets,
     faulty_sensors,
@@ -46,14 +47,15 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
-# what the locked tests say of some claims; None where there are none
-BorneOut = Callable[[Sequence[Judged]], Foretold | None]
+# what one claim foretells of the locked tests beside the others that are claimed; None where there are none
+BorneOut = Callable[[Judged, Sequence[Judged]], Foretold | None]
+Conclude = Callable[[tuple[Judged, ...]], Judgement]
 
 
 @dataclass(frozen=True, slots=True)
 class Investigation:
-    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out. limits:
-    how large what is not named would have to be, where nothing is claimed."""
+    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
+    conclude: judges members anew. limits: how large what is not named would have to be, where nothing is claimed."""
 
     problem: Problem
     selection: Selection | None
@@ -62,6 +64,7 @@ class Investigation:
     judgement: Judgement
     measure: Measure
     borne_out: BorneOut
+    conclude: Conclude
     limits: tuple[Limit, ...] = ()
 
 
@@ -113,23 +116,31 @@ def investigate(
         *faulty_sensors(data, fitted.name),
     ]
 
-    def borne_out(claims: Sequence[Judged]) -> Foretold | None:
+    @cache
+    def with_locked() -> Problem:
         blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
         closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
-        if selection is None or not closed:
+        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
+
+    def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
+        both, opened = with_locked(), len(problem.blocks)
+        if selection is None or len(both.blocks) == opened:
             return None
-        chosen = {id(c.alone.columns) for c in claims}
-        kept = [m.scored for m in selection.members if id(m.alone.columns) not in chosen]
-        both = replace(problem, blocks=(*problem.blocks, *closed), kept={})
-        claimed, refining = [c.scored for c in claims], [j.scored for j in judgement.refinements]
+        claimed = {id(c.alone.columns) for c in (claim, *others)}
+        beside = [o.scored for o in others]
+        kept = [*beside, *(m.scored for m in selection.members if id(m.alone.columns) not in claimed)]
+        refining = [*beside, *(j.scored for j in judgement.refinements)]
         with threadpool_limits(1):
-            beside_all = foretell(both, len(problem.blocks), selection.noise, kept, claimed)
+            beside_all = foretell(both, opened, selection.noise, kept, [claim.scored])
             # what stands beside a claim without being one may stand in its way
             if beside_all.holds or len(kept) == len(refining):
                 return beside_all
-            return foretell(both, len(problem.blocks), selection.noise, refining, claimed)
+            return foretell(both, opened, selection.noise, refining, [claim.scored])
 
-    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out, unseen)
+    def conclude(judged: tuple[Judged, ...]) -> Judgement:
+        return judgement if selection is None else concluded(problem, selection, measure, judged)
+
+    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen)
 
 
 def causes_of(

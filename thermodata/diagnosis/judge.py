@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.present import CONTROL, GENERIC
-from thermodata.diagnosis.probability import sharpness
+from thermodata.diagnosis.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import FLOOR_SHARE, Measure, blunt, contradicts, failed_rules, halves, is_plain
 from thermodata.diagnosis.scored import Scored
@@ -41,7 +41,8 @@ class Judged:
 @dataclass(frozen=True, slots=True)
 class Judgement:
     """claims: missing causes, in the order of their choice. refinements: of effects that the model has. judged: all
-    members. refused: what would be claimed, but for the locked tests, with their doubts (`opened`)."""
+    members. likely: what would be claimed if the locked tests spoke for it, the likeliest first. refused: what would be
+    claimed, but for the locked tests (`opened`)."""
 
     verdict: Verdict
     claims: tuple[Judged, ...]
@@ -49,6 +50,7 @@ class Judgement:
     judged: tuple[Judged, ...]
     reason: str
     refused: tuple[Judged, ...] = ()
+    likely: tuple[Judged, ...] = ()
 
 
 def judge(
@@ -64,10 +66,16 @@ def judge(
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
     judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
-    claims = _causes([j for j in judged if j.refines is None and blunt(j.scored) is None])[:MOST_CLAIMS]
+    return concluded(problem, selection, measure, judged)
+
+
+def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
+    """The same of members that are judged already."""
+    own = [j for j in judged if j.refines is None]
+    claims = _causes([j for j in own if blunt(j.scored) is None])[:MOST_CLAIMS]
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
-        return Judgement("effect", claims, kept, judged, "")
+        return Judgement("effect", claims, kept, judged, "", likely=_likely(own, claims))
     left = selection.left
     halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
     # what a known effect takes for its own leaves no error, and is plain all the same
@@ -78,24 +86,30 @@ def judge(
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
         return Judgement("none", (), (), judged, why)
-    standing = [j for j in judged if j.refines is None]
     more_than_noise = left if left > measure.noises else 0.0
-    if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in standing):
+    if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
         rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
         if rest <= limit:
             return Judgement(
                 "refine" if kept else "none", (), kept, judged, _enough(rest, limit, problem.unit, measure)
             )
     best = selection.first.ranked[0]
-    if standing:
-        best = standing[0].scored
+    if own:
+        best = own[0].scored
     failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
         f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
         f"logged explains them{because}"
     )
-    return Judgement("unknown", (), kept, judged, why)
+    return Judgement("unknown", (), kept, judged, why, likely=_likely(own, ()))
+
+
+def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:
+    """What the locked tests may make a claim beside the claims, as many as there may be."""
+    causes = _causes([j for j in own if may_be_confirmed(j.scored)])
+    others = [j for j in causes if not any(j is c for c in claims)]
+    return tuple(sorted(others, key=lambda j: -probability(j.scored))[: MOST_CLAIMS - len(claims)])
 
 
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:

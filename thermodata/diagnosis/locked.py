@@ -1,5 +1,4 @@
-"""What the whole set foretells of the locked tests, and what it would foretell without its claims; and what these tests
-say of the claims, in two ways.
+"""What the whole set foretells of the locked tests, and what it would foretell without a claim.
 
 The open tests alone choose and estimate; noise, time constants and gains come from them. Where several effects are
 missing, one alone says little there, so the claims are asked beside all that was selected with them.
@@ -8,81 +7,17 @@ missing, one alone says little there, so the claims are asked beside all that wa
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import columns, moments, weigh
+from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.known import Known, known
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import ACTS, Scored
 from thermodata.diagnosis.selection import extended
 from thermodata.plugin import Bool1D, Float1D, Int1D
-
-KEPT = 0.5  # share of what is added that must take away as much of the squared error as it is itself,
-LEAST = 0.02  # and the least fall of the error;
-MUCH = 0.25  # a fall of the error that is enough by itself,
-PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tell a fall from half of it
-
-
-@dataclass(frozen=True, slots=True)
-class Foretold:
-    """RMS on the locked tests that are asked, a free offset a test, in the response's unit. changed: of what the claims
-    change. gained: log probability a sample that the claims add to these tests, given the open ones, in their noise.
-    tests: the keys of those that are asked; None: all."""
-
-    before: float
-    after: float
-    changed: float
-    gained: float = 0.0
-    tests: frozenset[tuple[str, str]] | None = None
-
-    @property
-    def falls(self) -> bool:
-        return self.after < (1 - LEAST) * self.before
-
-    @property
-    def holds(self) -> bool:
-        """Whether the error falls by what a cause would take away. What a cause adds is not to be found in what is left
-        afterwards, so the squared error falls by the square of what is added; a proxy's falls by less."""
-        keeps = self.before**2 - self.after**2 >= KEPT * self.changed**2
-        enough = keeps or self.after < (1 - MUCH) * self.before or self.gained >= PROBABLE
-        return self.falls and enough
-
-    def says(self, floor: float) -> bool:
-        """Whether there is more to be foretold than what is left alone: else these tests excite nothing of it."""
-        return max(self.before, self.after) > floor
-
-
-@dataclass(frozen=True, slots=True)
-class Looked:
-    """The locked tests of some claims, looked at in two ways. foretold: by the known effects, free to act otherwise as
-    the noise has it. added: by the model as it stands, with the claims added; None where it can't predict them. floor:
-    an error that is left alone."""
-
-    foretold: Foretold
-    added: Foretold | None
-    floor: float
-
-    @property
-    def doubting(self) -> list[Foretold]:
-        """Those of the two that do not bear the claims out. With a lag more the others of the model as it stands stay
-        as simple as they are, and less is taken away than it adds: there it is enough that the error falls."""
-        found = [] if self.foretold.holds else [self.foretold]
-        found += [] if self.added is None or self.added.falls else [self.added]
-        return [f for f in found if f.says(self.floor)]
-
-    @property
-    def doubts(self) -> int:
-        """In how many of the two ways the claims are not borne out."""
-        return len(self.doubting)
-
-    @property
-    def refuted(self) -> bool:
-        """Whether the error falls in neither way."""
-        saying = [f for f in (self.foretold, self.added) if f is not None and f.says(self.floor)]
-        return bool(saying) and not any(f.falls for f in saying)
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:

@@ -147,10 +147,9 @@ def to_find(
         logged = f"do {first.candidate.protocol}; if nothing differs, "
     elif first is not None and first.drop >= WORTH_A_TEST:
         names = ", ".join(first.candidate.channels)
-        logged = (
-            f"{names} is logged and ranks first, so run a test that moves it alone, or open the locked tests for "
-            f"{first.candidate.id} (thermodata confirm); if it is not that, "
-        )
+        closed = first.looked is None
+        opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
+        logged = f"{names} is logged and ranks first, so run a test that moves it alone{opened}; if it is not that, "
     return (
         f"{tests} tests took part, so more of the same will not tell: {logged}log what is not logged yet near the "
         f"parts that work where the model fails most ({worst})"

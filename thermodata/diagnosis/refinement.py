@@ -6,6 +6,7 @@ or it acts as a known effect would if its temperature counted from another one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,7 @@ from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
 from thermodata.diagnosis.probability import probability, sharpness
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import STRONG, acting_size, blunt
+from thermodata.diagnosis.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
@@ -34,13 +35,16 @@ MOST, SURE = 0.6, 0.85
 # a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
 REPLACED = 0.1
 WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
-KEPT = 0.5  # and stands beside it where it is worth this share
+KEPT = 0.25  # and stands beside it where it is worth this share
 LIKE = 0.9  # and both act alike (cosine)
 AT_ALL_LIKE = 0.5  # another mode of a known part acts at all as it does
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
 EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
+# nor does the machine move by this share of what the candidate does, in a quarter of the tests in which the known
+# effect does less than the candidate
+MOVES, QUARTER = 0.6, 0.25
 
 
 class Refinement:
@@ -162,13 +166,28 @@ class Refinement:
                 return None
             alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
         own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
-        return channels[0] if _takes_away(own, theirs) else None
+        if not _takes_away(own, theirs) or self._moves_by_itself(term, [own for own, _ in alike]):
+            return None
+        return channels[0]
+
+    def _moves_by_itself(self, term: int, candidate: Sequence[Float1D]) -> bool:
+        """Whether the machine moves where a known effect does less than the candidate: an effect that counts from
+        another temperature is taken back there, and the machine rests. candidate: what it does, a test each."""
+        others = [n for n in range(len(self.fitted.terms)) if n != term]
+        shares = []
+        for block, own in zip(self.problem.blocks, candidate, strict=True):
+            known = self._does(block, term)
+            if own.std() >= known.std() and own.any():
+                left = block.response - sum((self._does(block, n) for n in others), np.zeros(len(own)))
+                shares.append(float(left.std() / own.std()))
+        return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
 
 
 def _is_surely_missing(scored: Scored) -> bool:
-    """Whether it takes away most, and is sure. A motion has the timing of no part: what
-    one lag of a known part leaves follows the same motion."""
-    return not scored.candidate.of_motion and scored.drop >= MOST and probability(scored) >= SURE
+    """Whether it takes away most, and is sure. A motion has the timing of no part: what one lag of a known part leaves
+    follows the same motion, but leaves less evidence."""
+    timed = not scored.candidate.of_motion or sharpness(scored) >= EVIDENT
+    return timed and scored.drop >= MOST and probability(scored) >= SURE
 
 
 def _surrounds(candidate: CandidateEffect) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.foretold import Looked
 from thermodata.plugin import Bool1D, Float1D
 
 if TYPE_CHECKING:
@@ -24,8 +25,8 @@ class Scored:
     size and times from the other tests, what is known fitted beside it to all. size: RMS of the contribution in each
     test. spread: of its gain between tests. shape: whitened contribution without what the known effects can do, unit
     length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
-    another cause that was selected has more evidence a sample. doubts: of a claim, in how many of two ways the locked
-    tests do not bear it out (`locked.Looked`). also_on: (channel, probability there) of each other axis on which it is
+    another cause that was selected has more evidence a sample. looked: of what might be claimed, what the locked tests
+    say; None where they were not opened for it. also_on: (channel, probability there) of each other axis on which it is
     missing too, where that was asked. others: ids of the candidates that it was weighed beside."""
 
     candidate: CandidateEffect
@@ -43,7 +44,7 @@ class Scored:
     shape: Float1D
     credit: float | None = None
     beaten: bool = False
-    doubts: int = 0
+    looked: Looked | None = None
     also_on: tuple[tuple[str, float], ...] = ()
     others: tuple[str, ...] = ()
 

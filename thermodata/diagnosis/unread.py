@@ -92,6 +92,12 @@ def warms_the_holder(channel: Described) -> bool:
     return cuts or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 
+def is_holder(channel: Described) -> bool:
+    """Whether it is the temperature of what holds the probes."""
+    part = part_of(channel.at)
+    return channel.quantity == TEMPERATURE and part is not None and part.name == HOLDER
+
+
 def is_motion(quantity: str) -> bool:
     """Whether it makes the heat of an axis, and has the timing of no part."""
     return quantity in MAKES_HEAT

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.confirm import Confirmation
+from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.locked import Foretold
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.rules import also_missing, blunt, failed_rules
 from thermodata.diagnosis.scored import Scored
@@ -33,8 +33,7 @@ def why(
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if among(member, judgement.claims):
-        together, floor = len(judgement.claims) > 1, investigation.measure.floor
-        locked = _on_locked(s, held, unit, together=together, floor=floor) if held else ""
+        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
         return f"{numbers}; {of_chance}{elsewhere}{locked}"
@@ -54,9 +53,8 @@ def why(
     return f"{numbers}; not claimed: {judgement.reason}"
 
 
-def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool, floor: float) -> str:
-    """The errors as scored; where they do not fall, beside them those that the claim holds by. floor: an error that is
-    left alone."""
+def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
     if held.before is None or held.after is None:
         return ""
     what = " with all that is claimed" if together else ""
@@ -69,12 +67,16 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool, floo
             f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
             "offset a test"
         )
-    if s.doubts != 1:
-        return figures + (", which do not bear it out" if s.doubts else "")
-    # the other way is that the model's effects may act otherwise
-    if shape is not None and shape.says(floor) and not shape.falls:
-        return f"{figures}: added as it stands it makes them worse, and they bear it out only where {_OTHERWISE}"
-    return f"{figures}, which bear it out as it stands, and not where {_OTHERWISE}"
+    return figures + (_in_one_way(s.looked) if s.looked is not None else "")
+
+
+def _in_one_way(looked: Looked) -> str:
+    """How much of it the locked tests bear out, where that is not all."""
+    if looked.added is not None and len(looked.saying) > 1 and looked.added.falls != looked.foretold.falls:
+        if looked.foretold.falls:
+            return f": added as it stands it makes them worse, and they bear it out only where {_OTHERWISE}"
+        return f", which bear it out as it stands, and not where {_OTHERWISE}"
+    return "" if looked.bears_out else ", less than a cause mostly takes away"
 
 
 def _refused(judgement: Judgement) -> str:

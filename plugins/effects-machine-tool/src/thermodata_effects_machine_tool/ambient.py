@@ -29,7 +29,7 @@ class AmbientFrame(Lagged):
     telltale = "a daily swing that goes on while the machine rests; told apart by a test at rest of 24 h or more (ETVE)"
     source = "[straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/method.md#bounds-of-the-effects"
     needs = _HALL
-    params = (tau(240, 5, 1440),)
+    params = (tau(240, 5, 1440, reach=(1, 1440)),)
     gains = (gain("um/K", 0.1, 15, "displacement at rest a kelvin of the hall"),)
 
 
@@ -107,7 +107,7 @@ class Sun(Lagged):
     telltale = "comes at the same hour of the clock on clear days; told apart by shading the window"
     source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("irradiance", "irradiance", ("hall.*",)),)
-    params = (tau(60, 5, 360),)
+    params = (tau(60, 5, 360, reach=(1, 720)),)
     gains = (gain("um", 1, 15, "displacement at rest at 500 W/m2"),)
     driven = ("irradiance / 500",)
 
@@ -131,5 +131,5 @@ class Floor(Lagged):
     telltale = "looks like drift over one test; told apart by several days at rest"
     source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("floor",)),)
-    params = (tau(1440, 720, 4320),)
+    params = (tau(1440, 720, 4320, reach=(30, 4320)),)
     gains = (gain("um/K", 0.1, 30, "displacement at rest a kelvin of the floor"),)

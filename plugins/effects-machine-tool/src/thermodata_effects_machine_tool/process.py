@@ -30,7 +30,7 @@ class ToolElongation(Lagged):
     telltale = "at the tool centre point, not at the spindle's stator; told apart by a second probe at the stator"
     source = "[mares2017] eq. 9, e3; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("tool",)),)
-    params = (tau(3, 1, 10),)
+    params = (tau(3, 1, 10, reach=(1, 60)),)
     gains = (gain("um/K", 0.5, 3, "displacement at rest a kelvin of the tool"),)
 
 
@@ -97,7 +97,7 @@ class Coolant(Lagged):
     telltale = "follows the switch of the coolant; told apart by coolant without cutting"
     source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("state", "state", ("coolant",), True), Need("flow", "flow", ("coolant",), True))
-    params = (tau(20, 5, 90),)
+    params = (tau(20, 5, 90, reach=(1, 360)),)
     gains = (gain("um", 0.5, 30, "displacement at rest with the coolant on"),)
     driven = ("state", "flow / 10")
 

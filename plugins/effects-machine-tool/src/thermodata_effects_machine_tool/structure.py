@@ -29,7 +29,7 @@ class ColumnBending(Lagged):
         Need("warm_side", "temperature", ("column.rear", "column.left")),
         Need("cold_side", "temperature", ("column.front", "column.right")),
     )
-    params = (tau(20, 0.5, 120),)
+    params = (tau(20, 0.5, 120, reach=(0.5, 360)),)
     gains = (gain("um/K", 1, 60, "displacement at rest a kelvin between the sides"),)
     driven = ("warm_side - cold_side",)
 
@@ -53,7 +53,7 @@ class ProbeTemperature(Lagged):
     telltale = "in all axes alike; told apart by a fixture of little expansion"
     source = "thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("probe", "fixture")),)
-    params = (tau(15, 1, 120),)
+    params = (tau(15, 1, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 2, "displacement at rest a kelvin of the fixture"),)
 
 
