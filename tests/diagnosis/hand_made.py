@@ -6,7 +6,7 @@ Limits stand in the tests as numbers, never as the constants of the code: a chan
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -52,10 +52,12 @@ def candidate(
     kin: Kin = None,
     around: bool = False,
     of_motion: bool = False,
+    of_holder: bool = False,
 ) -> CandidateEffect:
     binding = {f"u{i or ''}": channel for i, channel in enumerate(channels)}
     effect = PlainEffect(name, family, refines=refines)
-    return CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around, of_motion=of_motion)
+    made = CandidateEffect(effect, binding, family, placeless, passive, kin=kin, around=around, of_motion=of_motion)
+    return replace(made, of_holder=of_holder)
 
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
@@ -75,6 +77,7 @@ def scored(
     kin: Kin = None,
     around: bool = False,
     of_motion: bool = False,
+    of_holder: bool = False,
     evidence: float = 390.0,
     gained: float | Sequence[float] = 50.0,
     before: float | Sequence[float] = 1.0,
@@ -98,6 +101,7 @@ def scored(
         kin=kin,
         around=around,
         of_motion=of_motion,
+        of_holder=of_holder,
     )
     rows = np.full(TESTS, ROWS / TESTS)
     return Scored(

@@ -97,12 +97,12 @@ def test_a_lag_of_a_body_that_makes_no_heat_is_passive() -> None:
     """Castings, what stands beside the machine, and what nobody declared where it sits, while something else has a
     place."""
     at = {"T_bed": "bed.feet", "T_head": "headstock", "T_nut": "axis.x.nut", "T_rib": "rear_wall", "T_free": None}
-    at |= {"T_box": "cabinet", "T_cnc": "cnc", "T_amplifier": "axis.x.drive"}
+    at |= {"T_box": "cabinet", "T_cnc": "cnc", "T_amplifier": "axis.x.drive", "T_rail": "crossrail.left"}
     channels = {n: ChannelInfo(n, "temperature", "degC", at=place) for n, place in at.items()}
     channels |= {"n": ChannelInfo("n", "rotational_speed", "rpm")}
     library = {e.name: e for e in (LAG, replace(NUT, name="anywhere", needs=(Need("u", "temperature"),)))}
     found = {c.id for c in candidates(library, channels, (), "dZ") if c.passive}
-    assert found == {f"lag:T_{n}" for n in ("bed", "head", "free", "box", "cnc")}, (
+    assert found == {f"lag:T_{n}" for n in ("bed", "head", "free", "box", "cnc", "rail")}, (
         "no speed, no name, no place of which nothing is known"
     )
     nowhere = {n: replace(c, at=None) for n, c in channels.items()}
@@ -313,6 +313,17 @@ def test_a_gain_without_a_lag_leaves_the_lag_to_be_asked_for_as_another_mode_of_
     library = {e.name: e for e in (replace(NUT, params=ONE_MODE), replace(LAG, params=ONE_MODE))}
     found = {c.id: c.kin for c in candidates(library, CHANNELS, (has("static", "T_nut", modes=0),), "dZ")}
     assert (found["screw:T_nut"], found["lag:T_nut"]) == ("same", "same")
+
+
+def test_what_holds_the_probes_is_known() -> None:
+    channels = {
+        "T_bracket": ChannelInfo("T_bracket", "temperature", "degC", at="fixture"),
+        "T_probe": ChannelInfo("T_probe", "temperature", "degC", at="probe.z"),
+        "clamped": ChannelInfo("clamped", "state", "1", at="fixture"),
+        "T_hall": ChannelInfo("T_hall", "temperature", "degC", at="hall"),
+    }
+    found = {c.id for c in candidates({LAG.name: LAG}, channels, (), "dZ") if c.of_holder}
+    assert found == {"lag:T_bracket", "lag:T_probe"}
 
 
 def test_what_is_read_around_the_machine_alone_is_known() -> None:

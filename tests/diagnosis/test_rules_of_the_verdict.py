@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.judge import Judgement, judge
+from thermodata.diagnosis.foretold import Foretold, Looked
+from thermodata.diagnosis.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Member, Selection
@@ -53,6 +55,37 @@ def names(judged: Sequence[Any]) -> list[str]:
 def test_two_tests_are_needed(tests: int, expected: str) -> None:
     found = verdict(scored("a"), tests=tests)
     assert (found.verdict, bool(found.claims)) == (expected, expected == "effect")
+
+
+@pytest.mark.parametrize(("evidence", "likely"), [(25.1, ""), (25.4, "a"), (73.5, "a"), (74.0, "")])
+def test_what_is_two_in_five_probable_is_likely_and_no_claim(evidence: float, likely: str) -> None:
+    """From 40 to 65 %: the locked tests may make it a claim."""
+    found = verdict(scored("a", evidence=evidence, before=3.0, after=1.2))
+    assert "".join(names(found.likely)) == likely
+    assert (found.verdict == "effect") is (evidence > 73.7)
+
+
+def test_what_is_likely_is_no_refinement_and_as_many_as_may_be_claimed_the_likeliest_first() -> None:
+    sure = {"a": 40, "b": 70, "c": 60, "d": 50}
+    few = [scored(n, evidence=e, before=3.0, after=1.2, channels=(f"T_{n}",)) for n, e in sure.items()]
+    assert names(verdict(*few).likely) == ["b", "c", "d"]
+    assert names(verdict(*few, refined=["b"]).likely) == ["c", "d", "a"]
+    beside = verdict(scored("x", evidence=900.0, before=3.0, after=1.2), *few)
+    assert (names(beside.claims), names(beside.likely)) == (["x"], ["b", "c"])
+
+
+def test_once_the_lock_is_open_what_it_says_decides_of_the_verdict() -> None:
+    """A member that is half as probable as it was speaks against 'none' no more."""
+    one = scored("a", evidence=24.0, before=0.5, after=0.3)
+    chosen = selection(one, first=[scored(before=0.5, after=0.3)])
+    given = measure(floor=0.25)
+
+    def judged(looked: Looked | None) -> str:
+        told = replace(one, looked=looked)
+        return concluded(of_tests(5), chosen, given, (Judged(told, one, None, ()),)).verdict
+
+    rises = Foretold(1.0, 1.3, 1.0)
+    assert (judged(None), judged(Looked(rises, rises, 0.0))) == ("unknown", "none")
 
 
 def test_without_a_candidate_nothing_is_testable() -> None:
