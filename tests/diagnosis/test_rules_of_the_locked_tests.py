@@ -259,6 +259,8 @@ def test_what_is_likely_goes_before_any_claim() -> None:
     assert (names_of(found.claims), names_of(found.refused), asked.seen) == ("a", "", ["al", "a"])
     assert {names_of([j]): j.scored.looked is not None for j in found.judged} == {"a": True, "l": True}
     assert names_of(only("al").kept(judged("a", likely="l")).claims) == "al"
+    beside = Asked(lambda one, whole: looked(SLIGHTLY if one == "l" else GONE if whole == "al" else FALLS))
+    assert names_of(beside.kept(judged("a", likely="l")).claims) == "a", "which falls in no way beside it"
 
 
 def test_a_twin_that_holds_takes_the_place_of_a_claim_that_falls_short() -> None:
