@@ -32,7 +32,7 @@ BESIDE = {
     "problem.py": ("compression", "the_noise"),
     "ranking.py": ("selection",),
     "refinement.py": ("refinement",),
-    "probability.py": ("a_claim", "the_locked_tests", "unread_parts", "other_axes"),
+    "probability.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "rules.py": ("a_claim", "the_verdict", "the_locked_tests", "unread_parts", "other_axes"),
     "scored.py": ("a_claim",),
     "selection.py": ("selection",),
