@@ -211,8 +211,8 @@ class Asked:
         self.concluded = list(members)
         return Judgement("none", (), (), members, "nothing is missing", likely=members)
 
-    def kept(self, judgement: Judgement, claimable: Callable[[Scored], bool] = lambda twin: True) -> Judgement:
-        return kept_where_they_hold(judgement, self.look, claimable, self.conclude, "um")
+    def kept(self, judgement: Judgement, may_be: Callable[[Scored], bool] = lambda twin: True) -> Judgement:
+        return kept_where_they_hold(judgement, self.look, may_be, self.conclude, "um")
 
 
 GONE = Foretold(1.0, 1.0, 1.0)  # refuted

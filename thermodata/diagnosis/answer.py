@@ -23,7 +23,7 @@ from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.probability import elsewhere, probability
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import Measure, claimable, explained, failed_rules
+from thermodata.diagnosis.rules import Measure, explained, failed_rules, may_be_claimed
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.sound import sound
 from thermodata.diagnosis.suspect import suspect
@@ -96,7 +96,7 @@ def answer(
         judgement = kept_where_they_hold(
             judgement,
             look,
-            lambda twin: claimable(twin, investigation.measure, response.unit),
+            lambda twin: may_be_claimed(twin, investigation.measure, response.unit),
             investigation.conclude,
             response.unit,
         )

@@ -20,19 +20,19 @@ Look = Callable[[Sequence[Judged]], Sequence[Looked] | None]
 def kept_where_they_hold(
     judgement: Judgement,
     look: Look,
-    claimable: Callable[[Scored], bool],
+    may_be: Callable[[Scored], bool],
     conclude: Callable[[tuple[Judged, ...]], Judgement],
     unit: str,
 ) -> Judgement:
     """The claims, and what is likely, that are probable once the lock is open, each beside the others. The least
-    probable of those that fall short goes first, what was only likely before any claim; a claim gives way to a twin
-    that does not fall short. Claims that go are kept as refused, and the verdict is "unknown" where nothing else
-    stands; where nothing was claimed before, it is concluded again. claimable: whether a twin keeps the rules of a
-    claim itself. conclude: judges members anew. unit: of the response."""
+    probable of those that fall short goes first, what was only likely before any claim; it gives way to a twin that
+    does not fall short. Claims that go are kept as refused, and the verdict is "unknown" where nothing else stands;
+    where nothing was claimed before, it is concluded again. may_be: whether a twin keeps the rules itself, and is
+    likely. conclude: judges members anew. unit: of the response."""
     asked, claims = [*judgement.claims, *judgement.likely], len(judgement.claims)
     told: dict[int, Judged] = {}
     refused: list[Judged] = []
-    untried = set(map(_key, judgement.claims))
+    untried = set(map(_key, asked))
     while asked:
         said = look(asked)
         if said is None:
@@ -45,9 +45,9 @@ def kept_where_they_hold(
         likely = [j for j in asked[claims:] if _falls_short(j)]
         worst = min(likely or short, key=_standing)
         place = asked.index(worst)
-        if place < claims and _key(worst) in untried:
+        if _key(worst) in untried:
             untried.discard(_key(worst))
-            if (twin := _best_twin(asked, place, look, claimable)) is not None:
+            if (twin := _best_twin(asked, place, look, may_be)) is not None:
                 asked[place] = twin
                 continue
         if place < claims:
@@ -86,10 +86,10 @@ def _standing(j: Judged) -> tuple[bool, float]:
     return not _is_refuted(j), probability(j.scored)
 
 
-def _best_twin(asked: Sequence[Judged], place: int, look: Look, claimable: Callable[[Scored], bool]) -> Judged | None:
+def _best_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged | None:
     """What can't be told apart is one claim, and one member that falls short is no reason against the others."""
     standing = []
-    for twin in _twins(asked[place], claimable):
+    for twin in _twins(asked[place], may_be):
         tried = [*asked[:place], twin, *asked[place + 1 :]]
         told = _with(tried, look(tried) or ())[place]
         if not _falls_short(told):
@@ -97,14 +97,14 @@ def _best_twin(asked: Sequence[Judged], place: int, look: Look, claimable: Calla
     return max(standing, key=_standing, default=None)
 
 
-def _twins(claim: Judged, claimable: Callable[[Scored], bool]) -> list[Judged]:
+def _twins(claim: Judged, may_be: Callable[[Scored], bool]) -> list[Judged]:
     own = claim.scored
     # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
     kin = (None, own.candidate.kin)
     alike = [t for t in equivalents(own, claim.beside) if t.candidate.kin in kin]
     # in its place, the same sharper cause stands beside the twin, and other axes say the same
     placed = [replace(t, beaten=own.beaten, also_on=own.also_on) for t in alike]
-    return [replace(claim, scored=twin) for twin in placed if claimable(twin)][:TWINS_TRIED]
+    return [replace(claim, scored=twin) for twin in placed if may_be(twin)][:TWINS_TRIED]
 
 
 def _why(refused: Sequence[Judged], unit: str) -> str:

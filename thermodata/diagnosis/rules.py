@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.diagnosis.foretold import Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
-from thermodata.diagnosis.probability import limit_of, probability, sharpness
+from thermodata.diagnosis.probability import limit_of, may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 from thermodata.schema.places import heat_at
@@ -269,9 +269,9 @@ def is_plain(scored: Scored) -> bool:
     return own and sharpness(scored) >= PLAIN
 
 
-def claimable(scored: Scored, measure: Measure, unit: str) -> bool:
-    """Whether it keeps every rule of a claim; what it refines is another question."""
-    return not failed_rules(scored, measure, unit) and blunt(scored) is None
+def may_be_claimed(scored: Scored, measure: Measure, unit: str) -> bool:
+    """Whether it is sound, and likely; what it refines is another question."""
+    return not failed_rules(scored, measure, unit) and may_be_confirmed(scored)
 
 
 def _steadies(scored: Scored) -> bool:
