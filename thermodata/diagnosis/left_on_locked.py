@@ -1,7 +1,7 @@
 """What is known already of the locked tests of a model: their error, from when the claims that it came from were
 confirmed. Nothing is opened for it.
 
-Claims alone open the lock, so what a model leaves on locked tests is known only where it has what was claimed. It says
+What is claimed or likely opens the lock, and what a model with it leaves there is kept of claims alone. It says
 nothing of which effect is missing; but where it is large, something is.
 """
 

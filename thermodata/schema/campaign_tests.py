@@ -88,7 +88,7 @@ class Test(Strict):
 
     id: short name, unique in the campaign, without / \\ { } * ? [ ]
     kind: what was done
-    role: calibration: fitted; verification: scored, and part of the choice; locked: opened to confirm a claim only,
+    role: calibration: fitted; verification: scored, and part of the choice; locked: opened to confirm a cause only,
         every look counted; none: kept
     conditions: any, with units or as text: speed: 9000 rpm
     pose: positions of the axes, with units

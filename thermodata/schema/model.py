@@ -141,7 +141,7 @@ class Model(Strict):
     response: what is modelled, or a list
     calibrate_on: tests that are fitted; by default those with the role calibration
     verify_on: tests that are scored; by default those with the role verification
-    locked: tests that are opened to confirm a claim only; by default those with the role locked
+    locked: tests that are opened to confirm a cause only; by default those with the role locked
     phases: the phases that count: [heating]; by default all
     weights: test or phase -> weight of its samples in the fit: {etve: 0.2}; by default 1
     step: of the grid of fit and simulation [s]
