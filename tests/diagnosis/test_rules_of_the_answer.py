@@ -322,6 +322,26 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, claim(evident), shown=shown, asked_in=asked_in, ranked=(evident,))
         assert found.candidates[0].why.endswith(f"; {said}")
 
+    def test_what_a_rule_of_the_open_tests_forbids_says_so_and_what_the_locked_ones_say(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """It acts in one test only."""
+        alone = scored("alone", size=[1.0] + 9 * [0.0], evidence=300.0, after=0.3)
+        likely = replace(nothing("unknown"), likely=(member(alone, ranked=()),))
+        held = self.answered(monkeypatch, spec, likely, ranked=(alone,)).candidates[0]
+        assert held.claimed
+        assert (
+            "on the open tests it acts in one test only: no other foretells it, which the locked ones outweigh"
+            in held.why
+        )
+        assert self.looked_at == ["z"]
+        fails = self.answered(monkeypatch, spec, likely, holds=False, ranked=(alone,)).candidates[0]
+        assert not fails.claimed
+        assert fails.why.endswith(
+            "not claimed: it acts in one test only: no other foretells it; on the locked tests the error falls by 0%"
+        )
+        assert (self.looked_at, self.concluded) == (["z"], ["alone"])
+
     def test_a_refinement_is_shown_after_claims_and_before_others(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:

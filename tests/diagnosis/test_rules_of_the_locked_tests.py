@@ -253,6 +253,16 @@ def test_what_is_likely_and_falls_short_is_judged_again_with_what_they_say_and_i
     assert probability(asked.concluded[0].scored) == pytest.approx(0.472, abs=1e-3)
 
 
+def test_what_was_dropped_and_is_likely_is_told_with_what_they_say_of_it() -> None:
+    one = scored("d", evidence=50.0)
+    own = Judged(one, one, None, ())
+    asked = Asked(lambda _, whole: looked(SLIGHTLY))
+    asked.kept(Judgement("unknown", (), (), (), "", likely=(own,)))
+    assert [j.scored.looked for j in asked.concluded] == [looked(SLIGHTLY)]
+    found = Asked(lambda _, whole: looked(FALLS)).kept(Judgement("unknown", (), (), (), "", likely=(own,)))
+    assert (names_of(found.claims), names_of(found.judged)) == ("d", "d")
+
+
 def test_what_is_likely_goes_before_any_claim() -> None:
     asked = only("a")
     found = asked.kept(judged("a", likely="l"))

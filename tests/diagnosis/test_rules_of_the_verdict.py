@@ -74,6 +74,42 @@ def test_what_is_likely_is_no_refinement_and_as_many_as_may_be_claimed_the_likel
     assert (names(beside.claims), names(beside.likely)) == (["x"], ["b", "c"])
 
 
+FEW: dict[str, Any] = {"before": 3.0, "after": 1.2, "evidence": 200.0}  # 83 % probable
+
+
+@pytest.mark.parametrize(
+    ("of", "likely"),
+    [
+        ({**FEW, "after": 2.61, "evidence": 100.0}, True),  # its error falls by 13 % alone
+        ({**FEW, "spread": 0.6, "after": 1.8}, True),  # its gain differs
+        ({**FEW, "size": [1.0] + 9 * [0.0]}, True),  # it acts in one test
+        ({**FEW, "gained": 3 * [50.0] + 7 * [-50.0]}, False),  # the tests go against it
+        ({**FEW, "spread": 0.6, "after": 1.8, "size": [1.0] + 9 * [0.0]}, False),  # two rules
+        ({**FEW, "evidence": 20.0, "size": [1.0] + 9 * [0.0]}, False),  # it is improbable
+    ],
+)
+def test_what_one_rule_of_size_or_likeness_forbids_may_be_outweighed_by_the_locked_tests(
+    of: dict[str, Any], likely: bool
+) -> None:
+    one = scored("d", **of)
+    found = verdict(dropped=[one], first=[scored(before=3.0, after=2.9)])
+    assert (found.verdict, names(found.likely)) == ("unknown", ["d"] if likely else [])
+    if likely:
+        assert verdict(scored("a", before=3.0, after=1.2, evidence=40.0), dropped=[one]).likely[0].scored is not one
+        as_a_mode = judge(
+            of_tests(5),
+            selection(dropped=[one], first=[scored(before=3.0, after=2.9)]),
+            measure(),
+            lambda s: "it is kin",
+        )
+        assert as_a_mode.likely == ()
+
+
+def test_the_likeliest_of_what_was_dropped_is_asked_alone() -> None:
+    two = [scored(n, **{**FEW, "evidence": e, "spread": 0.6, "after": 1.8}) for n, e in (("a", 150.0), ("b", 250.0))]
+    assert names(verdict(dropped=two, first=[scored(before=3.0, after=2.9)]).likely) == ["b"]
+
+
 def test_once_the_lock_is_open_what_it_says_decides_of_the_verdict() -> None:
     """A member that is half as probable as it was speaks against 'none' no more."""
     one = scored("a", evidence=24.0, before=0.5, after=0.3)

@@ -11,10 +11,12 @@ import numpy as np
 from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import FLOOR_SHARE, Measure, blunt, contradicts, failed_rules, halves, is_plain
+from thermodata.diagnosis.rules import FLOOR_SHARE, Measure, blunt, contradicts, failed_rules, halves, is_plain, rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 
+# rules of size and likeness, that few open tests break for a cause now and then; locked tests may outweigh one of them
+OUTWEIGHED = ("fall", "gain", "others", "worth")
 Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 
 MOST_CLAIMS = 3
@@ -66,7 +68,10 @@ def judge(
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
     judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
-    return concluded(problem, selection, measure, judged)
+    found = concluded(problem, selection, measure, judged)
+    if found.verdict != "unknown" or found.likely:
+        return found
+    return replace(found, likely=_nearly(selection, measure, problem.unit, refines))
 
 
 def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
@@ -110,6 +115,18 @@ def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ..
     causes = _causes([j for j in own if may_be_confirmed(j.scored)])
     others = [j for j in causes if not any(j is c for c in claims)]
     return tuple(sorted(others, key=lambda j: -probability(j.scored))[: MOST_CLAIMS - len(claims)])
+
+
+def _nearly(
+    selection: Selection, measure: Measure, unit: str, refines: Callable[[Scored], str | None]
+) -> tuple[Judged, ...]:
+    """The likeliest of what was dropped for one rule alone that other tests may outweigh."""
+    for one in sorted((s for s in selection.dropped if len(s.rows)), key=lambda s: -probability(s)):
+        broken = [rule.name for rule in rules(one, measure, unit) if not rule.holds]
+        alone = len(broken) == 1 and broken[0] in OUTWEIGHED and one.candidate.unforetold is None
+        if alone and may_be_confirmed(one) and not one.candidate.within and refines(one) is None:
+            return (Judged(one, one, None, selection.first.ranked),)
+    return ()
 
 
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:

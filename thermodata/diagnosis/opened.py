@@ -54,7 +54,8 @@ def kept_where_they_hold(
             refused.append(worst)
             claims -= 1
         asked.pop(place)
-    judged = tuple(told.get(_key(j), j) for j in judgement.judged)
+    asked_too = [j for j in judgement.likely if not any(j is one for one in judgement.judged)]
+    judged = tuple(told.get(_key(j), j) for j in (*judgement.judged, *asked_too))
     refused.sort(key=lambda j: [_key(c) for c in judgement.claims].index(_key(j)))
     found = replace(judgement, judged=judged, likely=(), refused=tuple(refused))
     if asked:

@@ -9,7 +9,7 @@ from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.rules import also_missing, blunt, failed_rules
+from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, on_locked
 from thermodata.diagnosis.scored import Scored
 
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
@@ -36,7 +36,9 @@ def why(
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
-        return f"{numbers}; {of_chance}{elsewhere}{locked}"
+        broken = failed_rules(s, investigation.measure, unit)
+        outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
+        return f"{numbers}; {of_chance}{elsewhere}{outweighed}{locked}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(judgement)}"
     if member is not None and member.refines:
@@ -44,7 +46,8 @@ def why(
     failed = failed_rules(s, investigation.measure, unit)
     failed += [why for why in [blunt(s)] if why]
     if failed:
-        return f"{numbers}; not claimed: {failed[0]}"
+        asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
+        return f"{numbers}; not claimed: {failed[0]}" + (f"; {on_locked(s.looked)}" if asked and s.looked else "")
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
     if judgement.refused:
