@@ -40,8 +40,11 @@ SHOWN = 15
 
 @dataclass(frozen=True, slots=True)
 class Answer:
+    """locked: the tests that were looked at. asked: the ids of the candidates that they were looked at for."""
+
     diagnosis: Diagnosis
-    locked: tuple[TestData, ...]  # the locked tests that were looked at
+    locked: tuple[TestData, ...]
+    asked: tuple[str, ...] = ()
 
 
 def answer(
@@ -77,21 +80,18 @@ def answer(
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)
-    opened = bool(locked and (judgement.claims or judgement.likely))
-    if opened or judgement.claims:
+    looked_at: dict[str, None] = {}
+    if judgement.claims or (locked and judgement.likely):
         fits = Fits(fitted.spec, index, data, usable, locked, refitted)
 
-        def look(some: Sequence[Judged]) -> list[Looked] | None:
-            found = []
-            for number, one in enumerate(some):
-                others = [*some[:number], *some[number + 1 :]]
-                foretold = investigation.borne_out(one, others)
-                if foretold is None:
-                    return None
-                beside = [o.scored.candidate for o in others]
-                added = fits.foretold(beside, one.scored.candidate, foretold.tests)
-                found.append(Looked(foretold, added, investigation.measure.floor))
-            return found
+        def look(some: Sequence[Judged], place: int) -> Looked | None:
+            one, others = some[place], [*some[:place], *some[place + 1 :]]
+            foretold = investigation.borne_out(one, others)
+            if foretold is None:
+                return None
+            looked_at.setdefault(one.scored.candidate.id)
+            added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
+            return Looked(foretold, added, investigation.measure.floor)
 
         judgement = kept_where_they_hold(
             judgement,
@@ -109,7 +109,7 @@ def answer(
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
     beside = {"locked_rmse_um": known, "put_right": asked_of.told}
-    return Answer(found.model_copy(update=beside), tuple(locked) if opened else ())
+    return Answer(found.model_copy(update=beside), tuple(locked) if looked_at else (), tuple(looked_at))
 
 
 def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:

@@ -11,6 +11,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.problem import freed
 from thermodata.diagnosis.scored import ACTS
+from thermodata.errors import ThermodataError
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
@@ -141,12 +142,18 @@ class Fits:
     def foretold(
         self, others: Sequence[CandidateEffect], one: CandidateEffect, tests: frozenset[tuple[str, str]] | None
     ) -> Foretold | None:
-        """What one adds to the model with others, by shape on some of the locked tests (None: all); None where none of
-        them can be predicted."""
-        ours, theirs = self._of(others), self._of([*others, one])
-        usable = [t for t in self.locked if tests is None or t.key in tests]
-        usable = [t for t in usable if ours.can_predict(t) and theirs.can_predict(t)]
-        return _foretold([_shape(ours, theirs, t) for t in usable], tests)
+        """What one adds to the model with others, by shape on some of the locked tests (None: all); alone where the
+        others were not logged there. None where none of them can be predicted."""
+        asked = [t for t in self.locked if tests is None or t.key in tests]
+        for beside in (others, ()):
+            try:
+                ours, theirs = self._of(beside), self._of([*beside, one])
+            except ThermodataError:
+                continue  # no open test has all of their channels
+            usable = [t for t in asked if ours.can_predict(t) and theirs.can_predict(t)]
+            if usable:
+                return _foretold([_shape(ours, theirs, t) for t in usable], tests)
+        return None
 
     def _of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
         key = frozenset(c.id for c in candidates)

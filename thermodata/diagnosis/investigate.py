@@ -47,7 +47,7 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
-# what one claim foretells of the locked tests beside the others that are claimed; None where there are none
+# what one claim foretells of the locked tests beside the others that are claimed or likely; None where there are none
 BorneOut = Callable[[Judged, Sequence[Judged]], Foretold | None]
 Conclude = Callable[[tuple[Judged, ...]], Judgement]
 
@@ -55,7 +55,7 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 @dataclass(frozen=True, slots=True)
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
-    conclude: judges members anew. limits: how large what is not named would have to be, where nothing is claimed."""
+    conclude: judges members anew. limits: how large what is not named would have to be."""
 
     problem: Problem
     selection: Selection | None
@@ -103,7 +103,7 @@ def investigate(
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
         selection, judgement, measure = _judged(fitted, problem, asked, seed, witness)
-        unseen = () if judgement.claims or selection is None else _limits(fitted, problem, selection, measure)
+        unseen = () if selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
@@ -135,7 +135,8 @@ def investigate(
             # what stands beside a claim without being one may stand in its way
             if beside_all.holds or len(kept) == len(refining):
                 return beside_all
-            return foretell(both, opened, selection.noise, refining, [claim.scored])
+            alone = foretell(both, opened, selection.noise, refining, [claim.scored])
+            return max(beside_all, alone, key=lambda f: f.fall)
 
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)

@@ -32,19 +32,21 @@ SURE = 2.0
 @dataclass(frozen=True, slots=True)
 class Judged:
     """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
-    the model, in words; None for a cause of its own. beside: all candidates, ranked without it."""
+    the model, in words; None for a cause of its own. beside: all candidates, ranked without it. twin: whether `scored`
+    is of one that it can't be told from."""
 
     scored: Scored
     alone: Scored
     refines: str | None
     beside: tuple[Scored, ...]
+    twin: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """claims: missing causes, in the order of their choice. refinements: of effects that the model has. judged: all
-    members. likely: what would be claimed if the locked tests spoke for it, the likeliest first. refused: what would be
-    claimed, but for the locked tests (`opened`)."""
+    """claims: missing causes, in the order of their choice, what the locked tests made one last. refinements: of
+    effects that the model has. judged: all members. likely: what would be claimed if the locked tests spoke for it, the
+    likeliest first. refused: what would be claimed, but for the locked tests (`opened`)."""
 
     verdict: Verdict
     claims: tuple[Judged, ...]
@@ -77,7 +79,8 @@ def judge(
 def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
     """The same of members that are judged already."""
     own = [j for j in judged if j.refines is None]
-    claims = _causes([j for j in own if blunt(j.scored) is None])[:MOST_CLAIMS]
+    sure = [j for j in own if blunt(j.scored) is None and not (j.scored.looked and j.scored.looked.refuted)]
+    claims = causes(sure)[:MOST_CLAIMS]
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
         return Judgement("effect", claims, kept, judged, "", likely=_likely(own, claims))
@@ -112,8 +115,8 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
 
 def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:
     """What the locked tests may make a claim beside the claims, as many as there may be."""
-    causes = _causes([j for j in own if may_be_confirmed(j.scored)])
-    others = [j for j in causes if not any(j is c for c in claims)]
+    among = causes([j for j in own if may_be_confirmed(j.scored)])
+    others = [j for j in among if not any(j is c for c in claims)]
     return tuple(sorted(others, key=lambda j: -probability(j.scored))[: MOST_CLAIMS - len(claims)])
 
 
@@ -159,7 +162,7 @@ def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
     return tuple(told(j) for j in members)
 
 
-def _causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
+def causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
     """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes; nor the
     same twice, where two members gave way to it."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
@@ -71,8 +73,9 @@ def sharpness_asked(fall: float, of: CandidateEffect) -> float:
 
 
 def elsewhere(scored: Scored) -> tuple[str, ...]:
-    """Places of other parts that it may be as well. A motion has the timing of no part."""
-    told = probability(scored) >= TOLD_APART and not scored.candidate.of_motion
+    """Places of other parts that it may be as well, which run at the same hours in locked tests, too. A motion has the
+    timing of no part."""
+    told = probability(replace(scored, looked=None)) >= TOLD_APART and not scored.candidate.of_motion
     return () if told else scored.candidate.unread
 
 

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from thermodata.diagnosis.foretold import Looked
+from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.probability import limit_of, may_be_confirmed, probability, sharpness
@@ -229,10 +229,21 @@ def _in_short(scored: Scored) -> str:
 
 
 def on_locked(looked: Looked) -> str:
-    """'on the locked tests the error falls by 60 %', in words for each way."""
-    falls = [f"{f.fall:.0%}" for f in looked.saying]
-    same = len(set(falls)) == 1
-    return f"on the locked tests the error falls by {falls[0] if same else ' and '.join(falls)}"
+    """'on the locked tests the error falls by 60%', or in each of two ways."""
+    first, added = looked.foretold, looked.added
+    if len(looked.saying) < 2 or added is None:
+        return f"on the locked tests the error {in_words(looked.saying[0])}"
+    return (
+        f"on the locked tests the error {in_words(added)} with it added as it stands, and {in_words(first)} where the "
+        "effects of the model may act otherwise than by their fitted lags"
+    )
+
+
+def in_words(of: Foretold) -> str:
+    """'falls by 60%', 'hardly changes', 'rises by 20%'."""
+    if of.falls:
+        return f"falls by {of.fall:.0%}"
+    return f"rises by {of.after / of.before - 1:.0%}" if of.after > 1.005 * of.before > 0 else "hardly changes"
 
 
 def also_missing(scored: Scored) -> str:

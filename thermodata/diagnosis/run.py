@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 37
+RULES_VERSION = 38
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -67,8 +67,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     with watched(tell):
         outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left)
     if outcome.locked:
-        claimed = ", ".join(c.id for c in outcome.diagnosis.candidates if c.claimed) or "what did not hold"
-        count_locked_look(store, model.identity, [t.key for t in outcome.locked], f"confirming {claimed}")
+        why = f"confirming {', '.join(outcome.asked)}"
+        count_locked_look(store, model.identity, [t.key for t in outcome.locked], why)
     save_diagnosis(store, model.identity, outcome.diagnosis)
     keep_answer(store, model.identity, "diagnose", key, outcome.diagnosis.model_dump_json())
     return outcome.diagnosis

@@ -94,8 +94,7 @@ def warms_the_holder(channel: Described) -> bool:
 
 def is_holder(channel: Described) -> bool:
     """Whether it is the temperature of what holds the probes."""
-    part = part_of(channel.at)
-    return channel.quantity == TEMPERATURE and part is not None and part.name == HOLDER
+    return channel.quantity == TEMPERATURE and part_of(channel.at) == Part(AIR, HOLDER)
 
 
 def is_motion(quantity: str) -> bool:

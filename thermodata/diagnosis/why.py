@@ -9,7 +9,7 @@ from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, on_locked
+from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, in_words, on_locked
 from thermodata.diagnosis.scored import Scored
 
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
@@ -40,7 +40,7 @@ def why(
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         return f"{numbers}; {of_chance}{elsewhere}{outweighed}{locked}"
     if among(member, judgement.refused):
-        return f"{numbers}; not claimed: {_refused(judgement)}"
+        return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
         return f"{numbers}; a refinement, not a missing cause: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
@@ -75,19 +75,21 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
 
 def _in_one_way(looked: Looked) -> str:
     """How much of it the locked tests bear out, where that is not all."""
-    if looked.added is not None and len(looked.saying) > 1 and looked.added.falls != looked.foretold.falls:
+    added = looked.added
+    if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
         if looked.foretold.falls:
-            return f": added as it stands it makes them worse, and they bear it out only where {_OTHERWISE}"
+            return f": added as it stands the error {in_words(added)}, and they bear it out only where {_OTHERWISE}"
         return f", which bear it out as it stands, and not where {_OTHERWISE}"
-    return "" if looked.bears_out else ", less than a cause mostly takes away"
+    return "" if looked.bears_out else f"; {on_locked(looked)}, which is less than a cause mostly takes away"
 
 
-def _refused(judgement: Judgement) -> str:
+def _refused(s: Scored, judgement: Judgement) -> str:
     """Why what keeps every rule on the open tests is no claim."""
     if not judgement.claims:
         return judgement.reason
     claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
-    return f"it explains the open tests, but the locked ones bear out {claims} without it only"
+    said = f": {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else ""
+    return f"it explains the open tests, but beside {claims} the locked ones do not bear it out{said}"
 
 
 def among(member: Judged | None, some: Sequence[Judged]) -> bool:
