@@ -191,6 +191,12 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
 
 
+@pytest.mark.parametrize(("tests", "said"), [(2, True), (0, False), (None, False)])
+def test_that_the_lock_was_opened_for_what_is_not_claimed_is_said(tests: int | None, said: bool) -> None:
+    text = verdict_sentence(found("unknown", [one("sun", probability=0.5, locked_tests_asked=tests)]))
+    assert ("the evidence, also of the locked tests that were opened for it, suffices to name no cause" in text) is said
+
+
 @pytest.mark.parametrize(("locked", "said"), [(None, False), (2.9, False), (3.1, True)])
 def test_what_only_the_locked_tests_show_is_said_of_them(locked: float | None, said: bool) -> None:
     for candidates in ([], [one("sun", probability=0.35)]):

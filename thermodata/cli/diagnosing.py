@@ -18,8 +18,8 @@ def diagnose_command(session: Session, model: str | None, top: int) -> None:
 
     Or that none is missing, that what MODEL has can be refined, or that these tests can't tell.
 
-    A candidate is claimed only if all evidence holds; locked tests are opened for claims only, and counted. Of the
-    newest model where none is named.
+    A candidate is claimed only if all evidence holds; locked tests are opened only for what is claimed or likely, and
+    counted. Of the newest model where none is named.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.diagnosis.run import diagnose, kept_diagnosis

@@ -112,6 +112,10 @@ def answer(
     return Answer(found.model_copy(update=beside), tuple(locked) if looked_at else (), tuple(looked_at))
 
 
+def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
+    return None if tests is None else len(tests)
+
+
 def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
     """The keys of the locked tests in which one of them acts; None: all."""
     tests = [c.scored.looked.foretold.tests for c in claims if c.scored.looked is not None]
@@ -257,7 +261,7 @@ def _candidate(
         locked_rmse_um_after=held.after if held else None,
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
-        locked_tests_asked=None if held is None or held.asked is None else len(held.asked),
+        locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],

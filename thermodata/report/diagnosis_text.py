@@ -32,8 +32,8 @@ def confirmed_text(result: Confirmed) -> str:
     head = "; ".join(filter(None, [_confirmed_sentence(result), put_right(result.put_right)]))
     if result.holds is False and result.probability is not None:
         head += (
-            f". The diagnosis claims it all the same, with {probability(result.probability)}: it also asks what these "
-            "tests say where the effects of the model may act otherwise than by their fitted lags"
+            f". The diagnosis claims it all the same, with {probability(result.probability)}: it weighs what these "
+            "tests say against the open ones, and asks them where the effects of the model may act otherwise, too"
         )
     rows = [t.model_dump() for t in result.tests]
     columns = [

@@ -111,7 +111,8 @@ class Candidate(Result):
     locked_rmse_um_after: with it
     locked_shape_um_before: the same over those in which the claims act, a free offset for each
     locked_shape_um_after: with it
-    locked_tests_asked: in how many locked tests the claims act, and are asked; null where it is not known
+    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
+        where it is not known, or nothing was opened for it
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     unread: places of other parts that it may be as well, for nothing that it reads tells them apart
