@@ -194,7 +194,7 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
 @pytest.mark.parametrize(("tests", "said"), [(2, True), (0, False), (None, False)])
 def test_that_the_lock_was_opened_for_what_is_not_claimed_is_said(tests: int | None, said: bool) -> None:
     text = verdict_sentence(found("unknown", [one("sun", probability=0.5, locked_tests_asked=tests)]))
-    assert ("the evidence, also of the locked tests that were opened for it, suffices to name no cause" in text) is said
+    assert ("the evidence, with that of the locked tests, suffices to name no cause" in text) is said
 
 
 @pytest.mark.parametrize(("locked", "said"), [(None, False), (2.9, False), (3.1, True)])

@@ -247,8 +247,10 @@ def in_words(of: Foretold) -> str:
 
 
 def also_missing(scored: Scored) -> str:
-    """'dX misses it as well (97 %)', for each other axis."""
-    return " and ".join(f"{channel} misses it as well ({p:.0%})" for channel, p in scored.also_on)
+    """'dX misses it as well (97 %)', for each other axis; what is improbable there speaks for nothing."""
+    return " and ".join(
+        f"{channel} {'misses it as well' if p > 0.5 else 'hardly misses it'} ({p:.0%})" for channel, p in scored.also_on
+    )
 
 
 def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:

@@ -224,7 +224,7 @@ def _unclaimed(found: Diagnosis) -> str:
     seen = f" on the locked tests, which an earlier claim left with {number(locked)} um" if far else ""
     if first is None:
         return f"something is missing{seen} that nothing logged explains"
-    asked = ", also of the locked tests that were opened for it," if first.locked_tests_asked else ""
+    asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     return (
         f"something is missing{seen}, and the evidence{asked} suffices to name no cause; the likeliest that was logged "
         f"is {named(first)}, probability {probability(first.probability)}"
