@@ -116,7 +116,7 @@ class TestAnswer:
 
         class Fits:
             def __init__(self, *given: Any) -> None:
-                pass
+                self.given = given
 
             def foretold(self, others: Sequence[Any], one: Any, tests: frozenset[tuple[str, str]] | None) -> Any:
                 held = hold([one.effect.name, *(o.effect.name for o in others)])

@@ -77,46 +77,18 @@ MUTANTS = [
     diagnosis("probability.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
     diagnosis("probability.py", "-1.8, -2.65, ", "0.0, -2.65, ", "what a sharper cause leaves is claimed"),
     diagnosis("probability.py", "-2.65, -0.9, ", "0.0, -0.9, ", "a casting that follows the cause is claimed"),
+    diagnosis("probability.py", "-2.65, -0.9, ", "-2.65, 0.0, ", "the nut is claimed where the guideway has no sensor"),
     diagnosis(
-        "probability.py",
-        "-2.65, -0.9, ",
-        "-2.65, 0.0, ",
-        "the nut is claimed where the guideway has no sensor",
+        "unread.py", "and Part(heat, name) not in known", "", "a guideway that the model has is named beside the nut"
     ),
-    diagnosis(
-        "unread.py",
-        "and Part(heat, name) not in known",
-        "",
-        "a guideway that the model has is named beside the nut",
-    ),
-    diagnosis(
-        "unread.py",
-        "if all(warms_the_holder",
-        "if False and all(warms_the_holder",
-        "coolant is as sure as air",
-    ),
-    diagnosis(
-        "unread.py",
-        "Part(AIR, HOLDER) in known or",
-        "",
-        "a holder that the model has is named beside coolant",
-    ),
-    diagnosis(
-        "unread.py",
-        "or any(reads(channels, place) for",
-        "or any(False for",
-        "a holder with a sensor is named",
-    ),
+    diagnosis("unread.py", "if all(warms_the_holder", "if False and all(warms_the_holder", "coolant is as sure as air"),
+    diagnosis("unread.py", "Part(AIR, HOLDER) in known or", "", "a holder that the model has is named beside coolant"),
+    diagnosis("unread.py", "or any(reads(channels, place) for", "or any(False for", "a holder with a sensor is named"),
     diagnosis("unread.py", "channel.quantity in CUTS and", "", "a spindle's speed is taken for cutting"),
     diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
     diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
     diagnosis("probability.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
-    diagnosis(
-        "candidates.py",
-        "around = len(names) == 1 and",
-        "around =",
-        "the layers of the hall's air are doubted",
-    ),
+    diagnosis("candidates.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "warm == len(names) == 1", "warm", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "(moving and heat != AIR)", "(heat != AIR)", "where an axis stands is taken for its heat"),
     diagnosis("unread.py", "if not own <= {", "if False and {", "a scale is taken for a part that rubs"),
@@ -126,10 +98,7 @@ MUTANTS = [
     diagnosis("answer.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
     diagnosis("candidates.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
     diagnosis(
-        "probability.py",
-        "BORNE_OUT, WORTH_ASKING = 0.5",
-        "BORNE_OUT, WORTH_ASKING = 1.5",
-        "another axis decides",
+        "probability.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"
     ),
     diagnosis("probability.py", "WORTH_ASKING = 0.5, 0.3", "WORTH_ASKING = 0.5, 0.6", "another axis is hardly asked"),
     diagnosis("probability.py", "if there > 0.5 else", "if there > 0.0 else", "another axis speaks against a claim"),
@@ -140,34 +109,20 @@ MUTANTS = [
     diagnosis("other_axes.py", "and e.acts_on is None", "", "what acts on one axis is fitted to another"),
     diagnosis("other_axes.py", "return not fixed or", "return True or", "a gain of one axis is held on another"),
     diagnosis(
-        "probability.py",
-        " and not scored.candidate.of_motion",
-        "",
-        "a feed is as sure of the nut as the nut is",
+        "probability.py", " and not scored.candidate.of_motion", "", "a feed is as sure of the nut as the nut is"
     ),
     diagnosis("probability.py", "TOLD_APART = 0.93", "TOLD_APART = 0.5", "a claim does not say what else it may be"),
     diagnosis(
-        "probability.py",
-        "FALLS = (-0.2, 1.0)",
-        "FALLS = (-9.0, 1.0)",
-        "a misfit of the known effects refutes a cause",
+        "probability.py", "FALLS = (-0.2, 1.0)", "FALLS = (-9.0, 1.0)", "a misfit of the known effects refutes a cause"
     ),
     diagnosis("probability.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("probability.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
-    diagnosis(
-        "candidates.py",
-        "passive = placed and family",
-        "passive = family",
-        "without places nothing is claimed",
-    ),
+    diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
     diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
     diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
     diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
     diagnosis(
-        "refinement.py",
-        "of_motion and kin in",
-        "of_motion and kin not in",
-        "a speed is a cause beside its motor",
+        "refinement.py", "of_motion and kin in", "of_motion and kin not in", "a speed is a cause beside its motor"
     ),
     diagnosis("rules.py", "DOUBLES = -1.0", "DOUBLES = -9.0", "a part is claimed against all other tests"),
     diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
@@ -186,35 +141,21 @@ MUTANTS = [
         ("tests/diagnosis/test_left_on_locked.py",),
     ),
     diagnosis(
-        "rules.py",
-        "OVERWHELMING = 0.5",
-        "OVERWHELMING = 0.3",
-        "left-out tests that speak against it are not heard",
+        "rules.py", "OVERWHELMING = 0.5", "OVERWHELMING = 0.3", "left-out tests that speak against it are not heard"
     ),
     diagnosis("rules.py", "LEAST_TESTS = 2 ", "LEAST_TESTS = 1 ", "one test makes a cause"),
     diagnosis("rules.py", "\nDROP_LIMIT = 0.15", "\nDROP_LIMIT = 0.05", "a claim hardly lowers the error"),
     diagnosis(
-        "rules.py",
-        "STEADYING_DROP_LIMIT = 0.3",
-        "STEADYING_DROP_LIMIT = 0.15",
-        "what steadies a misfit is claimed",
+        "rules.py", "STEADYING_DROP_LIMIT = 0.3", "STEADYING_DROP_LIMIT = 0.15", "what steadies a misfit is claimed"
     ),
     diagnosis("rules.py", "BETTER_LIMIT = 0.6", "BETTER_LIMIT = 0.4", "a few tests carry a claim"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT = 0.4", "SURE_BETTER_LIMIT = 0.0", "a test or two carry a sure claim"),
     diagnosis("rules.py", "(strong or sure) and", "strong and", "a sure cause is refused for its fall"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
+    diagnosis("candidates.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
     diagnosis(
-        "candidates.py",
-        "return names not in read and",
-        "return False and",
-        "the air is a mode of its gradient",
-    ),
-    diagnosis(
-        "candidates.py",
-        '"part" if warm and _one',
-        '"same" if warm and _one',
-        "the air's lag is a mode of its gradient",
+        "candidates.py", '"part" if warm and _one', '"same" if warm and _one', "the air's lag is a mode of its gradient"
     ),
     diagnosis(
         "candidates.py",
@@ -223,33 +164,17 @@ MUTANTS = [
         "the coolant's switch is a mode of its temperature",
     ),
     products(
-        "invariance.py",
-        "in (moves, moves & acts)",
-        "in (moves,)",
-        "a cause is refused for a test in which it rests",
+        "invariance.py", "in (moves, moves & acts)", "in (moves,)", "a cause is refused for a test in which it rests"
     ),
     products(
-        "invariance.py",
-        "in (moves, moves & acts)",
-        "in (moves & acts,)",
-        "tests in which it rests don't speak for it",
+        "invariance.py", "in (moves, moves & acts)", "in (moves & acts,)", "tests in which it rests don't speak for it"
     ),
-    products(
-        "invariance.py",
-        "across @ held[:, :-1]",
-        "0 * across @ held[:, :-1]",
-        "where it rests its gain is held",
-    ),
+    products("invariance.py", "across @ held[:, :-1]", "0 * across @ held[:, :-1]", "where it rests its gain is held"),
     diagnosis("rules.py", "SPREAD_LIMIT = 0.5", "SPREAD_LIMIT = 0.9", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "FORETOLD = 0.5", "FORETOLD = 0.3", "a proxy of another gain a test is claimed"),
     diagnosis("rules.py", "WORTH_SHARE = 0.1 ", "WORTH_SHARE = 0.0 ", "trifles are claimed"),
     diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.0, 0.2", "a trifle that is sure is claimed"),
-    diagnosis(
-        "rules.py",
-        "WORTH_SPREAD = 0.2, 0.2",
-        "WORTH_SPREAD = 0.2, 0.9",
-        "a proxy that is balanced is claimed",
-    ),
+    diagnosis("rules.py", "WORTH_SPREAD = 0.2, 0.2", "WORTH_SPREAD = 0.2, 0.9", "a proxy that is balanced is claimed"),
     diagnosis("rules.py", "(sure and _does_much", "(False and _does_much", "what a known effect hides is not named"),
     diagnosis("rules.py", "(sure and _does_much", "(_does_much", "what is slow and large stands beside a cause"),
     diagnosis("rules.py", "FLOOR_SHARE = 0.1 ", "FLOOR_SHARE = 0.3 ", "a real error is left alone"),
@@ -286,16 +211,10 @@ MUTANTS = [
     ),
     diagnosis("judge.py", "beaten=True", "beaten=False", "what a sharper cause leaves is claimed"),
     diagnosis(
-        "judge.py",
-        "for j in members if j.refines is None and",
-        "for j in members if",
-        "a mode makes a cause less sure",
+        "judge.py", "for j in members if j.refines is None and", "for j in members if", "a mode makes a cause less sure"
     ),
     diagnosis(
-        "judge.py",
-        "if left <= measure.floor and not halved and not plain:",
-        "if left < 0:",
-        "'none' is never said",
+        "judge.py", "if left <= measure.floor and not halved and not plain:", "if left < 0:", "'none' is never said"
     ),
     diagnosis("judge.py", "in own if blunt(j.scored) is None", "in own", "proxies"),
     diagnosis("judge.py", "for j in own if blunt", "for j in judged if blunt", "a refinement is claimed as a cause"),
@@ -305,10 +224,7 @@ MUTANTS = [
     diagnosis("rules.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.3", "a rough model that lacks nothing is unknown"),
     diagnosis("rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.64", "nothing is missing beside what may be the cause"),
     diagnosis(
-        "rules.py",
-        "PLAUSIBLE = 0.3",
-        "PLAUSIBLE = 0.1",
-        "what is no cause makes that nothing is missing unsure",
+        "rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.1", "what is no cause makes that nothing is missing unsure"
     ),
     diagnosis("rules.py", " >= PLAUSIBLE or halves(alone, left)", " >= PLAUSIBLE", "what takes half is nothing"),
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
@@ -317,58 +233,27 @@ MUTANTS = [
     diagnosis("judge.py", "left > measure.noises and any(halves", "any(halves", "noise is to be explained"),
     diagnosis("judge.py", "left > measure.noises and any(is_plain", "any(is_plain", "noise is plain"),
     diagnosis("rules.py", "PLAIN = 0.25", "PLAIN = 2.5", "none is said of what is plain"),
-    diagnosis(
-        "probability.py",
-        "0.0 if scored.looked is None else",
-        "0.0 if True else",
-        "locked tests weigh nothing",
-    ),
+    diagnosis("probability.py", "0.0 if scored.looked is None else", "0.0 if True else", "locked tests weigh nothing"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.6", "the lock stays shut on what is likely"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.3", "the lock is opened for what is not likely"),
     diagnosis("probability.py", "-2.6, -1.2)", "0.0, -1.2)", "one of several is claimed beside them"),
     diagnosis("probability.py", "-2.6, -1.2)", "-2.6, 0.0)", "what holds the probes is claimed for what warms it"),
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
+    diagnosis("probability.py", "max(samples, 1), FALLS[1], ", "max(samples, 1), 0.0, ", "a second look is not taken"),
     diagnosis(
-        "probability.py",
-        "max(samples, 1), FALLS[1], ",
-        "max(samples, 1), 0.0, ",
-        "a second look is not taken",
+        "selection.py", "(_only(first, some), beside_all))", "(beside_all,))", "what stands out alone is not seen"
     ),
-    diagnosis(
-        "selection.py",
-        "(_only(first, some), beside_all))",
-        "(beside_all,))",
-        "what stands out alone is not seen",
-    ),
-    diagnosis(
-        "selection.py",
-        "(_only(first, some), beside_all))",
-        "(_only(first, some),))",
-        "nor beside the members",
-    ),
+    diagnosis("selection.py", "(_only(first, some), beside_all))", "(_only(first, some),))", "nor beside the members"),
     diagnosis("investigate.py", " and any_stands_out(", " and not any_stands_out(", "it is looked for in vain"),
     # ---- refinement
     diagnosis("refinement.py", "GOOD = 0.4", "GOOD = 0.9", "what a poor model lacks is a refinement"),
     diagnosis(
-        "refinement.py",
-        "MOST, SURE = 0.6, 0.85",
-        "MOST, SURE = 0.3, 0.85",
-        "another mode is claimed as a cause",
+        "refinement.py", "MOST, SURE = 0.6, 0.85", "MOST, SURE = 0.3, 0.85", "another mode is claimed as a cause"
     ),
     diagnosis("refinement.py", "\nKEPT = 0.25", "\nKEPT = 0.0", "a known heat is missing by another reading"),
     diagnosis("refinement.py", "drop >= MOST and prob", "drop >= 0 and prob", "a mode of a known heat is a cause"),
-    diagnosis(
-        "refinement.py",
-        "(scored) >= SURE",
-        "(scored) >= 0.65",
-        "what may be a mode of a known heat is a cause",
-    ),
-    diagnosis(
-        "refinement.py",
-        "return timed and ",
-        "return ",
-        "the speed is a cause beside its bearing",
-    ),
+    diagnosis("refinement.py", "(scored) >= SURE", "(scored) >= 0.65", "what may be a mode of a known heat is a cause"),
+    diagnosis("refinement.py", "return timed and ", "return ", "the speed is a cause beside its bearing"),
     diagnosis("refinement.py", 'if kin == "heat" and not', "if False and not", "the coolant is missing twice"),
     diagnosis("refinement.py", "REPLACED = 0.1", "REPLACED = 0.5", "a cause that overlaps takes a place"),
     diagnosis("refinement.py", "WORTH = 20.0", "WORTH = 0.0", "an effect that was never there is replaced"),
@@ -377,12 +262,7 @@ MUTANTS = [
     diagnosis("refinement.py", "candidate.passive or candidate.placeless", "candidate.passive", "without places"),
     diagnosis("refinement.py", "EVIDENT = 1.0", "EVIDENT = 9.0", "what is evident is told a zero of another"),
     diagnosis("refinement.py", "SMALL = 0.6 ", "SMALL = 0.1 ", "a small mode is claimed as a cause"),
-    diagnosis(
-        "refinement.py",
-        "not most and blunt(scored) and",
-        "not most and",
-        "a sure cause passes as another mode",
-    ),
+    diagnosis("refinement.py", "not most and blunt(scored) and", "not most and", "a sure cause passes as another mode"),
     diagnosis("refinement.py", "MOVES, QUARTER = 0.6", "MOVES, QUARTER = 0.9", "air that moves the frame is a zero"),
     diagnosis("refinement.py", "MOVES, QUARTER = 0.6", "MOVES, QUARTER = 0.1", "another zero is missing air"),
     diagnosis("refinement.py", "len(shares) >= LEAST_TESTS and", "shares and", "one test tells a zero from air"),
@@ -392,10 +272,7 @@ MUTANTS = [
     diagnosis("refinement.py", "family == AIR or not", "family == 'x' or not", "the air counts from another zero"),
     diagnosis("refinement.py", 'or kin == "same"', "", "the same effect is missing again"),
     diagnosis(
-        "refinement.py",
-        'kin == "near" and not _is_surely_missing(scored)',
-        'kin == "near"',
-        "the motor is its bearing",
+        "refinement.py", 'kin == "near" and not _is_surely_missing(scored)', 'kin == "near"', "the motor is its bearing"
     ),
     diagnosis("refinement.py", 'kin == "near" and', "False and", "what sits at its place is missing"),
     # ---- locked tests
@@ -428,36 +305,17 @@ MUTANTS = [
     diagnosis("confirm.py", '"verify_on": [], ', "", "verification tests are no part of the choice"),
     diagnosis("confirm.py", "if set(some) & set(", "if not set(some) & set(", "parameters of another claim"),
     diagnosis(
-        "foretold.py",
-        "LOG_ODDS = (0.5, 1.9, -0.6)",
-        "LOG_ODDS = (0.5, 1.9, 0.0)",
-        "any fall speaks for a claim",
+        "foretold.py", "LOG_ODDS = (0.5, 1.9, -0.6)", "LOG_ODDS = (0.5, 1.9, 0.0)", "any fall speaks for a claim"
     ),
-    diagnosis(
-        "foretold.py",
-        "LOG_ODDS = (0.5, 1.9, ",
-        "LOG_ODDS = (0.5, 0.0, ",
-        "the model as it stands says nothing",
-    ),
-    diagnosis(
-        "foretold.py",
-        "LOG_ODDS = (0.5, 1.9, ",
-        "LOG_ODDS = (0.0, 1.9, ",
-        "other lags of the model say nothing",
-    ),
+    diagnosis("foretold.py", "LOG_ODDS = (0.5, 1.9, ", "LOG_ODDS = (0.5, 0.0, ", "the model as it stands says nothing"),
+    diagnosis("foretold.py", "LOG_ODDS = (0.5, 1.9, ", "LOG_ODDS = (0.0, 1.9, ", "other lags of the model say nothing"),
     diagnosis("foretold.py", "first, last = said[0], said[-1]", "first = last = said[0]", "one way speaks for both"),
     diagnosis(
-        "foretold.py",
-        " and not any(f.falls",
-        " and not all(f.falls",
-        "a claim that one way bears out is refuted",
+        "foretold.py", " and not any(f.falls", " and not all(f.falls", "a claim that one way bears out is refuted"
     ),
     diagnosis("foretold.py", "f is not None and f.says(self.floor)", "f is not None", "noise refutes a claim"),
     diagnosis(
-        "opened.py",
-        "return _is_refuted(j) or blunt",
-        "return blunt",
-        "what falls in no way stands by its evidence",
+        "opened.py", "return _is_refuted(j) or blunt", "return blunt", "what falls in no way stands by its evidence"
     ),
     diagnosis("opened.py", "_is_refuted(j) or blunt(j.scored) is not None or", "_is_refuted(j) or", "likely is enough"),
     diagnosis(
@@ -468,16 +326,10 @@ MUTANTS = [
     ),
     diagnosis("opened.py", "return max(found, key", "return min(found, key", "the worst twin is taken"),
     diagnosis(
-        "opened.py",
-        "if worst < claims:\n            refused",
-        "if False:\n            refused",
-        "no word of a refusal",
+        "opened.py", "if worst < claims:\n            refused", "if False:\n            refused", "no word of a refusal"
     ),
     diagnosis(
-        "opened.py",
-        "return replace(anew, judged=judged, likely=())",
-        "return found",
-        "the lock says nothing of 'none'",
+        "opened.py", "return replace(anew, judged=judged, likely=())", "return found", "the lock says nothing of 'none'"
     ),
     diagnosis("opened.py", "standing = causes(asked)", "standing = tuple(asked)", "one cause is claimed in two modes"),
     diagnosis("opened.py", "if not j.twin})", "})", "a twin that went is told for what was claimed"),
@@ -493,16 +345,10 @@ MUTANTS = [
     diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis(
-        "answer.py",
-        "tuple(locked) if looked_at else ()",
-        "tuple(locked)",
-        "a lock is said to be open that is not",
+        "answer.py", "tuple(locked) if looked_at else ()", "tuple(locked)", "a lock is said to be open that is not"
     ),
     diagnosis(
-        "answer.py",
-        "return int(np.argmax(left))",
-        "return int(np.argmin(left))",
-        "the best response is diagnosed",
+        "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
     ),
     diagnosis("answer.py", "if heads else None", "", "a share that nobody measured is told"),
     diagnosis("answer.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
@@ -517,10 +363,7 @@ MUTANTS = [
     diagnosis("selection.py", "\nTRIED = 5", "\nTRIED = 1", "what is missing hides the right one as noise"),
     diagnosis("selection.py", "STANDS = 0.15", "STANDS = 0.95", "what is missing hides the right one as noise"),
     diagnosis(
-        "selection.py",
-        "found[id(one)] = again.evidence",
-        "pass",
-        "a proxy is credited with the cause's evidence",
+        "selection.py", "found[id(one)] = again.evidence", "pass", "a proxy is credited with the cause's evidence"
     ),
     diagnosis("selection.py", "min(left, key=lambda", "max(left, key=lambda", "the likelier one loses the credit"),
     diagnosis("selection.py", "(own.credit or own.evidence) + gained", "best.evidence", "a swap takes all credit"),
@@ -538,12 +381,7 @@ MUTANTS = [
     diagnosis("preference.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
     diagnosis("preference.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
     diagnosis("preference.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
-    diagnosis(
-        "selection.py",
-        "noise = _second_chance(problem, chosen, dropped, noise, sound)",
-        "",
-        "twins drop both",
-    ),
+    diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
     diagnosis(
         "investigate.py",
         "selection, judgement = judged(active)",
@@ -552,10 +390,7 @@ MUTANTS = [
     ),
     diagnosis("investigate.py", "if not judgement.claims and any_", "if any_", "a casting drives out the cause"),
     diagnosis(
-        "selection.py",
-        "best = preferred(eligible.ranked)",
-        "best = preferred(ranking.ranked)",
-        "a casting swaps in",
+        "selection.py", "best = preferred(eligible.ranked)", "best = preferred(ranking.ranked)", "a casting swaps in"
     ),
     diagnosis("selection.py", "if worth >= WORTH and all(", "if all(", "trifles come back"),
     diagnosis(
@@ -568,10 +403,7 @@ MUTANTS = [
     diagnosis("selection.py", "worst = min(unsound", "worst = max(unsound", "the most likely one goes first"),
     diagnosis("preference.py", " and _foretells_more(best, own)", "", "a member is swapped for what foretells less"),
     diagnosis(
-        "preference.py",
-        " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)",
-        "",
-        "a casting stands",
+        "preference.py", " or (own.candidate.passive and best.drop >= NAMED_SHARE * own.drop)", "", "a casting stands"
     ),
     diagnosis("preference.py", "own.candidate.passive and best.drop", "best.drop", "a name takes a cause's place"),
     diagnosis("preference.py", "(best.candidate.passive or len(other", "(len(other", "a casting hides what bends it"),
@@ -583,10 +415,7 @@ MUTANTS = [
     ),
     diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
     diagnosis(
-        "preference.py",
-        "better or _is_its_name(own, best)",
-        "better",
-        "a lag stands where its name is as likely",
+        "preference.py", "better or _is_its_name(own, best)", "better", "a lag stands where its name is as likely"
     ),
     diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
     # ---- products
@@ -594,12 +423,7 @@ MUTANTS = [
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),
     products("null.py", "np.sum(chance >= evidence)", "np.sum(chance > evidence)", "chance that does as well"),
     products("null.py", "np.maximum(best,", "np.minimum(best,", "chance has one try"),
-    products(
-        "null.py",
-        "known.precision >= 1.0",
-        "known.precision >= 0.0",
-        "chance draws gains that would be fitted",
-    ),
+    products("null.py", "known.precision >= 1.0", "known.precision >= 0.0", "chance draws gains that would be fitted"),
     products(
         "invariance.py",
         "SPREADS = np.array([0.0,",
@@ -625,10 +449,7 @@ MUTANTS = [
     products("directions.py", " + noise.white**2", "", "searched noise: no white noise"),
     products("ranking.py", "others = np.delete(tests, i)", "others = tests", "the left-out test is seen"),
     products(
-        "ranking.py",
-        "float(without @ without)",
-        "float(without @ without) / 2",
-        "errors are half of what they are",
+        "ranking.py", "float(without @ without)", "float(without @ without) / 2", "errors are half of what they are"
     ),
     # ---- noise and priors
     diagnosis("discrepancy.py", "LEAST_WHITE = 0.1", "LEAST_WHITE = 0.001", "a trifle that repeats outweighs all"),
@@ -638,19 +459,11 @@ MUTANTS = [
     diagnosis("known.py", "FREE = 1.0 ", "FREE = 0.0 ", "an effect that another one hides stays hidden"),
     diagnosis("known.py", "SEARCHED = 700", "SEARCHED = 70", "the noise is guessed from few rows"),
     diagnosis("evidence.py", "BEYOND = 0.25", "BEYOND = 0.0", "implausible gains"),
-    diagnosis(
-        "known_effects.py",
-        "BANK = (1 / 25, 1 / 5, 5.0, 25.0)",
-        "BANK = (1 / 5, 5.0, 9.0, 25.0)",
-        "fast modes",
-    ),
+    diagnosis("known_effects.py", "BANK = (1 / 25, 1 / 5, 5.0, 25.0)", "BANK = (1 / 5, 5.0, 9.0, 25.0)", "fast modes"),
     # ---- what is asked for
     diagnosis("candidates.py", "UNNAMED = -3.0", "UNNAMED = 0.0", "lags rival named effects"),
     diagnosis(
-        "candidates.py",
-        "and not placed",
-        "and all(usable[c].at is None for c in binding.values())",
-        "any sensor",
+        "candidates.py", "and not placed", "and all(usable[c].at is None for c in binding.values())", "any sensor"
     ),
     diagnosis("candidates.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
     diagnosis("candidates.py", "or effect.name == STATIC", "", "a gain is asked for twice"),
@@ -675,10 +488,7 @@ MUTANTS = [
     diagnosis("investigate.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
     diagnosis("investigate.py", "selection.noise, refining, [claim", "selection.noise, kept, [claim", "asked twice"),
     diagnosis(
-        "investigate.py",
-        "_error_of(asked_about, tests)",
-        "_error_of(fitted, tests)",
-        "wrong parameters go unnoticed",
+        "investigate.py", "_error_of(asked_about, tests)", "_error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),
     diagnosis(
         "investigate.py",
@@ -694,36 +504,20 @@ MUTANTS = [
         "an unlucky zero passes as wrong parameters",
     ),
     # ---- faults of the logs
-    diagnosis(
-        "logging_faults.py",
-        "WARM_CLOCK_DROP = 0.75",
-        "WARM_CLOCK_DROP = 0.4",
-        "a sensor that lags is a clock",
-    ),
+    diagnosis("logging_faults.py", "WARM_CLOCK_DROP = 0.75", "WARM_CLOCK_DROP = 0.4", "a sensor that lags is a clock"),
     diagnosis("logging_faults.py", "\nCLOCK_DROP = 0.4", "\nCLOCK_DROP = 0.05", "sound clocks are suspected"),
     diagnosis(
-        "logging_faults.py",
-        "inside = abs(best) < max(SHIFTS_S)",
-        "inside = True",
-        "slow effects pass as clocks",
+        "logging_faults.py", "inside = abs(best) < max(SHIFTS_S)", "inside = True", "slow effects pass as clocks"
     ),
     diagnosis("logging_faults.py", "ALL_DROP = 0.5", "ALL_DROP = 0.05", "sound gains are wrong"),
     diagnosis("logging_faults.py", "LEAST_FIT = 60.0", "LEAST_FIT = 0.0", "a poor model speaks of the logs"),
     diagnosis(
-        "logging_faults.py",
-        "        tests.mend(i, factor)\n",
-        "        pass\n",
-        "sound tests are blamed for one",
+        "logging_faults.py", "        tests.mend(i, factor)\n", "        pass\n", "sound tests are blamed for one"
     ),
     diagnosis("turned.py", "ALL_DROP = 0.6", "ALL_DROP = 0.05", "sound probes are turned"),
     diagnosis("turned.py", "LEAST_FIT = 40.0", "LEAST_FIT = 0.0", "a test that nothing foretells is turned"),
     diagnosis("turned.py", "LEAST_TESTS = 3", "LEAST_TESTS = 2", "one of two tests is turned"),
-    diagnosis(
-        "turned.py",
-        "(np.sum(signs < 0) + together) >= len(signs)",
-        "1 >= len(signs)",
-        "most tests are turned",
-    ),
+    diagnosis("turned.py", "(np.sum(signs < 0) + together) >= len(signs)", "1 >= len(signs)", "most tests are turned"),
     diagnosis("turned.py", "(1, 2) if", "(1,) if", "two that are turned hide each other"),
     diagnosis("turned.py", "lags, ridge) for ridge", "[], ridge) for ridge", "a missing effect hides a turned probe"),
     Mutant(
@@ -735,10 +529,7 @@ MUTANTS = [
     ),
     diagnosis("logging_faults.py", "GAIN_OFF = 0.15", "GAIN_OFF = 0.01", "sound gains are suspected"),
     diagnosis(
-        "logging_faults.py",
-        "    0.9  # a factor must",
-        "    0.2  # a factor must",
-        "missing effects pass as gains",
+        "logging_faults.py", "    0.9  # a factor must", "    0.2  # a factor must", "missing effects pass as gains"
     ),
     diagnosis("logging_faults.py", "NOISES = 5.0", "NOISES = 0.0", "noise passes as a wrong gain"),
     diagnosis("logging_faults.py", "MISFIT_TIMES = 3.0", "MISFIT_TIMES = 1.0", "sound parameters are suspected"),
@@ -770,41 +561,22 @@ MUTANTS = [
     diagnosis("clocks_by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
     diagnosis("clocks_by_heat.py", "if 2 * len(", "if len(", "half of the tests are blamed on the others, by heat"),
     diagnosis(
-        "clocks_by_heat.py",
-        "(one.campaign, one.test)]",
-        "(one.campaign, one.test) or f]",
-        "one test hides another",
+        "clocks_by_heat.py", "(one.campaign, one.test)]", "(one.campaign, one.test) or f]", "one test hides another"
     ),
     diagnosis(
-        "heat_balance.py",
-        "MOST_OWN = 0.5",
-        "MOST_OWN = 0.6",
-        "a drive that hardly worked elsewhere moves a clock",
+        "heat_balance.py", "MOST_OWN = 0.5", "MOST_OWN = 0.6", "a drive that hardly worked elsewhere moves a clock"
     ),
     diagnosis(
-        "heat_balance.py",
-        "held[max(0, -shift) : n - max(0, shift)]",
-        "held[: n - abs(shift)]",
-        "shifts go one way",
+        "heat_balance.py", "held[max(0, -shift) : n - max(0, shift)]", "held[: n - abs(shift)]", "shifts go one way"
     ),
-    diagnosis(
-        "heat_balance.py",
-        "self.share - self.rest < TELLS",
-        "False",
-        "a test in which the machine waits tells",
-    ),
+    diagnosis("heat_balance.py", "self.share - self.rest < TELLS", "False", "a test in which the machine waits tells"),
     diagnosis("clocks.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"),
     diagnosis("clocks.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"),
     diagnosis("clocks.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
     diagnosis("clocks.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
     diagnosis("clocks.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
     diagnosis("clocks.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
-    diagnosis(
-        "clocks.py",
-        "2 * AROUND * step_s) <",
-        "2 * AROUND * np.median(np.diff(t_s))) <",
-        "bursts tell a clock",
-    ),
+    diagnosis("clocks.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"),
     diagnosis("clocks.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
     diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
@@ -848,68 +620,22 @@ MUTANTS = [
     ),
     # ---- the heat that is missing
     heat(
-        "missing_heat.py",
-        "KNOWN_SPREAD = 0.3",
-        "KNOWN_SPREAD = 0.003",
-        "what the known effects took is kept by them",
+        "missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 0.003", "what the known effects took is kept by them"
     ),
-    heat(
-        "missing_heat.py",
-        "KNOWN_SPREAD = 0.3",
-        "KNOWN_SPREAD = 300.0",
-        "the known effects take what is missing",
-    ),
-    heat(
-        "missing_heat.py",
-        "LEAVES = 0.1",
-        "LEAVES = 0.001",
-        "a distributed body has a time constant far too short",
-    ),
+    heat("missing_heat.py", "KNOWN_SPREAD = 0.3", "KNOWN_SPREAD = 300.0", "the known effects take what is missing"),
+    heat("missing_heat.py", "LEAVES = 0.1", "LEAVES = 0.001", "a distributed body has a time constant far too short"),
     heat("missing_heat.py", "ONE_SIDED = 0.55", "ONE_SIDED = 0.0", "a drift heats in one direction"),
     heat("missing_heat.py", "CHANGE = 0.05", "CHANGE = 50.0", "noise has a source, for changes cost nothing"),
     heat(
-        "missing_heat.py",
-        "one_way=sign != 0)\n        changes",
-        "one_way=False)\n        changes",
-        "heat is negative",
+        "missing_heat.py", "one_way=sign != 0)\n        changes", "one_way=False)\n        changes", "heat is negative"
     ),
-    heat(
-        "missing_heat.py",
-        "(part % 2 != turn) | (part == 0)",
-        "part >= 0",
-        "what was seen counts as predicted",
-    ),
+    heat("missing_heat.py", "(part % 2 != turn) | (part == 0)", "part >= 0", "what was seen counts as predicted"),
     heat("one_way.py", "(q > 0) | (slope < -1e-9 * largest)", "(q > 0)", "a source that rests never starts"),
-    heat(
-        "goes_with.py",
-        "ON_WITH, MORE_OFTEN = 0.8, 0.25",
-        "ON_WITH, MORE_OFTEN = 0.7, 0.25",
-        "half a companion",
-    ),
-    heat(
-        "goes_with.py",
-        "ON_WITH, MORE_OFTEN = 0.8, 0.25",
-        "ON_WITH, MORE_OFTEN = 0.8, -1.0",
-        "chance is a companion",
-    ),
-    heat(
-        "goes_with.py",
-        "OFF_WITH, NO_OFTENER = 0.6, 0.3",
-        "OFF_WITH, NO_OFTENER = 0.7, 0.5",
-        "causes are ruled out",
-    ),
-    heat(
-        "goes_with.py",
-        "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3",
-        "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4",
-        "halves are followed",
-    ),
-    heat(
-        "goes_with.py",
-        "STRONG, WEAK = 0.5, 0.15",
-        "STRONG, WEAK = 0.4, 0.2",
-        "tests are strong and absent too soon",
-    ),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.7, 0.25", "half a companion"),
+    heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.8, -1.0", "chance is a companion"),
+    heat("goes_with.py", "OFF_WITH, NO_OFTENER = 0.6, 0.3", "OFF_WITH, NO_OFTENER = 0.7, 0.5", "causes are ruled out"),
+    heat("goes_with.py", "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3", "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4", "halves are followed"),
+    heat("goes_with.py", "STRONG, WEAK = 0.5, 0.15", "STRONG, WEAK = 0.4, 0.2", "tests are strong and absent too soon"),
     heat(
         "goes_with.py",
         "DAYS, MOST_DAYS, MOSTLY_ON = 3, 0.8, 0.6",
@@ -920,11 +646,7 @@ MUTANTS = [
     # ---- checks of a fit
     check("CONDITION = 1000.0", "CONDITION = 1e9", "effects that can't be told apart go unnoticed"),
     check("COLLINEAR = 0.98", "COLLINEAR = 1.0", "twins go unnoticed"),
-    check(
-        "if abs(correlation[a, b]) > COLLINEAR",
-        "if correlation[a, b] > COLLINEAR",
-        "mirrored twins go unnoticed",
-    ),
+    check("if abs(correlation[a, b]) > COLLINEAR", "if correlation[a, b] > COLLINEAR", "mirrored twins go unnoticed"),
     check("FEWEST = 5.0", "FEWEST = 1.0", "fits to a few independent samples pass"),
     check("AT_BOUND = 1e-3", "AT_BOUND = 1e-9", "parameters at their bounds go unnoticed"),
     check("if value > record:", "if value > 9 * record:", "time constants beyond the record pass"),
@@ -936,10 +658,7 @@ MUTANTS = [
     calibration("jump_checks.py", "DATA_SHEET_PCT = 10.0", "DATA_SHEET_PCT = 90.0", "the wrong probe passes"),
     calibration("jump_checks.py", "UNCERTAINTY_PCT = 5.0", "UNCERTAINTY_PCT = 50.0", "poor calibrations pass"),
     calibration(
-        "jump_checks.py",
-        "NONLINEARITY_PCT = 2.0",
-        "NONLINEARITY_PCT = 20.0",
-        "a probe out of its range passes",
+        "jump_checks.py", "NONLINEARITY_PCT = 2.0", "NONLINEARITY_PCT = 20.0", "a probe out of its range passes"
     ),
     calibration("jump_checks.py", "100.0 * abs(fit.drift_um)", "100.0 * fit.drift_um", "negative drift passes"),
     calibration("jump_checks.py", "NOISE_PCT = 5.0", "NOISE_PCT = 50.0", "noisy jumps pass"),
@@ -953,10 +672,7 @@ MUTANTS = [
     ),
     calibration("jump_checks.py", "smallest = min(", "smallest = max(", "noise against the largest move"),
     calibration(
-        "clock.py",
-        "_LEAST_CORRELATION = 0.8",
-        "_LEAST_CORRELATION = 0.2",
-        "clocks of logs that don't look alike",
+        "clock.py", "_LEAST_CORRELATION = 0.8", "_LEAST_CORRELATION = 0.2", "clocks of logs that don't look alike"
     ),
     calibration("clock.py", "_RIVAL = 0.97", "_RIVAL = 1.1", "a periodic programme sets the clock"),
     calibration("clock.py", "_LEAST_OVERLAP = 0.25", "_LEAST_OVERLAP = 0.01", "a chance overlap sets the clock"),
@@ -964,10 +680,7 @@ MUTANTS = [
     calibration("clock.py", "abs(slope) > 4 * error", "abs(slope) > 0 * error", "scatter is a drift"),
     calibration("clock_refine.py", "_LEAST_CORRELATION = 0.7", "_LEAST_CORRELATION = 0.0", "noise tells a lag"),
     calibration(
-        "clock_refine.py",
-        "_NEAR_THE_END = 0.98",
-        "_NEAR_THE_END = 9.0",
-        "a lag at the end of the search is believed",
+        "clock_refine.py", "_NEAR_THE_END = 0.98", "_NEAR_THE_END = 9.0", "a lag at the end of the search is believed"
     ),
     calibration("clock_events.py", "_MOST_PPM = 500.0", "_MOST_PPM = 1e9", "mixed-up events set the clock"),
     calibration("clock_events.py", "_MOST_OFF_S = 30.0", "_MOST_OFF_S = 1e9", "mixed-up events set the clock"),

@@ -83,20 +83,11 @@ _DIAMETER = "table.d"
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
 _AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
-_CASTINGS = frozenset({"headstock", "ram", "saddle", "crossbeam", "column", "bed"})
-# what others call them
-_CASTINGS |= {
-    "crossrail",
-    "cross_rail",
-    "cross_beam",
-    "bridge",
-    "portal",
-    "gantry",
-    "stand",
-    "upright",
-    "frame",
-    "base",
-}
+_CASTINGS = frozenset(
+    "headstock ram saddle crossbeam column bed "
+    # and what others call them
+    "crossrail cross_rail cross_beam bridge portal gantry stand upright frame base".split()
+)
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
 
