@@ -83,10 +83,19 @@ _DIAMETER = "table.d"
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
 _AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
-_CASTINGS = frozenset(
-    "headstock ram saddle crossbeam column bed "
-    # and what others call them
-    "crossrail cross_rail cross_beam bridge portal gantry stand upright frame base".split()
+_CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
+# and what others call them
+_ALSO_CASTINGS = (
+    "crossrail",
+    "cross_rail",
+    "cross_beam",
+    "bridge",
+    "portal",
+    "gantry",
+    "stand",
+    "upright",
+    "frame",
+    "base",
 )
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
@@ -99,7 +108,7 @@ def is_at_tool(place: str | None) -> bool:
 
 def is_casting(place: str | None) -> bool:
     """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
-    return place is not None and place.lower().partition(".")[0] in _CASTINGS
+    return place is not None and place.lower().partition(".")[0] in (*_CASTINGS, *_ALSO_CASTINGS)
 
 
 def is_beside(place: str | None) -> bool:
