@@ -176,8 +176,8 @@ class Refinement:
         others = [n for n in range(len(self.fitted.terms)) if n != term]
         shares = []
         for block, own in zip(self.problem.blocks, candidate, strict=True):
-            known = self._does(block, term)
-            if own.std() >= known.std() and own.any():
+            does = self._does(block, term)
+            if own.std() >= does.std() and own.any():
                 left = block.response - sum((self._does(block, n) for n in others), np.zeros(len(own)))
                 shares.append(float(left.std() / own.std()))
         return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
