@@ -91,7 +91,8 @@ def test_whether_a_cooler_is_the_chiller_or_what_is_cooled_is_asked(name: str) -
         ("Hall air", "°C", "hall"),
         ("防护门开", None, "enclosure"),
         ("Machine door open", None, "enclosure"),
-        ("Door open", None, "hall.door"),
+        ("/plc/aux.hall_door", None, "hall.door"),
+        ("roller door", None, "hall.door"),
     ],
 )
 def test_the_air_within_the_machine_is_not_the_hall(name: str, unit: str | None, at: str) -> None:
@@ -170,3 +171,27 @@ def test_the_field_of_a_message_says_what_it_is_not_its_topic(name: str, quantit
 def test_places_of_italian_and_french_labs_and_the_air_of_the_working_space(name: str, at: str) -> None:
     """The air in which the part is cut is not the hall's, and a bearing beside a table is not the spindle's."""
     assert guess(name, "°C").at == at
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "at"),
+    [
+        ("/hmc/temps.sp_motor", "temperature", "spindle.motor"),
+        ("temps_nut_y", "temperature", "axis.y.nut"),
+        ("Temps broche", "temperature", "spindle"),
+        ("temps", None, None),
+        ("Temps écoulé", None, None),
+    ],
+)
+def test_temps_are_temperatures_but_for_the_french_column_of_times(
+    name: str, quantity: str | None, at: str | None
+) -> None:
+    found = guess(name, None)
+    assert (found.quantity, found.at) == (quantity, at)
+
+
+@pytest.mark.parametrize(
+    ("name", "asked"), [("Door", True), ("aux.door", True), ("hall_door", False), ("Tor", False), ("Schutztür", False)]
+)
+def test_whose_door_it_is_is_asked_where_the_name_leaves_it_open(name: str, asked: bool) -> None:
+    assert any("hall.door, or enclosure" in q for q in guess(name, None, dtype="bool").questions) is asked

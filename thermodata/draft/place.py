@@ -236,7 +236,9 @@ def _fluid(said: set[str], axis: str | None) -> Place:
 
 def _state(said: set[str], axis: str | None) -> Place:
     if "door" in said:
-        return Place("enclosure" if "enclosure" in said else "hall.door")
+        told = said & {"enclosure", "hall", "gate"}
+        asked = None if told else "at: hall.door, or enclosure, where it is the machine's own door?"
+        return Place("enclosure" if "enclosure" in said else "hall.door", question=asked)
     if "coolant" in said:
         return Place("coolant", True)
     if "hydraulics" in said:

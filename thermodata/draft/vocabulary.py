@@ -138,6 +138,7 @@ _PLACE_WORDS: dict[str, str] = {
     "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
     "floor": "floor. boden. bodent hallenboden fussboden fundament foundation podlah ^zaklad 地面 地基 地板",
     "door": "door doors. tur. tuer. schutztur tor. hallentor hallentur hallentuer dvere dveri vrata vrat. gate. 门 門",
+    "gate": "tor. hallentor hallentur hallentuer vrata vrat. gate. roller~door",
     "enclosure": "machine~door schutztur schutztuer safety~door guard~door 防护门 安全门 workspace. arbeitsraum "
     "pracovni~prostor",
     # the air in which the part is cut: of the machine, and not of the hall
