@@ -10,7 +10,7 @@ from thermodata.diagnosis import next_test
 from thermodata.diagnosis.confirm import Confirmation
 from thermodata.diagnosis.detection import LARGE, of_each_effect
 from thermodata.diagnosis.investigate import Investigation
-from thermodata.diagnosis.judge import Judgement, equivalents
+from thermodata.diagnosis.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.rules import rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.view.dataset import Dataset
@@ -46,10 +46,18 @@ def advice(
         return None
     if judgement.verdict not in ("unknown", "not_testable"):
         return None
+    if resting := [j.scored.candidate for j in judgement.judged if _rests(j)]:
+        return next_test.to_bear_out(resting, data.channels)
     if first is not None and (only := _only_test(first, investigation)) is not None:
         return next_test.to_repeat(first.candidate, only, data.channels)
     tests = len({b.test.key for b in investigation.problem.blocks})
     return next_test.to_find(tests, investigation.spots, data.channels, first)
+
+
+def _rests(j: Judged) -> bool:
+    """Whether the lock was opened for it, as it is likely, and it acts in none of the locked tests."""
+    looked = j.scored.looked
+    return j.refines is None and looked is not None and looked.foretold.tests == frozenset()
 
 
 def _only_test(s: Scored, investigation: Investigation) -> str | None:
