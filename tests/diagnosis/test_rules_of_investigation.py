@@ -275,6 +275,47 @@ class TestJudged:
         assert len(asked) == 1, "nothing but refinements stood beside it"
         assert investigated(members).borne_out(found.judgement.claims[0], ()) is None, "there are no locked tests"
 
+    @pytest.mark.parametrize(
+        ("evidence", "left", "asked", "among"),
+        [
+            (45.0, 0.2, [], [["likely"]]),  # the locked tests will make a claim of it
+            (45.0, 0.9, ["likely", "likely"], [["likely"], ["likely", "bed"]]),
+            (45.0, None, ["likely", "likely"], [["likely"], ["likely", "bed"]]),  # there are none
+            (16.0, 0.2, ["likely", "likely"], [["likely"], ["likely", "bed"]]),  # nor are they opened for it
+            (900.0, 0.2, [], [["likely"]]),  # a claim without them
+        ],
+    )
+    def test_other_axes_are_asked_only_of_what_the_locked_tests_leave_open(
+        self,
+        monkeypatch: pytest.MonkeyPatch,
+        data: Dataset,
+        fitted: FittedModel,
+        evidence: float,
+        left: float | None,
+        asked: list[str],
+        among: list[list[str]],
+    ) -> None:
+        """Each is a diagnosis of its own; nor is what is passive asked for beside what will be a claim."""
+        one = scored("likely", before=3.0, after=0.3, size=3.0, evidence=evidence)
+        bed = scored("bed", before=3.0, after=0.3, size=3.0, evidence=1.0, passive=True, family="generic")
+        said: list[str] = []
+
+        class Others:
+            def say(self, some: Scored, causes: Any) -> tuple[tuple[str, float], ...]:
+                said.append(some.candidate.effect.name)
+                return ()
+
+        def foretell(problem: Problem, opened: int, noise: Noise, kept: Any, claims: Any) -> Foretold:
+            assert left is not None
+            return Foretold(10.0, 10.0 * left, 10.0)
+
+        monkeypatch.setattr(investigating, "foretell", foretell)
+        locked = [t for t in data.tests if t.role == "locked"] if left is not None else []
+        more: dict[str, Any] = {"ranked": [one, bed], "locked": locked, "others": Others()}
+        self.investigated(monkeypatch, data, fitted.responses[0], [one], **more)
+        assert said == asked
+        assert self.among == among
+
     def test_wrong_parameters_are_those_of_the_model_that_is_asked_about(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel
     ) -> None:

@@ -16,7 +16,7 @@ from thermodata.diagnosis.clocks import timings
 from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.foretold import Foretold
+from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.known import Known, known, rms
@@ -32,7 +32,7 @@ from thermodata.diagnosis.logging_faults import (
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.present import present
-from thermodata.diagnosis.probability import at_best, limit_of, may_be_borne_out
+from thermodata.diagnosis.probability import at_best, is_made_a_claim, limit_of, may_be_borne_out, may_be_confirmed
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
@@ -47,6 +47,8 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
+# whether the locked tests alone would make a member of a selection a claim, against a measure
+Confirms = Callable[[Selection, Judgement, Judged, Measure], bool]
 # what one claim foretells of the locked tests beside the others that are claimed or likely; None where there are none
 BorneOut = Callable[[Judged, Sequence[Judged]], Foretold | None]
 Conclude = Callable[[tuple[Judged, ...]], Judgement]
@@ -100,9 +102,36 @@ def investigate(
         return causes_of(response, data, among, library, seed)
 
     witness = None if others is None else partial(others.say, causes=causes)
+
+    @cache
+    def with_locked() -> Problem:
+        blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
+        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
+
+    def foretold(found: Selection, told: Judgement, claim: Judged, others: Sequence[Judged]) -> Foretold | None:
+        both, opened = with_locked(), len(problem.blocks)
+        if len(both.blocks) == opened:
+            return None
+        claimed = {id(c.alone.columns) for c in (claim, *others)}
+        beside = [o.scored for o in others]
+        kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed)]
+        refining = [*beside, *(j.scored for j in told.refinements)]
+        with threadpool_limits(1):
+            beside_all = foretell(both, opened, found.noise, kept, [claim.scored])
+            # what stands beside a claim without being one may stand in its way
+            if beside_all.holds or len(kept) == len(refining):
+                return beside_all
+            alone = foretell(both, opened, found.noise, refining, [claim.scored])
+            return max(beside_all, alone, key=lambda f: f.fall)
+
+    def confirms(found: Selection, told: Judgement, one: Judged, measure: Measure) -> bool:
+        said = foretold(found, told, one, ()) if may_be_confirmed(one.scored) else None
+        return said is not None and is_made_a_claim(one.scored, Looked(said, None, measure.floor))
+
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness)
+        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness, confirms)
         unseen = () if selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
@@ -116,27 +145,8 @@ def investigate(
         *faulty_sensors(data, fitted.name),
     ]
 
-    @cache
-    def with_locked() -> Problem:
-        blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
-        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
-        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
-
     def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
-        both, opened = with_locked(), len(problem.blocks)
-        if selection is None or len(both.blocks) == opened:
-            return None
-        claimed = {id(c.alone.columns) for c in (claim, *others)}
-        beside = [o.scored for o in others]
-        kept = [*beside, *(m.scored for m in selection.members if id(m.alone.columns) not in claimed)]
-        refining = [*beside, *(j.scored for j in judgement.refinements)]
-        with threadpool_limits(1):
-            beside_all = foretell(both, opened, selection.noise, kept, [claim.scored])
-            # what stands beside a claim without being one may stand in its way
-            if beside_all.holds or len(kept) == len(refining):
-                return beside_all
-            alone = foretell(both, opened, selection.noise, refining, [claim.scored])
-            return max(beside_all, alone, key=lambda f: f.fall)
+        return None if selection is None else foretold(selection, judgement, claim, others)
 
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)
@@ -172,6 +182,7 @@ def _judged(
     asked: Sequence[CandidateEffect],
     seed: int,
     witness: Witness | None = None,
+    confirms: Confirms = lambda found, told, one, measure: False,
 ) -> tuple[Selection | None, Judgement, Measure]:
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
     first = first_ranking(problem, asked)
@@ -181,14 +192,19 @@ def _judged(
     chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
     measure = Measure(spread, problem.noise, chance, problem.in_parts)
 
-    def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement]:
+    def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement, bool]:
         found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)
         refines = Refinement(fitted, problem, found.noise)
         told = judge(problem, found, measure, refines)
-        if witness is None or not (heard := _heard(told, witness)):
-            return found, told
-        found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
-        return found, judge(problem, found, measure, refines)
+        if witness is None:
+            return found, told, bool(told.claims)
+        standing = [j for j in told.judged if j.refines is None and may_be_borne_out(j.scored)]
+        # the locked tests are looked at in the end anyway, and each other axis is a diagnosis of its own
+        open_still = [j for j in standing if not confirms(found, told, j, measure)]
+        if heard := _heard(open_still, witness):
+            found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
+            told = judge(problem, found, measure, refines)
+        return found, told, bool(told.claims) or len(open_still) < len(standing)
 
     def may_be(scored: Scored) -> bool:
         return at_best(scored, problem.rows) >= limit_of(scored)
@@ -197,16 +213,15 @@ def _judged(
     # what is passive can hardly be claimed, and drives out what it follows: so it is asked where nothing else is, and
     # only where it might be
     active, passive = ([c for c in everything if c.candidate.passive is so] for so in (False, True))
-    selection, judgement = judged(active)
-    if not judgement.claims and any_stands_out(problem, first, selection, passive, may_be):
-        selection, judgement = judged(everything)
+    selection, judgement, named = judged(active)
+    if not named and any_stands_out(problem, first, selection, passive, may_be):
+        selection, judgement, _ = judged(everything)
     return selection, judgement, measure
 
 
-def _heard(judgement: Judgement, witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
+def _heard(standing: Sequence[Judged], witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
     """What other axes say of members that are no claim without them, by their columns' identity."""
-    standing = [j.scored for j in judgement.judged if j.refines is None and may_be_borne_out(j.scored)]
-    said = {id(s.columns): witness(s) for s in standing}
+    said = {id(j.scored.columns): witness(j.scored) for j in standing}
     return {columns: told for columns, told in said.items() if told}
 
 

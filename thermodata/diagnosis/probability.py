@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.foretold import Looked
 from thermodata.diagnosis.scored import Scored
 
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
@@ -43,6 +44,12 @@ def may_be_borne_out(scored: Scored) -> bool:
 def may_be_confirmed(scored: Scored) -> bool:
     """Whether the lock is opened for it: it may be claimed, or would be if the locked tests spoke for it."""
     return probability(scored) >= min(OPENED, limit_of(scored))
+
+
+def is_made_a_claim(scored: Scored, looked: Looked) -> bool:
+    """Whether what the locked tests say makes a claim of it."""
+    told = replace(scored, looked=looked)
+    return bool(looked.saying) and not looked.refuted and probability(told) >= limit_of(told)
 
 
 def at_best(scored: Scored, samples: int) -> float:
