@@ -132,6 +132,7 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         "power": "kW or W?",
         "pressure": "bar or MPa?",
         "flow": "l/min?",
+        "irradiance": "W/m2?",
     }.get(quantity, "")
     asked = f"unit: {hint} ({range_text(values)})" if hint else f"unit? ({range_text(values)})"
     return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
