@@ -109,6 +109,24 @@ def test_a_held_reading_of_a_smooth_channel_shows_by_its_jump() -> None:
     assert (flags["dZ"][2000:2600] == Flag.HELD).all()
 
 
+@pytest.mark.parametrize(("every", "late"), [(1, 0), (5, 0), (10, 0), (10, 1), (15, 0), (15, 1), (60, 0), (60, 5)])
+def test_a_reading_that_is_asked_less_often_than_it_is_logged_is_not_held(every: int, late: int) -> None:
+    """A weather sensor that a control asks every 10 s, in a log of every second; it is held where it stands for more
+    of its own readings. Where it repeats for less than ten samples nothing is said."""
+    rng = np.random.default_rng(every)
+    lengths = every + rng.integers(-late, late + 1, 2 * N // every)
+    sun = 300 + 40 * np.sin(np.arange(len(lengths)) / 90) + rng.normal(0, 8, len(lengths))
+    x = np.repeat(np.round(sun), lengths)[:N]
+    asked = {"sun": ("irradiance", x), "dZ": ("displacement", noisy())}
+    assert run(clock(), **asked)[1] == []
+    stands = slice(2000, 2000 + 25 * every)
+    x[stands] = x[2000]
+    flags, events = run(clock(), **asked)
+    told = every == 1 or every - late >= 10
+    assert kinds(events) == [("sun", "held")] * told
+    assert flags["sun"][stands].all() == told
+
+
 def test_whole_kelvin_and_standing_states_are_not_held() -> None:
     slow = 25 + 3 * np.sin(np.arange(N) / 2000)
     _, events = run(

@@ -99,6 +99,17 @@ def test_a_part_that_stays_hot_without_a_rest_is_not_told_from_a_failure() -> No
     assert offsets_between_tests(undated(tests[0], replace(tests[1], test="hot"))) == {}
 
 
+def test_what_is_powered_is_hot_from_the_day_on_which_it_is_switched_on() -> None:
+    """A cabinet: 30 K above the others after any rest, for as long as the main switch is on."""
+    tests = [day(1), day(2), day(3, T_column=drift(30.0, 20)), day(4, T_column=30.0)]
+
+    def powered(t: Levels) -> Levels:
+        return replace(t, series={**t.series, "T_column": replace(t.series["T_column"], powered=True)})
+
+    assert offsets_between_tests([powered(t) for t in tests]) == {}
+    assert offsets_between_tests(tests) != {}
+
+
 @pytest.mark.parametrize(("k", "flagged"), [(9.5, True), (7.5, False)])
 def test_it_is_off_by_eight_kelvin_and_more(k: float, flagged: bool) -> None:
     """The column lies within a kelvin of the others, and a tenth of noise."""

@@ -34,12 +34,13 @@ _LEAST_BEFORE = 3  # points, or nobody knows what was usual
 @dataclass(frozen=True, slots=True)
 class Course:
     """A channel at a few moments of a test. t_s, values: shape (n,), in time order; NaN where nothing valid is. off:
-    shape (n,), where it is flagged as off already."""
+    shape (n,), where it is flagged as off already. powered: it stays warm or cold while the machine is switched on."""
 
     t_s: Float1D
     values: Float1D
     quantity: str = "temperature"
     off: Bool1D | None = None
+    powered: bool = False
 
     @property
     def sound(self) -> Float1D:
@@ -73,14 +74,15 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     tests: in the order of the campaign file, which counts where one of them has no absolute clock; else their clocks
     do. A channel needs three others to be compared with. Nothing is said where no later test began with a machine
     that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike), for then a part that
-    stays hot would look the same.
+    stays hot would look the same; nor of what is powered, which looks so from the day on which it is switched on.
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
     differences = _differences(ordered)
     rested = _rested(ordered) if dated else None
     offsets: dict[tuple[str, str], Off] = {}
-    for channel in dict.fromkeys(c for t in ordered for c, x in t.series.items() if x.quantity == "temperature"):
+    asked = (c for t in ordered for c, x in t.series.items() if x.quantity == "temperature" and not x.powered)
+    for channel in dict.fromkeys(asked):
         spans = [d.get(channel, _UNTOLD) for d in differences]
         level = [_level(t, channel) if rested is None or not i else rested[i] for i, t in enumerate(ordered)]
         offsets |= _from_the_failure_on(ordered, channel, spans, level)

@@ -16,6 +16,9 @@ from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 
 _LEAST_HELD = 10  # samples
 _LEAST_HELD_S = 5.0
+# runs of equal readings that tell a sensor which is asked less often than it is logged, how far one may be from a
+# multiple of the time between two, and how many are not
+_FEWEST_REFRESHED, _OUT_OF_STEP, _IN_STEP = 20, 0.15, 0.9
 _SPIKE = 10.0  # of the noise of a difference
 _REACH = 8
 _TAIL, _TAIL_TIMES = 0.995, 5.0  # a spike is so many times what a channel does every two hundred samples
@@ -119,11 +122,12 @@ def held_runs(
         own = replace(elsewhere, starts=own.starts, lengths=own.lengths)
     elif not own.float_like or is_staircase(x, own):
         return
+    every, equal = refreshed(own.lengths, len(x))
     # expected number of such runs by chance under 1/1000
-    least = np.log(1e-3 / len(x)) / np.log(max(own.chance, 1e-3)) * 1.5
+    least = np.log(1e-3 * every / len(x)) / np.log(max(own.chance, equal, 1e-3)) * 1.5
     for start, length in zip(own.starts.tolist(), own.lengths.tolist(), strict=True):
         stop = start + length
-        if length < max(_LEAST_HELD, least) or (t_ns[stop - 1] - t_ns[start]) < _LEAST_HELD_S * 1e9:
+        if length < max(_LEAST_HELD, least) * every or (t_ns[stop - 1] - t_ns[start]) < _LEAST_HELD_S * 1e9:
             continue
         jump_in = abs(x[start] - x[start - 1]) if start else 0.0
         jump_out = abs(x[stop] - x[stop - 1]) if stop < len(x) else 0.0
@@ -135,6 +139,21 @@ def held_runs(
         if moved:
             why += f" while {', '.join(moved[:3])} moved"
         yield start, stop, stuck, why
+
+
+def refreshed(lengths: Int1D, samples: int) -> tuple[int, float]:
+    """(samples that a reading is repeated for before the next one, how often the next one is equal by chance): of a
+    sensor that is asked less often than it is logged. (1, 0) where it is asked each time. lengths: of the runs of equal
+    readings, shape (k,). samples: of the channel."""
+    if len(lengths) < _FEWEST_REFRESHED:
+        return 1, 0.0
+    every = float(np.median(lengths))
+    times = np.maximum(np.round(lengths / every), 1)
+    in_step = np.abs(lengths - times * every) <= _OUT_OF_STEP * times * every
+    usual = lengths <= _LEAST_HELD * every
+    if in_step[usual].mean() < _IN_STEP or lengths[usual].sum() < _IN_STEP * (samples - lengths[~usual].sum()):
+        return 1, 0.0
+    return round(every), float(min(1 - usual.sum() / times[usual].sum(), 0.99))
 
 
 def _moves(x: Array, start: int, stop: int) -> bool:

@@ -99,6 +99,8 @@ _ALSO_CASTINGS = (
 )
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
+# makes heat or cold of its own for as long as the machine is switched on, whatever it does
+_POWERED = ("cabinet", "cnc", "hydraulics", "chiller", "coolant", "lubrication", "pneumatics", "pump", "fan")
 
 
 def is_at_tool(place: str | None) -> bool:
@@ -114,6 +116,12 @@ def is_casting(place: str | None) -> bool:
 def is_beside(place: str | None) -> bool:
     """Whether a dotted place is of the machine, but on no body between tool and part: the cabinet, the control."""
     return place is not None and place.lower().partition(".")[0] in _BESIDE
+
+
+def is_powered(place: str | None) -> bool:
+    """Whether what is at a dotted place stays warm, or cold, after any rest, once the machine is switched on."""
+    first, _, rest = (place or "").lower().partition(".")
+    return first in _POWERED or rest.rpartition(".")[2] == "drive"
 
 
 def is_around(place: str | None) -> bool:

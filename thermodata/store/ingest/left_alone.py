@@ -55,6 +55,7 @@ class TestNote:
     dated: list[str] = field(default_factory=list)
     start_s: float | None = None
     quantities: dict[str, str] = field(default_factory=dict)
+    powered: list[str] = field(default_factory=list)
     courses: list[list[Any]] = field(default_factory=list)
     verdicts: list[list[Any]] = field(default_factory=list)
     overruled: list[int] = field(default_factory=list)
@@ -78,7 +79,7 @@ class TestNote:
     def levels(self, test: str) -> tuple[Levels, dict[str, Reading]] | None:
         """What its channels were like, for the tests beside it."""
         files = [("test", {"to_s": to_s, "levels": levels}) for to_s, levels in self.courses]
-        return levels_of(test, self.start_s, self.quantities, files)
+        return levels_of(test, self.start_s, self.quantities, self.powered, files)
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.plugin import Loss
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.places import is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
@@ -131,7 +132,9 @@ def _note_courses(note: TestNote, test: _Tidied) -> None:
     files = [(r["part"], meta_of(r)) for rows in test.files.values() for r in rows]
     note.courses = [[meta["to_s"], meta.get("levels")] for part, meta in files if part == "test"]
     named = {name for _, levels in note.courses if levels for name in levels["values"]}
-    note.quantities = {name: b.channel.quantity for name, b in test.plan.bound.items() if name in named}
+    own = {name: b.channel for name, b in test.plan.bound.items() if name in named}
+    note.quantities = {name: channel.quantity for name, channel in own.items()}
+    note.powered = [name for name, channel in own.items() if is_powered(channel.at)]
 
 
 def _note_verdicts(note: TestNote, test: _Tidied) -> None:

@@ -4,7 +4,7 @@ back, and the streams that it touches are made again."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -151,12 +151,16 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
 
 
 def levels_of(
-    test: str, start_s: float | None, quantities: Mapping[str, str], files: Sequence[tuple[str, Mapping[str, Any]]]
+    test: str,
+    start_s: float | None,
+    quantities: Mapping[str, str],
+    powered: Container[str],
+    files: Sequence[tuple[str, Mapping[str, Any]]],
 ) -> tuple[Levels, dict[str, Reading]] | None:
     """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
 
-    start_s: on the absolute clock; None where the test has none. quantities: of its channels. files: the part of the
-    test that each holds, and what is noted of it.
+    start_s: on the absolute clock; None where the test has none. quantities: of its channels. powered: those that
+    stay warm or cold while the machine is on. files: the part of the test that each holds, and what is noted of it.
     """
     series: dict[str, Course] = {}
     pauses: list[tuple[float, float]] = []
@@ -173,7 +177,7 @@ def levels_of(
         for name, values in levels["values"].items():
             off = np.zeros(len(t_s), dtype=bool)
             off[levels["off"].get(name, [])] = True
-            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off)
+            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off, name in powered)
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
     if not series:
