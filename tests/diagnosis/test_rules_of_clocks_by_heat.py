@@ -111,6 +111,8 @@ def test_one_temperature_alone_tells_nothing() -> None:
         ({"shift_s": 540.0}, False),
         ({"own": 0.499}, True),
         ({"own": 0.501}, False),
+        ({"tell": 0.251}, True),
+        ({"tell": 0.249}, False),  # a clock moves all temperatures of a log alike
         ({"rest": 0.399}, True),
         ({"rest": 0.401}, False),
     ],
@@ -120,6 +122,35 @@ def test_a_disagreement_is_plain_where_much_more_is_foretold_once_it_is_mended(
 ) -> None:
     found = {"shift_s": 3600.0, "share": 0.6, "unmoved": 0.1, "telling": 2, **changed}
     assert Disagreement("log", "nc", **found).plain is is_plain  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("hours", "asked"), [(4.5, True), (3.5, False)])
+def test_a_shift_leaves_nearly_half_of_a_test_at_least(hours: float, asked: bool) -> None:
+    """Two hours of three and a half are moved beyond the log's end: what is left is another test."""
+    rows = round(hours * 3600 / STEP_S)
+    cut = {"values": lambda v: v[:rows], "valid": lambda v: v[:rows]}
+    tests = logged({"log": 120}, only=(1,))
+    short = replace(
+        tests[1],
+        t_s=tests[1].t_s[:rows],
+        in_window=tests[1].in_window[:rows],
+        **{k: {n: f(x) for n, x in getattr(tests[1], k).items()} for k, f in cut.items()},
+    )
+    logs = compared([tests[0], short, *tests[2:]], CHANNELS, "dZ", STEP_S)
+    [found] = [d for d in logs.in_one() if d.test == "t1"]
+    assert (abs(found.shift_s - 7200) < 300) is asked
+
+
+def test_of_those_that_tell_elsewhere_a_share_tells_in_the_test() -> None:
+    """The hall tells nowhere; a bearing that follows its drive here, and a nut that does not, are a half."""
+    tests = logged({"log": 60}, only=(1,))
+    [whole] = [d for d in compared(tests, CHANNELS, "dZ", STEP_S).in_one() if d.test == "t1"]
+    assert (whole.telling, whole.tell) == (2, 1.0)
+    rng = np.random.default_rng(RNG)
+    noise = {**tests[1].values, "T_nut": 20 + np.cumsum(rng.normal(size=len(tests[1].t_s)))}
+    tests[1] = replace(tests[1], values=noise)
+    [half] = [d for d in compared(tests, CHANNELS, "dZ", STEP_S).in_one() if d.test == "t1"]
+    assert (half.telling, half.tell) == (1, 0.5)
 
 
 @pytest.mark.parametrize(

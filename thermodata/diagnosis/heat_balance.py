@@ -22,7 +22,9 @@ OVER_S = 600.0  # that a temperature rises over
 RIDGE = 0.02  # of a column's squares
 TELLS = 0.2  # share of the squared rises of a temperature that is foretold at its best shift, else it says nothing,
 LEAST_SHARE = 0.3  # and of all that tell, on average
-LEAST_TELLING = 2  # temperatures: one alone may follow what nobody logged
+LEAST_TELLING = 2  # temperatures: one alone may follow what nobody logged,
+MOST_TELL = 0.25  # and of those that the commands foretell in the other tests so many: a clock moves all of a log alike
+LEAST_LEFT = 0.45  # of a test, where commands are moved by a shift: less of it is another test
 BEATS = 4.0  # times what is foretold unmoved
 # of what a test's own gains leave unmoved, where its log is off: what the others say of a drive that hardly worked in
 # them is wrong at any shift
@@ -38,7 +40,8 @@ class Disagreement:
     foretell most. share: of the squared rises, mean of the temperatures that tell; unmoved: the most near no shift.
     telling: how many temperatures tell. campaign, test: the one that is asked of; '' for all of them. own: of one test,
     what is left with the gains of its own at the shift, in shares of what they leave unmoved. rest: share that would be
-    foretold there if no command worked, by what is warm already."""
+    foretold there if no command worked, by what is warm already. tell: share of those that tell in the other tests
+    which tell here, too."""
 
     warmed: str
     by: str
@@ -50,13 +53,14 @@ class Disagreement:
     test: str = ""
     own: float = 0.0
     rest: float = 0.0
+    tell: float = 1.0
 
     @property
     def plain(self) -> bool:
         if self.share - self.rest < TELLS:
             return False  # a test in which the machine waits: what cools foretells itself
         much = self.share >= max(LEAST_SHARE, BEATS * self.unmoved) and self.own <= MOST_OWN
-        return much and self.telling >= LEAST_TELLING and abs(self.shift_s) >= LEAST_S
+        return much and self.telling >= LEAST_TELLING and self.tell >= MOST_TELL and abs(self.shift_s) >= LEAST_S
 
 
 def pair_of(
@@ -106,7 +110,11 @@ class Pair:
         left, at = 1 - self._by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
         rest = float(self._at_rest(i)[telling][:, at].mean())
         own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
-        return replace(found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest)
+        usual = self._told_elsewhere(i) >= TELLS
+        tell = float(telling[usual].mean()) if usual.any() else 0.0
+        return replace(
+            found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest, tell=tell
+        )
 
     def foretold(self, campaign: str, test: str, about_s: Sequence[float]) -> list[float]:
         """The largest share that is foretold near each of some shifts, mean of the channels; test '': in all of them.
@@ -126,6 +134,13 @@ class Pair:
             return _share(self._left(i, self._gains(_but(self.tests, i))[:, self.shifts_s == 0]), self.energy[i])
         left = sum(self._left(t, self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
         return _share(np.asarray(left), self.energy.sum(axis=0))
+
+    def _told_elsewhere(self, i: int) -> Float1D:
+        """The share that is foretold in all tests but one, unmoved, by their own gains: shape (channels,)."""
+        others, unmoved = _but(self.tests, i), self.shifts_s == 0
+        gains = self._gains(others)
+        left = sum(self._left(t, gains) for t in others)
+        return _share(np.asarray(left), self.energy[others].sum(axis=0))[:, unmoved][:, 0]
 
     def _at_rest(self, i: int) -> Float2D:
         """The same of a test as if no command worked in it."""
@@ -215,7 +230,7 @@ def _sums(parts: Sequence[tuple[Float2D, Float2D]], shifts: Int1D, over: int) ->
     for i, (held, value) in enumerate(parts):
         n = len(value)
         for k, shift in enumerate(map(int, shifts)):
-            if n - abs(shift) <= 2 * over:
+            if n - abs(shift) <= 2 * over or n - abs(shift) < LEAST_LEFT * n:
                 continue
             worked = _centred(_mean_over(held[max(0, -shift) : n - max(0, shift)], over))
             here = value[max(0, shift) : n - max(0, -shift)]
