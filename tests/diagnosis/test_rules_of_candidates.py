@@ -109,6 +109,22 @@ def test_a_lag_of_a_body_that_makes_no_heat_is_passive() -> None:
     assert not any(c.passive for c in candidates(library, nowhere, (), "dZ")), "then all are alike"
 
 
+@pytest.mark.parametrize("part", ["table.bearing", "table.motor", "table", "hydraulics"])
+def test_a_body_whose_heated_part_has_a_sensor_has_no_name_and_is_passive(part: str) -> None:
+    """A table that coolant washes: its own warmth is no friction of its bearing where that is read by itself."""
+    table = ChannelInfo("T_table", "temperature", "degC", at="table")
+    beside = ChannelInfo("T_part", "temperature", "degC", at=part)
+    channels = {c.name: c for c in (CHANNELS["dZ"], table, beside)}
+    found = {c.id: c.passive for c in candidates(effects(), channels, (), "dZ")}
+    told = part in ("table.bearing", "table.motor")
+    assert ("table_bearing:T_table" in found) is not told
+    assert found["lag:T_table"] is told
+    assert found["lag:T_part"] is False
+    speed = ChannelInfo("T_part", "rotational_speed", "rpm", at="table.bearing")
+    moved = candidates(effects(), {**channels, "T_part": speed}, (), "dZ")
+    assert "table_bearing:T_table" in {c.id for c in moved}, "no temperature tells it"
+
+
 @pytest.mark.parametrize(("other", "passive"), [("T_bed", True), ("T_nut", False)])
 def test_a_difference_is_passive_where_it_reads_such_a_body(other: str, passive: bool) -> None:
     at = {"T_bed": "bed", "T_nut": "axis.x.nut", "T_oil": "hydraulics"}

@@ -39,6 +39,8 @@ InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a 
 Kin = Literal["same", "heat", "part", "near", "related", "itself"] | None
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
+# parts of a body that make heat
+MAKE_HEAT = ("bearing", "motor")
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
@@ -158,7 +160,10 @@ def candidates(
             if refines(effect) and not model.has_one_of(refines(effect), names):
                 continue
             kin = _kin(effect, family, names, model, library, usable)
-            passive = placed and family in (GENERIC, CONTROL) and any(_follows(usable[n]) for n in names)
+            nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable)]
+            if not nameless and len(bodies) == len(names):
+                continue
+            passive = placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names))
             other = unread(effect, binding.values(), usable, known)
             around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
             of_motion = all(is_motion(usable[n].quantity) for n in names)
@@ -201,6 +206,16 @@ def _follows(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
     follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at)
     return channel.quantity == "temperature" and follows
+
+
+def _is_body(name: str, channels: Mapping[str, ChannelInfo]) -> bool:
+    """Whether it reads the temperature of a body, as a table's, of which a part that makes heat has a sensor of its
+    own: what such a body does beyond that comes from elsewhere, as from the coolant that washes it."""
+    own = channels[name]
+    if own.quantity != "temperature" or own.at is None:
+        return False
+    heated = (f"{own.at}.{part}" for part in MAKE_HEAT)
+    return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
 
 
 def _is_around(channel: ChannelInfo) -> bool:
