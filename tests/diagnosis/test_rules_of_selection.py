@@ -14,7 +14,7 @@ from thermodata.diagnosis import selection as selecting
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.preference import gives_way, preferred
+from thermodata.diagnosis.preference import better_twin, gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
@@ -346,6 +346,29 @@ def test_a_lag_gives_way_to_a_name_that_is_as_likely_on_its_channel(
     best = scored("load", family=named, channels=(channel,), evidence=evidence, after=after)
     ranking: Any = SimpleNamespace(ranked=(best, own))
     assert gives_way(own, best, ranking) is gives
+
+
+@pytest.mark.parametrize(
+    ("changed", "gives"),
+    [
+        ({}, True),
+        ({"evidence": 95.1}, True),
+        ({"evidence": 94.9}, False),
+        ({"after": 0.321}, False),
+        ({"after": 0.319}, True),
+        ({"shape": (0.91, (1 - 0.91**2) ** 0.5)}, True),
+        ({"shape": (0.89, (1 - 0.89**2) ** 0.5)}, False),
+        ({"family": "generic"}, False),  # it has no name
+        ({"kin": "same"}, False),  # it refines the model
+    ],
+)
+def test_a_twin_that_foretells_left_out_tests_much_better_is_taken(changed: dict[str, Any], gives: bool) -> None:
+    """A feed and the temperature of the motor that it warms."""
+    own = scored("feed", channels=("v",), evidence=100.0, after=0.4)
+    twin = scored("motor", **{"channels": ("T_b",), "evidence": 99.0, "after": 0.2, **changed})
+    assert (better_twin(own, (own, twin)) is twin) is gives
+    best = scored("guide", channels=("T_c",), evidence=98.0, after=0.15)
+    assert better_twin(own, (own, twin, best)) is best
 
 
 # ---- rankings

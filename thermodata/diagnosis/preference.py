@@ -16,6 +16,9 @@ ALIKE = 0.8
 FEWER_SHARE = 0.8
 CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
 UNNAMED = (GENERIC, CONTROL)
+# a twin (cosine) that is nearly as likely, and leaves so much less of tests that are left out: a speed and the
+# temperature of the body that it heats differ in little else
+TWIN, FORETELLS = 0.9, 0.8
 
 
 def preferred(ranked: Sequence[Scored]) -> Scored | None:
@@ -43,6 +46,24 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         ):
             return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
     return best
+
+
+def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
+    """What acts alike, has a name, is nearly as likely, and foretells left-out tests much better; the best of these."""
+    kin = (None, own.candidate.kin)
+    twins = [
+        s
+        for s in ranked
+        if s.columns is not own.columns
+        and len(s.shape)
+        and not s.candidate.within
+        and s.candidate.family not in UNNAMED
+        and s.candidate.kin in kin
+        and s.evidence >= NAMED_SHARE * own.evidence
+        and abs(float(own.shape @ s.shape)) > TWIN
+        and s.error_of_all <= FORETELLS * own.error_of_all
+    ]
+    return min(twins, key=lambda s: s.error_of_all, default=None)
 
 
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:

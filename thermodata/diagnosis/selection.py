@@ -15,7 +15,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, Weighed, columns, moments
 from thermodata.diagnosis.known import Known, known, likeliest, likeliest_of
-from thermodata.diagnosis.preference import gives_way, preferred
+from thermodata.diagnosis.preference import better_twin, gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.scored import Scored
@@ -259,17 +259,23 @@ def _member(
 ) -> Member:
     """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is preferred to
     it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
-    the name foretells left-out tests better."""
+    the name foretells left-out tests better; or for a twin that does so much better."""
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without([s.columns for s in first.ranked], others), noise)
     eligible = _only(ranking, among)
     best = preferred(eligible.ranked)
     if best is not None and gives_way(own, best, eligible) and sound(best):
-        # what it replaces leaves it the credit for what likelier and less likely members explain alike
-        gained = best.evidence - own.evidence
-        swapped = replace(_weighed_beside(best, others), credit=(own.credit or own.evidence) + gained)
-        return Member(chosen[number], swapped, ranking.ranked)
+        own = _in_place_of(own, best, others)
+    twin = better_twin(own, eligible.ranked)
+    if twin is not None and sound(twin):
+        own = _in_place_of(own, twin, others)
     return Member(chosen[number], own, ranking.ranked)
+
+
+def _in_place_of(own: Scored, other: Scored, beside: Sequence[Scored]) -> Scored:
+    """What replaces another leaves it the credit for what likelier and less likely members explain alike."""
+    gained = other.evidence - own.evidence
+    return replace(_weighed_beside(other, beside), credit=(own.credit or own.evidence) + gained)
 
 
 def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
