@@ -269,6 +269,24 @@ def test_what_was_dropped_and_is_likely_is_told_with_what_they_say_of_it() -> No
     assert (names_of(found.claims), names_of(found.judged)) == ("d", "d")
 
 
+@pytest.mark.parametrize(("left", "added", "claimed"), [(0.24, 0.24, True), (0.26, 0.24, False), (0.24, 0.26, False)])
+def test_what_refines_the_model_is_a_claim_where_no_other_mode_of_it_can_do_that(
+    left: float, added: float, claimed: bool
+) -> None:
+    """Both with what is known free to act otherwise, and as the model stands, it takes three quarters of the error."""
+    one = scored("r", channels=("T_r",), kin="heat", evidence=390.0)
+    own = Judged(one, one, "it is another mode of what the model has", (one, scored("t", channels=("T_t",))))
+    judgement = Judgement("refine", (), (own,), (own,), "", likely=(own,))
+    asked = Asked(lambda _, whole: looked(Foretold(1.0, left, 1.0), Foretold(1.0, added, 1.0)))
+    found = asked.kept(judgement)
+    assert asked.seen == ["r"], "a twin would refine it, too"
+    assert names_of(found.claims) == ("r" if claimed else "")
+    assert found.verdict == ("effect" if claimed else "none")
+    assert names_of(found.refinements) == ""
+    one_way = Asked(lambda _, whole: looked(Foretold(1.0, left, 1.0)))
+    assert one_way.kept(judgement).claims == (), "one way alone does not tell"
+
+
 def test_what_is_likely_goes_before_any_claim() -> None:
     asked = only("a")
     found = asked.kept(judged("a", likely="l"))

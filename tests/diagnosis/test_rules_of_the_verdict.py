@@ -208,6 +208,20 @@ def test_where_all_refines_nothing_is_missing_and_at_the_floor_nothing_is_refine
     assert names(found.refinements) == (["mode"] if expected == "refine" else [])
 
 
+@pytest.mark.parametrize(
+    ("changed", "asked"), [({}, True), ({"kin": "heat"}, True), ({"kin": "same"}, False), ({"evidence": 50.0}, False)]
+)
+def test_the_lock_is_opened_for_what_refines_and_is_as_probable_as_a_claim(
+    changed: dict[str, Any], asked: bool
+) -> None:
+    """Whether nothing of the model can do what it does; another mode of the same effect is none, however it does."""
+    some = [scored("a", before=3.0, after=0.3, **changed)]
+    found = verdict(*some, refined=["a"])
+    assert (found.verdict, names(found.likely)) == ("refine", ["a"] if asked else [])
+    beside = verdict(scored("x", channels=("T_x",), family="feed_y", before=3.0, after=0.3), *some, refined=["a"])
+    assert (names(beside.claims), names(beside.likely)) == (["x"], ["a"] if asked else [])
+
+
 def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     blunt = scored("blunt", evidence=60.0)
     found = verdict(blunt)

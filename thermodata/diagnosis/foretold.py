@@ -8,6 +8,8 @@ KEPT = 0.5  # share of what is added that must take away as much of the squared 
 LEAST = 0.02  # and the least fall of the error;
 MUCH = 0.25  # a fall of the error that is enough by itself,
 PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tell a fall from half of it
+# a fall of the error, in both ways, that no other mode of a known effect makes: in one of them these may act otherwise
+OF_ITS_OWN = 0.75
 # what the fall of the error, as a share, adds to the odds' logarithm of a claim: by the known effects, free to act
 # otherwise; by the model as it stands; and the level, so that less than causes mostly take away speaks against it
 # (docs/method.md#confirming)
@@ -78,6 +80,11 @@ class Looked:
     def bears_out(self) -> bool:
         """Whether they speak for it, or say nothing."""
         return self.log_odds >= 0
+
+    @property
+    def of_its_own(self) -> bool:
+        """Whether it takes away so much in both ways that it refines nothing of the model."""
+        return len(self.saying) > 1 and all(f.fall >= OF_ITS_OWN for f in self.saying)
 
     @property
     def refuted(self) -> bool:

@@ -79,11 +79,12 @@ def judge(
 def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
     """The same of members that are judged already."""
     own = [j for j in judged if j.refines is None]
+    maybe = [j for j in judged if _may_be_its_own(j)]
     sure = [j for j in own if blunt(j.scored) is None and not (j.scored.looked and j.scored.looked.refuted)]
     claims = causes(sure)[:MOST_CLAIMS]
     kept = tuple(j for j in judged if j.refines is not None)
     if claims:
-        return Judgement("effect", claims, kept, judged, "", likely=_likely(own, claims))
+        return Judgement("effect", claims, kept, judged, "", likely=_likely([*own, *maybe], claims))
     left = selection.left
     halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
     # what a known effect takes for its own leaves no error, and is plain all the same
@@ -98,9 +99,8 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
         rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
         if rest <= limit:
-            return Judgement(
-                "refine" if kept else "none", (), kept, judged, _enough(rest, limit, problem.unit, measure)
-            )
+            enough = _enough(rest, limit, problem.unit, measure)
+            return Judgement("refine" if kept else "none", (), kept, judged, enough, likely=_likely(maybe, ()))
     best = selection.first.ranked[0]
     if own:
         best = own[0].scored
@@ -110,7 +110,15 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
         f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
         f"logged explains them{because}"
     )
-    return Judgement("unknown", (), kept, judged, why, likely=_likely(own, ()))
+    return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
+
+
+def _may_be_its_own(j: Judged) -> bool:
+    """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
+    another mode of the same effect, or a change of it, is none."""
+    one = j.scored.candidate
+    refining = j.refines is not None and one.within is None and one.kin != "same"
+    return refining and blunt(j.scored) is None
 
 
 def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:

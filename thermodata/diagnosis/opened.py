@@ -26,9 +26,10 @@ def kept_where_they_hold(
 ) -> Judgement:
     """The claims, and what is likely, that are probable once the lock is open, each beside the others. The least
     probable of those that fall short goes first, what was only likely before any claim; it gives way to a twin that
-    does not fall short. Claims that go are kept as refused, and the verdict is "unknown" where nothing else stands;
-    where nothing was claimed before, it is concluded again. may_be: whether a twin keeps the rules itself, and is
-    likely. conclude: judges members anew. unit: of the response."""
+    does not fall short. What refines the model by the open tests is a claim where nothing of the model can do what it
+    does there (`Looked.of_its_own`). Claims that go are kept as refused, and the verdict is "unknown" where nothing
+    else stands; where nothing was claimed before, it is concluded again. may_be: whether a twin keeps the rules itself,
+    and is likely. conclude: judges members anew. unit: of the response."""
     asked, claims = [*judgement.claims, *judgement.likely], len(judgement.claims)
     unsound = {_key(j) for j in judgement.likely} - {_key(j) for j in judgement.judged}
     told = {_key(j): j for j in judgement.judged}  # as it was looked at last, no twin in its place
@@ -45,7 +46,7 @@ def kept_where_they_hold(
             break
         worst = min([place for place in short if place >= claims] or short, key=lambda place: _standing(asked[place]))
         key = _key(asked[worst])
-        if key in untried:
+        if key in untried and asked[worst].refines is None:
             untried.discard(key)
             if (twin := _best_twin(asked, worst, look, may_be)) is not None:
                 asked[worst] = twin
@@ -60,7 +61,9 @@ def kept_where_they_hold(
     gone = tuple(told[_key(c)] for c in judgement.claims if _key(c) in refused)
     found = replace(judgement, judged=judged, likely=(), refused=gone)
     if standing:
-        return replace(found, verdict="effect", claims=standing, reason="")
+        told_now = {_key(j) for j in standing}
+        kept = tuple(j for j in judgement.refinements if _key(j) not in told_now)
+        return replace(found, verdict="effect", claims=standing, refinements=kept, reason="")
     if gone:
         return replace(found, verdict="unknown", claims=(), reason=_why(gone, unit))
     anew = conclude(tuple(told[_key(j)] for j in judgement.judged))
@@ -80,6 +83,8 @@ def _falls_short(j: Judged, unsound: set[int]) -> bool:
     """unsound: keys of what breaks a rule on the open tests: the locked ones must speak for it."""
     looked = j.scored.looked
     silent = looked is None or not looked.saying or not looked.bears_out
+    if j.refines is not None and (looked is None or not looked.of_its_own):
+        return True
     return _is_refuted(j) or blunt(j.scored) is not None or (_key(j) in unsound and silent)
 
 

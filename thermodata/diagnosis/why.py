@@ -37,6 +37,7 @@ def why(
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
         broken = failed_rules(s, investigation.measure, unit)
+        broken += [member.refines] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         return f"{numbers}; {of_chance}{elsewhere}{outweighed}{locked}"
     if among(member, judgement.refused):
