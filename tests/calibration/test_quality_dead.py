@@ -54,6 +54,15 @@ def test_a_reading_may_stand_that_hardly_moved_in_another_test(moves: float, sai
     assert bool(dead_throughout([*tests, rest])) == said
 
 
+@pytest.mark.parametrize(("quiet", "said"), [(1.8, False), (2.2, True)])
+def test_a_reading_in_whole_kelvins_may_stand_where_what_rests_moves_by_one(quiet: float, said: bool) -> None:
+    """A nut whose axis stands, while spindle and table work: of eight others six do little."""
+    at_rest = {f"R{i}": course(quiet, 2) for i in range(6)}
+    tests = made(course(0.0), moves=14.0, digits=0)
+    tests = [Levels(t.test, None, None, {**t.series, **at_rest}) for t in tests]
+    assert bool(dead_throughout(tests)) == said
+
+
 def test_what_can_not_be_told_is_left() -> None:
     assert dead_throughout(made(course(0.0), count=2)) == set(), "too few others"
     assert dead_throughout(made(course(0.0, quantity="displacement"))) == set()

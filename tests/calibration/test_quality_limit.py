@@ -122,6 +122,17 @@ def test_a_lamp_by_night_is_no_fault_either() -> None:
     assert (flags["G"][100:400] & (Flag.HELD | Flag.STUCK)).all()
 
 
+@pytest.mark.parametrize(("times", "flagged"), [(3, False), (14, True)])
+def test_a_highest_reading_that_is_logged_often_is_one_reading(times: int, flagged: bool) -> None:
+    """A pyranometer that is asked every tenth sample comes to its highest reading three times by chance."""
+    rng = np.random.default_rng(5)
+    asked = 300 + 90 * np.sin(np.arange(N // 10) / 60) + rng.normal(0, 12, N // 10)
+    asked[rng.choice(len(asked), times, replace=False)] = top = np.ceil(asked.max())
+    asked = np.where(asked < top, np.round(asked), top)
+    flags, _ = run(clock(), G=("irradiance", np.repeat(asked, 10)[:N]), T=("temperature", temperature()))
+    assert bool((flags["G"] & Flag.SATURATED).any()) is flagged
+
+
 @pytest.mark.parametrize("code", [None, 32767.0])
 def test_an_irradiance_that_stands_still_by_day_is_held(code: float | None) -> None:
     """Also where a logger's code makes its range a wide one."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats, is_staircase, true_runs
+from thermodata.calibration.quality_value import RunStats, is_staircase, refreshed, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
@@ -111,12 +111,13 @@ def clipped(
     values = x if np.isfinite(own.leap) else x[np.isfinite(x)]
     if len(values) < 50:
         return
+    every, _ = refreshed(own.lengths, len(x))  # a reading is one, however often it is logged
     for limit, side in ((float(values.max()), "upper"), (float(values.min()), "lower")):
         at: Bool1D = x == limit
         count = int(at.sum())
         if side == "lower" and rests_below is not None and limit <= rests_below:
             continue
-        if count < 10 or limit == 0.0 or count > 0.5 * len(values) or is_staircase(x, own):
+        if count < 10 * every or limit == 0.0 or count > 0.5 * len(values) or is_staircase(x, own):
             continue
         # what is cut off piles up there; an extreme that was only reached is seldomer than the reading next to it
         inside = values[values != limit]
