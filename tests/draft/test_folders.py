@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from thermodata.draft.baseline import model_text_of
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign, load_model
 
 from .conftest import Said
@@ -107,6 +109,26 @@ def test_a_first_model_of_the_sensors_is_drafted_and_loads(name: str, tmp_path: 
     used = {c for e in model.effects for c in e.drivers.values()}
     assert used <= set(truth.channels)
     assert "ambient_frame" in {e.effect for e in model.effects}
+
+
+@pytest.mark.parametrize("mid", ["hall", None])
+def test_a_first_model_reads_the_air_of_the_hall_before_that_above(mid: str | None) -> None:
+    places = {"T_top": "hall.top", "T_air": mid or "hall.bottom"}
+    channels: dict[str, Any] = {n: {"quantity": "temperature", "unit": "degC", "at": at} for n, at in places.items()}
+    channels["dZ"] = {"quantity": "displacement", "unit": "um", "axis": "Z", "at": "tcp", "relative_to": "table"}
+    channels = {n: {"source": "s", "signal": n, **c} for n, c in channels.items()}
+    campaign = Campaign.model_validate(
+        {
+            "schema": "thermodata/campaign/1",
+            "id": "c",
+            "machine": {"id": "m"},
+            "sources": {"s": {"reader": "table", "files": "{test}.csv"}},
+            "channels": channels,
+            "tests": [{"id": "t", "kind": "etve", "role": "calibration"}],
+        }
+    )
+    text = model_text_of(campaign) or ""
+    assert f"ambient_frame, drivers: {{temperature: {'T_air' if mid else 'T_top'}}}" in text
 
 
 def test_the_drafted_model_fits_once_roles_are_given(tmp_path: Path, say: Say) -> None:

@@ -195,3 +195,22 @@ def test_temps_are_temperatures_but_for_the_french_column_of_times(
 )
 def test_whose_door_it_is_is_asked_where_the_name_leaves_it_open(name: str, asked: bool) -> None:
     assert any("hall.door, or enclosure" in q for q in guess(name, None, dtype="bool").questions) is asked
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "asked"),
+    [
+        ("Air floor", "hall.bottom", True),
+        ("Luft Boden", "hall.bottom", True),
+        ("Hallenboden", "floor", False),
+        ("Floor", "floor", False),
+        ("Luft unten", "hall.bottom", False),
+    ],
+)
+def test_air_at_the_floor_is_no_floor(name: str, at: str, asked: bool) -> None:
+    found = guess(name, "°C")
+    assert (found.at, any("near the floor" in q for q in found.questions)) == (at, asked)
+
+
+def test_a_tank_is_one_with_and_without_its_umlaut() -> None:
+    assert {guess(name, "°C").at for name in ("KSS Behälter", "KSS Behaelter")} == {"coolant.tank"}

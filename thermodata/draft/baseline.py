@@ -10,6 +10,7 @@ from thermodata.draft.write import flow, one_line, scalar
 from thermodata.effect.binding import bindings
 from thermodata.effect.registry import effects
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.places import is_around
 
 # what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
 _PLAIN = ("spindle_bearing", "feed_screw", "column_bending", "table_bearing", "ambient_frame")
@@ -120,4 +121,6 @@ def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: s
         at = drivers[name].at or ""
         return not at.startswith("axis.") or at.split(".")[1] == axis.lower()
 
-    return [b for b in found if all(own(c) for c in b.values())]
+    # the air of the hall before that at its top or bottom, which is warmer or colder for most of the day
+    mine = [b for b in found if all(own(c) for c in b.values())]
+    return sorted(mine, key=lambda b: any(is_around(at := drivers[c].at) and "." in (at or "") for c in b.values()))

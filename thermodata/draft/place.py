@@ -68,6 +68,10 @@ def place_of(text: str, quantity: str) -> Place:
     if "workhead" in said:
         said -= {"spindle"}  # a grinder turns its part by a spindle of its own
     said = _by_the_machine(said)
+    near_the_floor = {"air", "floor"} <= said and quantity == "temperature"
+    said -= {"air"}
+    if near_the_floor:
+        return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
     # what turns is the spindle, but for n_B and n_C beside it

@@ -94,7 +94,7 @@ _PLACE_WORDS: dict[str, str] = {
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
     "tavola. plateau.",
-    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
+    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
     "ram": "ram. pinole traghuls traghuels ^smykadl 滑枕 quill.",
@@ -125,7 +125,7 @@ _PLACE_WORDS: dict[str, str] = {
     "vystup~chladic vystup~z~chladic chladice~vystup chladic~vstup vstup~chladic vstup~do~chladic chladice~vstup",
     "supply": "supply. inlet. in. vorlauf zulauf ^privod vstup. 入口 进口 进水 供液 进油 vl. input.",
     "return": "return. outlet. out. rucklauf ruecklauf ablauf zpatec ^odvod vystup. 出口 回水 回油 回液 rl. output.",
-    "tank": "液箱 tank. tanks. nadrz behalter 水箱 油箱 reservoir",
+    "tank": "液箱 tank. tanks. nadrz behalter behaelter 水箱 油箱 reservoir",
     "hydraulics": "hydraul 液压 液壓 hyd. hydr.",
     "oil": "oil. oel. ol. olej ^oil 油温 油 oltemp oeltemp",
     "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
@@ -136,6 +136,7 @@ _PLACE_WORDS: dict[str, str] = {
     "indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
     "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
+    "air": "luft. lufttemp raumluft hallenluft air. vzduch 空气 室温 气温",
     "floor": "floor. boden. bodent hallenboden fussboden fundament foundation podlah ^zaklad 地面 地基 地板",
     "door": "door doors. tur. tuer. schutztur tor. hallentor hallentur hallentuer dvere dveri vrata vrat. gate. 门 門",
     "gate": "tor. hallentor hallentur hallentuer vrata vrat. gate. roller~door",
