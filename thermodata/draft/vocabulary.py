@@ -94,7 +94,8 @@ _PLACE_WORDS: dict[str, str] = {
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
     "tavola. plateau.",
-    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf vretenik 主轴箱 床头箱 spindle~head "
+    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf "
+    "vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
     "ram": "ram. pinole traghuls traghuels ^smykadl 滑枕 quill.",
