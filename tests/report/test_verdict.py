@@ -89,7 +89,8 @@ def test_all_claims_of_one_answer_are_told() -> None:
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (
-        "no cause is missing; what the model has can be refined by mode (T), error on left-out tests 4.00 -> 1.00 um"
+        "the open tests show no missing cause; what the model has can be refined by mode (T), error on left-out tests "
+        "4.00 -> 1.00 um"
     )
     assert "refined by mode (T) and bearing (T), " in verdict_sentence(found("refine", [second, bearing]))
     assert "missing: mode" not in verdict_sentence(found("refine", [second, bearing]))
@@ -207,7 +208,7 @@ def test_what_only_the_locked_tests_show_is_said_of_them(locked: float | None, s
 def test_every_verdict_has_words_without_any_candidate() -> None:
     said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
     assert len(set(said.values())) == len(said)
-    assert said["refine"].startswith("no cause is missing")
+    assert said["refine"].startswith("the open tests show no missing cause")
 
 
 def test_what_a_candidate_could_take_away_is_no_promise() -> None:
@@ -310,6 +311,6 @@ def test_the_head_of_the_page_says_what_was_put_right(data: ReportData) -> None:
 def test_a_verdict_without_a_claim_is_headed_by_its_first_words_and_told_to_its_end(data: ReportData) -> None:
     right = PutRight(left_out=[("demo", "day9")])
     told_so = dataclasses.replace(data, versions=data.versions[:1], diagnosis=found("none", [], put_right=right))
-    assert headline(told_so).startswith("No effect is missing: ")
+    assert headline(told_so).startswith("The open tests show no missing effect: ")
     assert ";" not in headline(told_so)
     assert sentences(told_so)[0] == "Judged without day9, where the probe is turned round."

@@ -79,7 +79,7 @@ def test_abstaining_is_told_as_clearly_as_claiming(lab: Path) -> None:
     text = client_of(lab)[0].get("/missing").text
     headline = re.search(r'<h1 class="verdict (\w+)">(.*?)</h1>', text, re.S)
     assert headline[1] == "none"
-    assert "o effect is missing" in headline[2]
+    assert "show no missing effect" in headline[2]
     assert "not claimed" in text
 
 

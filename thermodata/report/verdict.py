@@ -96,13 +96,16 @@ def _verdict(found: Diagnosis) -> str:
     open_still = _not_excluded(found)
     if found.verdict == "refine" and beside:
         return "; ".join(
-            filter(None, ["no cause is missing", f"{beside}, {_left_out(refined, found.rmse_um)}", open_still])
+            filter(
+                None,
+                ["the open tests show no missing cause", f"{beside}, {_left_out(refined, found.rmse_um)}", open_still],
+            )
         )
     if found.verdict == "none":
-        return "; ".join(filter(None, [f"no effect is missing: {_left_over(found)}", open_still]))
+        return "; ".join(filter(None, [f"the open tests show no missing effect: {_left_over(found)}", open_still]))
     return {
         "effect": "missing: an effect that the data point to",
-        "refine": "no cause is missing, but an effect that is there acts otherwise than modelled",
+        "refine": "the open tests show no missing cause, but an effect that is there acts otherwise than modelled",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
 
