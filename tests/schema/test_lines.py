@@ -96,3 +96,10 @@ def test_each_odd_text_is_the_same_to_both(text: str, monkeypatch: pytest.Monkey
 def test_brackets_without_end_are_refused_and_end_no_process() -> None:
     assert "not valid YAML" in outcome("a: " + "[" * 200_000)
     assert isinstance(outcome("a: " + "- " * 100_000 + "x"), str)
+
+
+@pytest.mark.parametrize(("value", "hint"), [("%", 'put what begins with % in quotes, as "%"'), ("[", "indentation")])
+def test_a_sign_that_needs_quotes_is_said_to(value: str, hint: str) -> None:
+    with pytest.raises(SpecError, match=r"not valid YAML") as told:
+        lines.parse_document(f"channels:\n  load: {{unit: {value}, at: axis.y}}\n", Path("c.yaml"))
+    assert hint in (told.value.hint or "")

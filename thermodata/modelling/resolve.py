@@ -123,6 +123,8 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
             where=f"response, campaign {campaign}",
             expected=", ".join(f"{n} (axis {i.axis}, at {i.at})" for n, i in moving.items())
             or "a displacement channel",
+            got=None if moving else f"no displacement among {len(channels)} channels that have data",
+            hint=None if moving else "ingest again: its losses tell which source had no file or no calibration",
         )
     if len(hits) > 1:
         raise SpecError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -60,6 +61,7 @@ class SlowLoader(yaml.SafeLoader):
 
 # the parser in C takes byte order marks and tabs where the other one refuses them
 _LOOSE = "\ufeff\t"
+_NO_TOKEN = re.compile(r"character '(.+)' that cannot start any token")  # as YAML says of 'unit: %'
 FastLoader: type[Any] | None = None
 if hasattr(yaml, "CSafeLoader"):
 
@@ -119,11 +121,15 @@ def parse_document(text: str, path: Path) -> Document:
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
+        problem = str(getattr(error, "problem", None) or type(error).__name__)
+        sign = _NO_TOKEN.search(problem)
         raise SpecError(
             "not valid YAML",
             where=f"{path.name}{line}",
-            got=str(getattr(error, "problem", None) or type(error).__name__),
-            hint="check indentation, quotes and brackets near that line",
+            got=problem,
+            hint=f'put what begins with {sign[1]} in quotes, as "{sign[1]}"'
+            if sign and sign[1] != "\\t"
+            else "check indentation, quotes and brackets near that line",
         ) from None
 
 
