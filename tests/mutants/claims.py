@@ -117,8 +117,17 @@ MUTANTS = [
     ),
     diagnosis("probability.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("probability.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
-    diagnosis("candidates.py", "passive = placed and family", "passive = family", "without places nothing is claimed"),
+    diagnosis(
+        "candidates.py", "passive = placed and nameless", "passive = nameless", "without places nothing is claimed"
+    ),
     diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
+    diagnosis(
+        "candidates.py", "if not nameless and len(bodies) == len(names):", "if False:", "a washed table is friction"
+    ),
+    diagnosis("candidates.py", "(bool(bodies) or any(_follows", "(any(_follows", "a washed table is a cause"),
+    diagnosis(
+        "candidates.py", 'c.quantity == "temperature" and holds(h, c.at)', "holds(h, c.at)", "a speed is a sensor"
+    ),
     diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
     diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
     diagnosis(
@@ -279,6 +288,8 @@ MUTANTS = [
     diagnosis("foretold.py", "KEPT = 0.5", "KEPT = 0.0", "a proxy survives the locked tests"),
     diagnosis("foretold.py", "LEAST = 0.02", "LEAST = -9.0", "locked tests never withdraw a claim"),
     diagnosis("foretold.py", "MUCH = 0.25", "MUCH = 0.9", "a large fall does not bear a claim out"),
+    diagnosis("foretold.py", "OF_ITS_OWN = 0.75", "OF_ITS_OWN = 0.7", "a mode of what is there is missing"),
+    diagnosis("foretold.py", "len(self.saying) > 1 and all(", "all(", "one way makes a mode a cause"),
     diagnosis("foretold.py", "PROBABLE = 0.5", "PROBABLE = 0.0", "a proxy survives the locked tests"),
     diagnosis("foretold.py", "PROBABLE = 0.5", "PROBABLE = 9.0", "one slow test withdraws a cause"),
     products(
@@ -339,6 +350,11 @@ MUTANTS = [
     diagnosis("judge.py", "broken[0] in OUTWEIGHED and", "", "what the tests go against is asked"),
     diagnosis("judge.py", "key=lambda s: -probability(s)):", "key=probability):", "the least probable is asked"),
     diagnosis("judge.py", " and refines(one) is None:", ":", "another mode is asked of the locked tests"),
+    diagnosis("judge.py", ' and one.kin != "same"', "", "another mode of one effect is asked of the locked tests"),
+    diagnosis("judge.py", "return refining and blunt(j.scored) is None", "return refining", "all modes open the lock"),
+    diagnosis("judge.py", "enough, likely=_likely(maybe, ()))", "enough)", "a cause passes as a mode"),
+    diagnosis("opened.py", "j.refines is not None and (", "False and (", "a mode is claimed as a cause"),
+    diagnosis("opened.py", "and asked[worst].refines is None", "", "a twin of a mode is claimed"),
     diagnosis("judge.py", "[: MOST_CLAIMS - len(claims)]", "", "everything likely is asked at once"),
     diagnosis("locked.py", "if acts[i] or not claims", "", "a test in which a claim rests decides of it"),
     diagnosis("problem.py", "result - start @ (start.T @ result)", "result", "a warm start is to be explained"),
@@ -384,11 +400,11 @@ MUTANTS = [
     diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
     diagnosis(
         "investigate.py",
-        "selection, judgement = judged(active)",
-        "selection, judgement = judged(everything)",
+        "selection, judgement, named = judged(active)",
+        "selection, judgement, named = judged(everything)",
         "proxies",
     ),
-    diagnosis("investigate.py", "if not judgement.claims and any_", "if any_", "a casting drives out the cause"),
+    diagnosis("investigate.py", "if not named and any_", "if any_", "a casting drives out the cause"),
     diagnosis(
         "selection.py", "best = preferred(eligible.ranked)", "best = preferred(ranking.ranked)", "a casting swaps in"
     ),
@@ -418,6 +434,11 @@ MUTANTS = [
         "preference.py", "better or _is_its_name(own, best)", "better", "a lag stands where its name is as likely"
     ),
     diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
+    diagnosis("preference.py", "FORETELLS = 0.9, 0.8", "FORETELLS = 0.9, 0.9", "a twin is taken by a hair"),
+    diagnosis("preference.py", "TWIN, FORETELLS = 0.9,", "TWIN, FORETELLS = 0.8,", "what acts otherwise is a twin"),
+    diagnosis("preference.py", "and s.evidence >= NAMED_SHARE * own.evidence", "", "an unlikely twin is taken"),
+    diagnosis("preference.py", "and s.candidate.kin in kin", "", "a mode of the model takes the place of a cause"),
+    diagnosis("preference.py", "return min(twins", "return max(twins", "the worst twin is taken"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),
     products("null.py", "1 + np.sum(chance >= evidence)", "np.sum(chance >= evidence)", "chance has no chance"),
@@ -485,8 +506,11 @@ MUTANTS = [
     diagnosis("problem.py", "PART_ROWS = 100", "PART_ROWS = 10", "parts too short to tell anything"),
     diagnosis("problem.py", "* 1.4826 / np.sqrt(6.0)", "* 1.4826", "the noise is too large, the floor too high"),
     diagnosis("compressed.py", "WEIGHED_ROWS = 2400", "WEIGHED_ROWS = 240", "candidates are weighed by few rows"),
+    diagnosis("investigate.py", "if not confirms(found, told, j, measure)", "", "other axes are asked of everything"),
+    diagnosis("investigate.py", " or len(open_still) < len(standing)", "", "a casting beside what the lock names"),
+    diagnosis("investigate.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
     diagnosis("investigate.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
-    diagnosis("investigate.py", "selection.noise, refining, [claim", "selection.noise, kept, [claim", "asked twice"),
+    diagnosis("investigate.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
     diagnosis(
         "investigate.py", "_error_of(asked_about, tests)", "_error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),
@@ -569,6 +593,9 @@ MUTANTS = [
     diagnosis(
         "heat_balance.py", "held[max(0, -shift) : n - max(0, shift)]", "held[: n - abs(shift)]", "shifts go one way"
     ),
+    diagnosis("heat_balance.py", "MOST_TELL = 0.25", "MOST_TELL = 0.0", "two of fifteen temperatures move a clock"),
+    diagnosis("heat_balance.py", "LEAST_LEFT = 0.45", "LEAST_LEFT = 0.3", "what is left of a test moves its clock"),
+    diagnosis("heat_balance.py", "telling[usual].mean()", "telling.mean()", "what tells nowhere speaks for a clock"),
     diagnosis("heat_balance.py", "self.share - self.rest < TELLS", "False", "a test in which the machine waits tells"),
     diagnosis("clocks.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"),
     diagnosis("clocks.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"),
