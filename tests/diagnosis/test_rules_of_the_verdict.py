@@ -209,7 +209,14 @@ def test_where_all_refines_nothing_is_missing_and_at_the_floor_nothing_is_refine
 
 
 @pytest.mark.parametrize(
-    ("changed", "asked"), [({}, True), ({"kin": "heat"}, True), ({"kin": "same"}, False), ({"evidence": 50.0}, False)]
+    ("changed", "asked"),
+    [
+        ({}, True),
+        ({"kin": "heat", "of_motion": True}, True),
+        ({"kin": "heat"}, False),  # the temperature of a bearing whose speed the model has
+        ({"kin": "same"}, False),
+        ({"evidence": 50.0}, False),
+    ],
 )
 def test_the_lock_is_opened_for_what_refines_and_is_as_probable_as_a_claim(
     changed: dict[str, Any], asked: bool

@@ -115,10 +115,10 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
 
 def _may_be_its_own(j: Judged) -> bool:
     """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
-    another mode of the same effect, or a change of it, is none."""
+    another mode of the same effect, a change of it, or the temperature of a body whose heat the model has, is none."""
     one = j.scored.candidate
-    refining = j.refines is not None and one.within is None and one.kin != "same"
-    return refining and blunt(j.scored) is None
+    another = one.kin != "same" and (one.kin != "heat" or one.of_motion)
+    return j.refines is not None and one.within is None and another and blunt(j.scored) is None
 
 
 def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:
