@@ -352,9 +352,11 @@ def test_a_lag_gives_way_to_a_name_that_is_as_likely_on_its_channel(
     ("changed", "gives"),
     [
         ({}, True),
-        ({"evidence": 95.1}, True),
-        ({"evidence": 94.9}, False),
+        ({"evidence": 95.1, "after": 0.1}, True),
+        ({"evidence": 94.9, "after": 0.1}, False),
         ({"after": 0.321}, False),
+        ({"passive": True, "family": "feed_y"}, False),  # it is less probable
+        ({"around": True}, False),  # the air, beside what is sharper
         ({"after": 0.319}, True),
         ({"shape": (0.91, (1 - 0.91**2) ** 0.5)}, True),
         ({"shape": (0.89, (1 - 0.89**2) ** 0.5)}, False),
@@ -367,7 +369,7 @@ def test_a_twin_that_foretells_left_out_tests_much_better_is_taken(changed: dict
     own = scored("feed", channels=("v",), evidence=100.0, after=0.4)
     twin = scored("motor", **{"channels": ("T_b",), "evidence": 99.0, "after": 0.2, **changed})
     assert (better_twin(own, (own, twin)) is twin) is gives
-    best = scored("guide", channels=("T_c",), evidence=98.0, after=0.15)
+    best = scored("guide", channels=("T_c",), evidence=98.0, after=0.05)
     assert better_twin(own, (own, twin, best)) is best
 
 

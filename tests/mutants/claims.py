@@ -439,6 +439,10 @@ MUTANTS = [
     diagnosis("preference.py", "TWIN, FORETELLS = 0.9,", "TWIN, FORETELLS = 0.8,", "what acts otherwise is a twin"),
     diagnosis("preference.py", "and s.evidence >= NAMED_SHARE * own.evidence", "", "an unlikely twin is taken"),
     diagnosis("preference.py", "and s.candidate.kin in kin", "", "a mode of the model takes the place of a cause"),
+    diagnosis("preference.py", "and probability(s) >= probability(own)", "", "a twin that is less probable is taken"),
+    diagnosis(
+        "preference.py", "and (own.candidate.around or not s.candidate.around)", "", "the air stands in for heat"
+    ),
     diagnosis("preference.py", "return min(twins", "return max(twins", "the worst twin is taken"),
     # ---- products
     products("null.py", "DRAWS = 199", "DRAWS = 99", "p cannot fall below its limit"),

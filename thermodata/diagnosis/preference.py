@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.probability import probability
 from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
 
@@ -49,7 +50,8 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
 
 
 def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
-    """What acts alike, has a name, is nearly as likely, and foretells left-out tests much better; the best of these."""
+    """What acts alike, has a name, nearly as much evidence and no less probability, and foretells left-out tests much
+    better; the best of these. The air takes nobody's place: beside what is sharper it may be what that one leaves."""
     kin = (None, own.candidate.kin)
     twins = [
         s
@@ -62,6 +64,8 @@ def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
         and s.evidence >= NAMED_SHARE * own.evidence
         and abs(float(own.shape @ s.shape)) > TWIN
         and s.error_of_all <= FORETELLS * own.error_of_all
+        and probability(s) >= probability(own)
+        and (own.candidate.around or not s.candidate.around)
     ]
     return min(twins, key=lambda s: s.error_of_all, default=None)
 
