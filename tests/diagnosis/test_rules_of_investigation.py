@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import investigate as investigating
+from thermodata.diagnosis import locked as locking
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns
@@ -255,7 +256,7 @@ class TestJudged:
             assert noise is NOISE
             return Foretold(1.0, 0.1 if holds.pop(0) else 1.0, 1.0)
 
-        monkeypatch.setattr(investigating, "foretell", foretell)
+        monkeypatch.setattr(locking, "foretell", foretell)
         locked = [t for t in data.tests if t.role == "locked"]
 
         def investigated(some: Sequence[Scored], **more: Any) -> Investigation:
@@ -309,7 +310,7 @@ class TestJudged:
             assert left is not None
             return Foretold(10.0, 10.0 * left, 10.0)
 
-        monkeypatch.setattr(investigating, "foretell", foretell)
+        monkeypatch.setattr(locking, "foretell", foretell)
         locked = [t for t in data.tests if t.role == "locked"] if left is not None else []
         more: dict[str, Any] = {"ranked": [one, bed], "locked": locked, "others": Others()}
         self.investigated(monkeypatch, data, fitted.responses[0], [one], **more)

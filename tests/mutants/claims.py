@@ -23,7 +23,7 @@ BESIDE = {
     "judge.py": ("the_verdict", "a_claim"),
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
-    "locked.py": ("the_locked_tests",),
+    "locked.py": ("the_locked_tests", "investigation"),
     "logging_faults.py": ("logging_faults",),
     "next_test.py": ("what_is_shown", "unread_parts"),
     "opened.py": ("the_locked_tests",),
@@ -511,11 +511,13 @@ MUTANTS = [
     diagnosis("problem.py", "PART_ROWS = 100", "PART_ROWS = 10", "parts too short to tell anything"),
     diagnosis("problem.py", "* 1.4826 / np.sqrt(6.0)", "* 1.4826", "the noise is too large, the floor too high"),
     diagnosis("compressed.py", "WEIGHED_ROWS = 2400", "WEIGHED_ROWS = 240", "candidates are weighed by few rows"),
-    diagnosis("investigate.py", "if not confirms(found, told, j, measure)", "", "other axes are asked of everything"),
+    diagnosis(
+        "investigate.py", "if lock is None or not lock.confirms(found, told, j, measure)", "", "all axes are asked"
+    ),
     diagnosis("investigate.py", " or len(open_still) < len(standing)", "", "a casting beside what the lock names"),
-    diagnosis("investigate.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
-    diagnosis("investigate.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
-    diagnosis("investigate.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
+    diagnosis("locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
+    diagnosis("locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
+    diagnosis("locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
     diagnosis(
         "investigate.py", "_error_of(asked_about, tests)", "_error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),

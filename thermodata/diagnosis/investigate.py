@@ -16,12 +16,12 @@ from thermodata.diagnosis.clocks import timings
 from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.detection import Limit, limits
 from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.foretold import Foretold, Looked
+from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.gain_by import gains_by_condition
 from thermodata.diagnosis.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.known import Known, known, rms
 from thermodata.diagnosis.known_effects import owners, remembered
-from thermodata.diagnosis.locked import foretell
+from thermodata.diagnosis.locked import Lock
 from thermodata.diagnosis.logging_faults import (
     clock_offsets,
     faulty_sensors,
@@ -32,7 +32,7 @@ from thermodata.diagnosis.logging_faults import (
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.present import present
-from thermodata.diagnosis.probability import at_best, is_made_a_claim, limit_of, may_be_borne_out, may_be_confirmed
+from thermodata.diagnosis.probability import at_best, limit_of, may_be_borne_out
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
@@ -47,8 +47,6 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
-# whether the locked tests alone would make a member of a selection a claim, against a measure
-Confirms = Callable[[Selection, Judgement, Judged, Measure], bool]
 # what one claim foretells of the locked tests beside the others that are claimed or likely; None where there are none
 BorneOut = Callable[[Judged, Sequence[Judged]], Foretold | None]
 Conclude = Callable[[tuple[Judged, ...]], Judgement]
@@ -109,29 +107,10 @@ def investigate(
         closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
         return replace(problem, blocks=(*problem.blocks, *closed), kept={})
 
-    def foretold(found: Selection, told: Judgement, claim: Judged, others: Sequence[Judged]) -> Foretold | None:
-        both, opened = with_locked(), len(problem.blocks)
-        if len(both.blocks) == opened:
-            return None
-        claimed = {id(c.alone.columns) for c in (claim, *others)}
-        beside = [o.scored for o in others]
-        kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed)]
-        refining = [*beside, *(j.scored for j in told.refinements)]
-        with threadpool_limits(1):
-            beside_all = foretell(both, opened, found.noise, kept, [claim.scored])
-            # what stands beside a claim without being one may stand in its way
-            if beside_all.holds or len(kept) == len(refining):
-                return beside_all
-            alone = foretell(both, opened, found.noise, refining, [claim.scored])
-            return max(beside_all, alone, key=lambda f: f.fall)
-
-    def confirms(found: Selection, told: Judgement, one: Judged, measure: Measure) -> bool:
-        said = foretold(found, told, one, ()) if may_be_confirmed(one.scored) else None
-        return said is not None and is_made_a_claim(one.scored, Looked(said, None, measure.floor))
-
+    lock = Lock(with_locked, len(problem.blocks))
     # thousands of small products: threads of the linear algebra library would wait for each other
     with threadpool_limits(1):
-        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness, confirms)
+        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness, lock)
         unseen = () if selection is None else _limits(fitted, problem, selection, measure)
         selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
     asked_about = fitted if as_fitted is None else as_fitted
@@ -146,7 +125,7 @@ def investigate(
     ]
 
     def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
-        return None if selection is None else foretold(selection, judgement, claim, others)
+        return None if selection is None else lock.foretold(selection, judgement, claim, others)
 
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)
@@ -182,7 +161,7 @@ def _judged(
     asked: Sequence[CandidateEffect],
     seed: int,
     witness: Witness | None = None,
-    confirms: Confirms = lambda found, told, one, measure: False,
+    lock: Lock | None = None,
 ) -> tuple[Selection | None, Judgement, Measure]:
     spread = rms(problem.response_blocks) if problem.blocks else 0.0
     first = first_ranking(problem, asked)
@@ -200,7 +179,7 @@ def _judged(
             return found, told, bool(told.claims)
         standing = [j for j in told.judged if j.refines is None and may_be_borne_out(j.scored)]
         # the locked tests are looked at in the end anyway, and each other axis is a diagnosis of its own
-        open_still = [j for j in standing if not confirms(found, told, j, measure)]
+        open_still = [j for j in standing if lock is None or not lock.confirms(found, told, j, measure)]
         if heard := _heard(open_still, witness):
             found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
             told = judge(problem, found, measure, refines)

@@ -6,18 +6,54 @@ missing, one alone says little there, so the claims are asked beside all that wa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import columns, moments, weigh
-from thermodata.diagnosis.foretold import Foretold
+from thermodata.diagnosis.foretold import Foretold, Looked
+from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.known import Known, known
+from thermodata.diagnosis.probability import is_made_a_claim, may_be_confirmed
 from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import ACTS, Scored
-from thermodata.diagnosis.selection import extended
+from thermodata.diagnosis.selection import Selection, extended
 from thermodata.plugin import Bool1D, Float1D, Int1D
+
+
+@dataclass(frozen=True, slots=True)
+class Lock:
+    """The locked tests beside the open ones, opened when first asked for. with_locked: the problem of both, whose first
+    `opened` blocks are of open tests."""
+
+    with_locked: Callable[[], Problem]
+    opened: int
+
+    def foretold(self, found: Selection, told: Judgement, claim: Judged, others: Sequence[Judged]) -> Foretold | None:
+        """What a claim foretells beside the others that are claimed or likely; None where there are no locked tests."""
+        both = self.with_locked()
+        if len(both.blocks) == self.opened:
+            return None
+        claimed = {id(c.alone.columns) for c in (claim, *others)}
+        beside = [o.scored for o in others]
+        kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed)]
+        refining = [*beside, *(j.scored for j in told.refinements)]
+        with threadpool_limits(1):
+            beside_all = foretell(both, self.opened, found.noise, kept, [claim.scored])
+            # what stands beside a claim without being one may stand in its way
+            if beside_all.holds or len(kept) == len(refining):
+                return beside_all
+            alone = foretell(both, self.opened, found.noise, refining, [claim.scored])
+            return max(beside_all, alone, key=lambda f: f.fall)
+
+    def confirms(self, found: Selection, told: Judgement, one: Judged, measure: Measure) -> bool:
+        """Whether they would make a claim of a member by themselves."""
+        said = self.foretold(found, told, one, ()) if may_be_confirmed(one.scored) else None
+        return said is not None and is_made_a_claim(one.scored, Looked(said, None, measure.floor))
 
 
 def foretell(problem: Problem, opened: int, noise: Noise, kept: Sequence[Scored], claims: Sequence[Scored]) -> Foretold:
