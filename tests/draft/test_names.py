@@ -214,3 +214,21 @@ def test_air_at_the_floor_is_no_floor(name: str, at: str, asked: bool) -> None:
 
 def test_a_tank_is_one_with_and_without_its_umlaut() -> None:
     assert {guess(name, "°C").at for name in ("KSS Behälter", "KSS Behaelter")} == {"coolant.tank"}
+
+
+@pytest.mark.parametrize(
+    ("name", "at"),
+    [
+        ("Ram front", "ram.front"),
+        ("Z-Schieber hinten", "ram.rear"),
+        ("滑枕前侧温度", "ram.front"),
+        ("Crossbeam top", "crossbeam.top"),
+        ("Querbalken unten", "crossbeam.bottom"),
+        ("Traversa sotto", "crossbeam.bottom"),
+        ("Ram", "ram"),
+        ("Ram front bearing", "spindle.bearing.front"),
+    ],
+)
+def test_the_side_of_a_beam_is_read(name: str, at: str) -> None:
+    found = guess(name, "°C")
+    assert (found.at, found.questions) == (at, ())

@@ -25,12 +25,11 @@ _ROTARY = re.compile(
 _SPINDLE_1 = re.compile(r"^s \d(?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
 _SIDES = ("front", "rear", "left", "right")
+_BEAMS = ("column", "ram", "crossbeam")  # that bend with the difference of two sides
 _PLAIN = (
     "headstock",
-    "ram",
     "tailstock",
     "saddle",
-    "crossbeam",
     "workpiece",
     "fixture",
     "tool",
@@ -121,9 +120,11 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place("spindle.gearbox")
     if "oil" in said:
         return Place(None, question="at: hydraulics or lubrication?")
-    if "column" in said:
+    beam = next((b for b in _BEAMS if b in said), None)
+    if beam is not None and (beam == "column" or "spindle" not in said):
         side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")
-        return Place(f"column.{side}" if side else "column", bool(side) and len(said) == 2)
+        sure = (bool(side) and len(said) == 2) if beam == "column" else said <= {beam, *_SIDES, "upper", "lower"}
+        return Place(f"{beam}.{side}" if side else beam, sure)
     found = [p for p in _PLAIN if p in said]
     if found and "spindle" not in said - ({"spindle"} if "headstock" in found else set()):
         return Place(found[0], len(found) == 1)

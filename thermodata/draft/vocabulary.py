@@ -98,7 +98,7 @@ _PLACE_WORDS: dict[str, str] = {
     "vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
-    "ram": "ram. pinole traghuls traghuels ^smykadl 滑枕 quill.",
+    "ram": "ram. z~schieber frasschieber fraesschieber pinole traghuls traghuels ^smykadl 滑枕 quill.",
     "saddle": "saddle schlitten ^sane. 滑座 滑板 滑台 carriage crossslide cross~slide slide. sani.",
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
     "tool": "tool. werkzeug nastroj 刀具 刀柄 toolholder",

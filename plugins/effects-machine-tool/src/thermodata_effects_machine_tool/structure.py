@@ -25,7 +25,7 @@ class ColumnBending(Lagged):
     equation = "d = k F_tau{dT_warm - dT_cold}"
     telltale = "a tilt: in Y (or X) more than in Z; told apart by sensors on both sides at once"
     source = "[mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (
+    needs: tuple[Need, ...] = (
         Need("warm_side", "temperature", ("column.rear", "column.left")),
         Need("cold_side", "temperature", ("column.front", "column.right")),
     )
@@ -35,6 +35,46 @@ class ColumnBending(Lagged):
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return drivers.values["warm_side"] - drivers.values["cold_side"]
+
+
+class RamBending(ColumnBending):
+    """The ram bends with the difference between its sides: as the column, with what it carries out.
+
+        d = k F_tau{dT_warm - dT_cold}
+
+    k [um/K], tau [min], temperatures [K] of rear and front, left and right, or top and bottom.
+    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "ram_bending"
+    family = "ram"
+    meaning = "the ram bends with the difference of its sides: k F{dT rear - dT front}, left - right or top - bottom"
+    telltale = "grows with how far the ram is out; told apart by sensors on both sides at once"
+    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (
+        Need("warm_side", "temperature", ("ram.rear", "ram.left", "ram.top")),
+        Need("cold_side", "temperature", ("ram.front", "ram.right", "ram.bottom")),
+    )
+
+
+class CrossbeamBending(ColumnBending):
+    """The crossbeam bends, or twists, with the difference between its sides.
+
+        d = k F_tau{dT_warm - dT_cold}
+
+    k [um/K], tau [min], temperatures [K] of top and bottom, or rear and front.
+    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "crossbeam_bending"
+    family = "crossbeam"
+    meaning = "the crossbeam bends with the difference of its sides: k F{dT top - dT bottom} or rear - front"
+    telltale = "largest in the middle of the beam; told apart by sensors on both sides at once"
+    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (
+        Need("warm_side", "temperature", ("crossbeam.top", "crossbeam.rear")),
+        Need("cold_side", "temperature", ("crossbeam.bottom", "crossbeam.front")),
+    )
 
 
 class ProbeTemperature(Lagged):
