@@ -57,7 +57,8 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
         pieces = []
         if size > len(head) and not (other and not bare(str(declared)).startswith("utf-16")):
             for k in range(1, _PIECES + 1):
-                at = max(len(head), (size - _PIECE) * k // _PIECES) // 2 * 2
+                at = max(len(head), (size - _PIECE) * k // _PIECES)
+                at = at // 2 * 2 if wide else at  # of two bytes a letter; the last piece ends with the file
                 file.seek(at)
                 pieces.append(file.read(_PIECE))
     whole = size <= len(head)
