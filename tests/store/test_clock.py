@@ -134,6 +134,36 @@ channels:
     assert duration == [(1199.0,)]
 
 
+@pytest.mark.parametrize("own", [True, False])
+def test_displacements_in_a_file_of_all_tests_are_cut_by_what_has_a_file_of_each(
+    store: Store, tmp_path: Path, own: bool
+) -> None:
+    """A table of all results of a probe, beside the control's log of each test; without that nothing parts it."""
+    text = CAMPAIGN.replace('files: "raw/{test}_*.npz"', "files: raw/results.npz")
+    if not own:
+        text = text.replace('files: "raw/{test}.nc.npz"', "files: raw/control.npz")
+    path = write_campaign(tmp_path / "lab", text)
+    write_log(path.parent / "raw/results.npz", daq(4000, start_s=-20_000.0, step_s=10.0))
+    for i, test in enumerate(("one", "two")):
+        log = {"t_ns": times(130, 10.0, 1800.0 * i), "n": np.full(130, 9000.0), "msg": np.full(130, "RUN")}
+        write_log(path.parent / f"raw/{test}.nc.npz", {"nc": log})
+    write_log(path.parent / "raw/control.npz", {"nc": log})
+    summary = ingest(store, path)
+    with store.reader() as con:
+        asked = "select test, min(t_s), max(t_s) from sample where channel = 'dZ' group by 1 order by 1"
+        found = con.execute(asked).fetchall()
+        starts = con.execute("select start_ns from test order by test").fetchall()
+    if own:
+        assert found == [("one", 0.0, 1290.0), ("two", 0.0, 1290.0)]
+        assert [s for (s,) in starts] == [START_NS, START_NS + 1_800 * 10**9]
+        assert sum("cut where the files of 'nc' begin and end" in note for note in summary.notes) == 2
+        assert summary.losses == []
+    else:
+        assert [b - a for _, a, b in found] == [39_990.0] * 2
+        reasons = [loss["reason"] for loss in summary.losses]
+        assert sum("nothing says when it was; try: window:" in reason for reason in reasons) == 2
+
+
 def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(store: Store, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab")
     write_log(

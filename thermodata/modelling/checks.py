@@ -15,7 +15,7 @@ from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.parameters import by_kelvin
 from thermodata.modelling.uncertainty import effective_count
-from thermodata.plugin import Float1D, Float2D
+from thermodata.plugin import Float1D, Float2D, Param
 from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
@@ -192,10 +192,17 @@ def _bounds(term: FittedTerm) -> list[Check]:
                             threshold=end,
                             passed=False,
                             advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: another effect may be "
-                            "behind it, or the bound is wrong",
+                            f"behind it, or the bound is wrong{_wider(param, end)}",
                         )
                     )
     return rows
+
+
+def _wider(param: Param, end: float) -> str:
+    """What to write where the library knows that bodies reach beyond the bound; '' else."""
+    if param.reach is None or not param.reach[0] < end < param.reach[1]:
+        return ""
+    return f"; to let it go on, in the effect: bounds: {{{param.name}: [{param.reach[0]:g}, {param.reach[1]:g}]}}"
 
 
 def _gain_bounds(term: FittedTerm) -> list[Check]:

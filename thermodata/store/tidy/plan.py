@@ -52,6 +52,11 @@ class SourcePlan:
     shared: bool = False
 
     @property
+    def is_dated(self) -> bool:
+        """Whether a file says when it was recorded."""
+        return any(raw.clock == "absolute" or raw.start_ns is not None for raw in self.raws)
+
+    @property
     def streams(self) -> dict[str, list[RawStream]]:
         streams: dict[str, list[RawStream]] = {}
         for raw in self.raws:
@@ -83,14 +88,26 @@ class TestPlan:
         """The sources whose beginning is the beginning of the recording: those that carry displacements.
 
         A control's or a hall logger's clock may be hours off, and its log may run for days; the probes' record
-        is what the test is about. Where no source carries displacements, all of them count."""
-        names = {
+        is what the test is about. Where no source carries displacements, all of them count; and where those that do
+        run through many tests, as a table of all results does, what has a file of this test tells when it was."""
+        with_data = [s for s in self.sources.values() if s.raws]
+        chosen = [s for s in with_data if s.name in self._of_displacements] or with_data
+        if self.test.window is not None or not all(s.shared and s.is_dated for s in chosen):
+            return chosen
+        return [s for s in with_data if not s.shared and s.is_dated] or chosen
+
+    @property
+    def _of_displacements(self) -> set[str]:
+        return {
             b.source
             for b in self.bound.values()
             if b.signal is not None and b.channel.quantity in ("displacement", "tilt")
         }
-        chosen = [s for s in self.sources.values() if s.name in names and s.raws]
-        return chosen or [s for s in self.sources.values() if s.raws]
+
+    @property
+    def cut_by(self) -> list[str]:
+        """The sources that tell when the test was, where the displacements run through many tests; else none."""
+        return [s.name for s in self.reference if self._of_displacements and s.name not in self._of_displacements]
 
 
 def effective(campaign: Campaign, test: Test) -> dict[str, Channel]:
@@ -145,6 +162,23 @@ def bind(plan: TestPlan) -> None:
             _bind_derived(plan, channels, name, channel, ())
     order = list(plan.campaign.channels)
     plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
+    _say_what_parts_it(plan)
+
+
+def _say_what_parts_it(plan: TestPlan) -> None:
+    """Where the displacements of a test stand in a file of many tests."""
+    shared = [s.name for s in plan.reference if s.shared] if plan.test.window is None else []
+    name = plan.test.id
+    if plan.cut_by:
+        plan.notes.append(
+            f"test '{name}': its displacements stand in a log of many tests, which is cut where the files of "
+            f"'{', '.join(plan.cut_by)}' begin and end; if that is wrong: window: [from, to]"
+        )
+    elif shared and len(plan.campaign.tests) > 1 and len(shared) == len(plan.reference):
+        plan.problems.append(
+            f"test '{name}': all of '{', '.join(shared)}' is taken for it, as for the other tests, for nothing says "
+            "when it was; try: window: [from, to] in the test"
+        )
 
 
 def _no_signal(name: str, error: NoSignalError, test: str) -> str:
