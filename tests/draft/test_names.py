@@ -232,3 +232,21 @@ def test_a_tank_is_one_with_and_without_its_umlaut() -> None:
 def test_the_side_of_a_beam_is_read(name: str, at: str) -> None:
     found = guess(name, "°C")
     assert (found.at, found.questions) == (at, ())
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["Messuhr X", "Dial gauge X", "Comparatore X", "Reloj comparador X", "Induktivtaster X", "千分表X", "úchylkoměr X"],
+)
+def test_a_dial_gauge_measures_a_displacement(name: str) -> None:
+    found = guess(name, "mm")
+    assert (found.quantity, found.axis) == ("displacement", "X")
+
+
+@pytest.mark.parametrize(
+    ("name", "at"), [("Temp Vorlauf Spindelkühler", "chiller"), ("摆头冷却机出水温度", "chiller"), ("Luft 8 m", "hall")]
+)
+def test_a_cooler_is_none_of_what_it_cools_and_a_height_is_asked(name: str, at: str) -> None:
+    found = guess(name, "°C")
+    assert (found.at or "").partition(".")[0] == at
+    assert any("hall.top" in q for q in found.questions) == (at == "hall")

@@ -38,6 +38,7 @@ _PLAIN = (
     "bed",
     "outside",
 )
+_HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'
 _TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 _ON_AXIS = ("nut", "screw", "scale", "guide")
 
@@ -77,7 +78,10 @@ def place_of(text: str, quantity: str) -> Place:
     turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
     axis = turning[1] if turning else axis
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
-    return rule(said, axis) if rule else Place(None)
+    found = rule(said, axis) if rule else Place(None)
+    if found.at == "hall" and quantity == "temperature" and _HEIGHT.search(text):
+        return Place("hall", question="at: hall.top, hall.bottom, or hall, at the height of the machine?")
+    return found
 
 
 def _by_the_machine(said: set[str]) -> set[str]:

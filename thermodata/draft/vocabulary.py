@@ -42,7 +42,9 @@ _QUANTITY_WORDS: dict[str, str] = {
     "humidity": "humid feucht ^vlhkost vlhk. 湿度 濕度 rh. relhum hum.",
     "irradiance": "irradia solar. sonnen sonne. slunecn slunce. zaren 日照 辐射 辐照 pyranom sunlight sun. "
     "globalstrahl",
-    "displacement": "eddy displac verlager verschieb posunut posuv~vretene vychylk deformac deform. deformation "
+    "displacement": "messuhr feinzeiger millesimaltaster induktivtaster messtaster dial~gauge dial~indicator dial~test "
+    "comparator comparador comparateur uchylkomer 千分表 百分表 杠杆表 ダイヤルゲージ 다이얼게이지 "
+    "eddy displac verlager verschieb posunut posuv~vretene vychylk deformac deform. deformation "
     "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. "
     "vzdalenost "
     "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth "
@@ -108,12 +110,13 @@ _PLACE_WORDS: dict[str, str] = {
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
     "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
-    "chiller": "chiller chladic. chladice. kuhler. kuehler. ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
+    "chiller": "chiller chladic. chladice. kuhler. kuehler. spindelkuhler spindelkuehler 冷却机 "
+    "ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
     "oilcooler oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     # the way out of the device that cools is the way into the machine
     "out of the chiller": "chiller~out chiller~outlet chiller~output chiller~ausgang chiller~austritt chiller~vystup "
-    "冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
+    "冷却机出 冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
     "sortie~groupe uscita~chiller chiller~uscita chiller~saida "
     "salida~enfriadora salida~enfriador chiller~wylot chiller~cikis чиллера~выход выход~чиллера",
     "into the chiller": "chiller~in chiller~inlet chiller~input chiller~eingang chiller~eintritt chiller~vstup "
