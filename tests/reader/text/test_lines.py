@@ -103,3 +103,15 @@ def test_a_sample_of_a_large_file_has_its_first_and_last_lines(tmp_path: Path) -
 )
 def test_a_last_line_proves_itself_whole(line: str, before: str, whole: bool) -> None:
     assert last_line_is_whole(line, before, ";") is whole
+
+
+@pytest.mark.parametrize("odd", [0, 1])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_a_long_file_ends_where_it_ends_whether_its_size_is_odd_or_not(tmp_path: Path, odd: int, encoding: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_bytes(("a;b\n" + "1;2\n" * 200_000 + ("10;2\n" if odd else "")).encode(encoding))
+    if encoding == "utf-8":
+        assert path.stat().st_size % 2 == odd
+    assert sample(path, None).ends_with_newline
+    path.write_bytes(path.read_bytes()[:-2] if encoding == "utf-16" else path.read_bytes()[:-1])
+    assert not sample(path, None).ends_with_newline

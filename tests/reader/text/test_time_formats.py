@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.cell import TIME_WORD
 from thermodata.reader.text.time_formats import find_format, find_formats, share, times_of_numbers, times_of_texts
 from thermodata.reader.text.timestamp import DATE, DATETIME, TIME_OF_DAY
 
@@ -93,3 +94,13 @@ def test_columns_in_memory() -> None:
     found = times_of_numbers(np.array([0.5, 1.5]), "min", None)
     assert not found.absolute
     assert found.t_ns.tolist() == [30 * S, 90 * S]
+
+
+@pytest.mark.parametrize("header", ["时间戳", "epoch_s", "unix_ms", "Horodatage", "日時", "시각", "Fecha"])
+def test_what_labs_call_the_time_is_one(header: str) -> None:
+    assert TIME_WORD.match(header)
+
+
+@pytest.mark.parametrize("header", ["epoch speed", "unixes", "Fechadora", "T"])
+def test_what_only_begins_so_is_no_time(header: str) -> None:
+    assert not TIME_WORD.match(header)

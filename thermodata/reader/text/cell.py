@@ -12,8 +12,9 @@ from thermodata.reader.text.timestamp import is_date_text, is_time_of_day
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature
 TIME_WORD = re.compile(
-    r"^(t|ts|t_s|time_s|(?i:time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|"
-    r"datetime|laufzeit|zeitstempel|elapsed([ _]?time)?|rel(ative)?[ _.]?time|heure|horodatage|hora|fecha|"
+    r"^(t|ts|t_s|time_s|(?i:epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
+    r"time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
+    r"laufzeit|zeitstempel|elapsed([ _]?time)?|rel(ative)?[ _.]?time|heure|horodatage|hora|fecha|"
     r"時間|時間戳|日期|日期時間|时间|时间戳|时刻|日期时间|日時|日付|時刻|시간|시각|일시))\.?:?$"
 )
 WORDS = EMPTY | OVERLOAD | {"true", "false", "wahr", "falsch", "inf", "-inf"}  # which make no row of words
