@@ -140,6 +140,15 @@ def test_a_parameter_at_its_bound(value: float, at: bool) -> None:
     assert names(checks._bounds(term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
 
 
+def test_a_bound_that_bodies_reach_beyond_is_told_with_what_to_write() -> None:
+    reaching = Straight(params=(replace(TAU, reach=(1.0, 360.0)),))
+    [told] = checks._bounds(term(reaching, {"tau": 100.0}))
+    assert "in the effect: bounds: {tau: [1, 360]}" in told.advice
+    [plain] = checks._bounds(term(params={"tau": 100.0}))
+    assert plain.advice.endswith("or the bound is wrong")
+    assert checks._wider(replace(TAU, reach=(1.0, 360.0)), 360.0) == "", "it stands at the end of that"
+
+
 @pytest.mark.parametrize(("value", "at"), [(0.0019, True), (0.0021, False), (1.9981, True), (1.9979, False)])
 def test_a_parameter_that_may_be_zero_is_at_its_bound_by_its_range(value: float, at: bool) -> None:
     effect = Straight(params=(EXPONENT,))
