@@ -164,6 +164,19 @@ def test_displacements_in_a_file_of_all_tests_are_cut_by_what_has_a_file_of_each
         assert sum("nothing says when it was; try: window:" in reason for reason in reasons) == 2
 
 
+def test_a_test_of_its_own_begins_with_its_displacements_however_their_file_is_called(
+    store: Store, tmp_path: Path
+) -> None:
+    text = CAMPAIGN.replace('files: "raw/{test}_*.npz"', "files: raw/results.npz")
+    text = "".join(line for line in text.splitlines(keepends=True) if "id: two" not in line)
+    path = write_campaign(tmp_path / "lab", text)
+    write_log(path.parent / "raw/results.npz", daq(400, start_s=-500.0, step_s=10.0))
+    assert ingest(store, path).losses == []
+    with store.reader() as con:
+        asked = "select min(t_s), max(t_s) from sample where channel = 'dZ'"
+        assert con.execute(asked).fetchall() == [(0.0, 3990.0)]
+
+
 def test_a_relative_clock_beside_an_absolute_one_starts_with_the_test(store: Store, tmp_path: Path) -> None:
     path = write_campaign(tmp_path / "lab")
     write_log(

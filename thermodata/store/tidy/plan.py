@@ -92,7 +92,8 @@ class TestPlan:
         run through many tests, as a table of all results does, what has a file of this test tells when it was."""
         with_data = [s for s in self.sources.values() if s.raws]
         chosen = [s for s in with_data if s.name in self._of_displacements] or with_data
-        if self.test.window is not None or not all(s.shared and s.is_dated for s in chosen):
+        alone = self.test.window is not None or len(self.campaign.tests) < 2
+        if alone or not all(s.shared and s.is_dated for s in chosen):
             return chosen
         return [s for s in with_data if not s.shared and s.is_dated] or chosen
 
