@@ -26,6 +26,7 @@ from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 
 MODE = "it is another mode of what the model has"
+LITTLE = "it is little beside what the model has of that family"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
@@ -72,7 +73,7 @@ class Refinement:
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
         # what is surely a cause is one, however small beside its kin
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
-            return MODE
+            return LITTLE if kin in ("near", "related") else MODE
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
         near = kin == "near" and not _is_surely_missing(scored)
         may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
