@@ -250,3 +250,11 @@ def test_a_cooler_is_none_of_what_it_cools_and_a_height_is_asked(name: str, at: 
     found = guess(name, "°C")
     assert (found.at or "").partition(".")[0] == at
     assert any("hall.top" in q for q in found.questions) == (at == "hall")
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("Velocità asse A", "1/min"), ("Vitesse axe A", "tr/min"), ("Torquemotor A", "°C"), ("A軸回転速度", "rpm")],
+)
+def test_a_rotary_axis_is_read_in_further_languages(name: str, unit: str) -> None:
+    assert (guess(name, unit).at or "").startswith("rotary.a")

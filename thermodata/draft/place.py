@@ -15,11 +15,11 @@ _BESIDE = (
 _AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(
-    r"(?<!\S)(?:axis|achse|osa|ax|rotary|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
+    r"(?<!\S)(?:axis|achse|osa|asse|axe|eje|eixo|tengely|eksen|ось|ax|rotary|torquemotor|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
     r"drehzahl|otacky) ?([abc])(?!\S)"
     r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
     r"n|speed|drehzahl|otacky|rpm)(?!\S)"
-    r"|(?<!\S)([abc]) ?轴"
+    r"|(?<!\S)([abc]) ?[轴軸]"
 )
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"^s \d(?!\S)")
