@@ -313,9 +313,11 @@ class TestJudged:
         monkeypatch.setattr(locking, "foretell", foretell)
         locked = [t for t in data.tests if t.role == "locked"] if left is not None else []
         more: dict[str, Any] = {"ranked": [one, bed], "locked": locked, "others": Others()}
-        self.investigated(monkeypatch, data, fitted.responses[0], [one], **more)
+        found = self.investigated(monkeypatch, data, fitted.responses[0], [one], **more)
         assert said == asked
         assert self.among == among
+        opened = evidence == 45.0 and left is not None
+        assert found.looked_for == (("likely:T_a",) if opened else ()), "each look counts, whatever comes of it"
 
     def test_wrong_parameters_are_those_of_the_model_that_is_asked_about(
         self, monkeypatch: pytest.MonkeyPatch, data: Dataset, fitted: FittedModel

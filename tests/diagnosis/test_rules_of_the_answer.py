@@ -75,6 +75,7 @@ class TestAnswer:
         asked_in: frozenset[tuple[str, str]] | None = None,
         channels: Sequence[ChannelInfo] = (),
         against: Measure | None = None,
+        looked_for: tuple[str, ...] = (),
     ) -> Diagnosis:
         """holds: whether all claims do, or the only ones that do together. shown: errors on the locked tests as scored,
         where the shape's fall from 1.0 to 0.5. asked_in: the locked tests that a claim is asked of."""
@@ -112,7 +113,9 @@ class TestAnswer:
             return replace(judgement, judged=judged)
 
         against = against or measure(floor=0.2)
-        found = Investigation(asked, selection, [], [SPOT], judgement, against, borne_out, conclude)
+        found = Investigation(
+            asked, selection, [], [SPOT], judgement, against, borne_out, conclude, looked_for=looked_for
+        )
 
         class Fits:
             def __init__(self, *given: Any) -> None:
@@ -136,7 +139,7 @@ class TestAnswer:
         monkeypatch.setattr(answering, "confirm", confirm)
         monkeypatch.setattr(answering, "Fits", Fits)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
-        self.looked_at = [t.test for t in got.locked]
+        self.looked_at, self.looked_for = [t.test for t in got.locked], list(got.asked)
         return got.diagnosis
 
     @pytest.mark.parametrize("verdict", ["none", "unknown", "not_testable", "refine"])
@@ -146,6 +149,14 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, nothing(verdict))
         assert found.verdict == verdict
         assert (self.asked, self.opened, self.looked_at) == ([], [], [])
+
+    def test_a_look_on_the_way_is_counted_though_nothing_came_of_it(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        self.answered(monkeypatch, spec, nothing("unknown"), looked_for=("other:T_a",))
+        assert (self.looked_at, self.looked_for) == (["z"], ["other:T_a"])
+        self.answered(monkeypatch, spec, claim(FIRST), looked_for=("other:T_a",))
+        assert (self.looked_at, self.looked_for) == (["z"], ["other:T_a", "first:T_a"])
 
     def test_a_claim_is_confirmed_on_what_the_model_can_predict(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

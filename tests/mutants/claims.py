@@ -515,6 +515,8 @@ MUTANTS = [
         "investigate.py", "if lock is None or not lock.confirms(found, told, j, measure)", "", "all axes are asked"
     ),
     diagnosis("investigate.py", " or len(open_still) < len(standing)", "", "a casting beside what the lock names"),
+    diagnosis("locked.py", "self.asked.setdefault(claim.scored.candidate.id)", "pass", "a look is not counted"),
+    diagnosis("answer.py", "dict.fromkeys(investigation.looked_for)", "dict[str, None]()", "a look is not counted"),
     diagnosis("locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
     diagnosis("locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
     diagnosis("locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),

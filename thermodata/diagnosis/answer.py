@@ -80,7 +80,7 @@ def answer(
     )
     judgement, confirmation = investigation.judgement, None
     known = (left_on_locked or {}).get(response.name)
-    looked_at: dict[str, None] = {}
+    looked_at = dict.fromkeys(investigation.looked_for)
     if judgement.claims or (locked and judgement.likely):
         fits = Fits(fitted.spec, index, data, usable, locked, refitted)
 

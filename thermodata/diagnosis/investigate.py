@@ -55,7 +55,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 @dataclass(frozen=True, slots=True)
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
-    conclude: judges members anew. limits: how large what is not named would have to be."""
+    conclude: judges members anew. limits: how large what is not named would have to be. looked_for: the ids of what the
+    locked tests were opened for on the way, whatever became of it."""
 
     problem: Problem
     selection: Selection | None
@@ -66,6 +67,7 @@ class Investigation:
     borne_out: BorneOut
     conclude: Conclude
     limits: tuple[Limit, ...] = ()
+    looked_for: tuple[str, ...] = ()
 
 
 def investigate(
@@ -130,7 +132,10 @@ def investigate(
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)
 
-    return Investigation(problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen)
+    looked_for = tuple(lock.asked)
+    return Investigation(
+        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, looked_for
+    )
 
 
 def causes_of(

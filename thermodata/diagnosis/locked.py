@@ -7,7 +7,7 @@ missing, one alone says little there, so the claims are asked beside all that wa
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -28,16 +28,18 @@ from thermodata.plugin import Bool1D, Float1D, Int1D
 @dataclass(frozen=True, slots=True)
 class Lock:
     """The locked tests beside the open ones, opened when first asked for. with_locked: the problem of both, whose first
-    `opened` blocks are of open tests."""
+    `opened` blocks are of open tests. asked: the ids of what they were opened for, in that order: each look counts."""
 
     with_locked: Callable[[], Problem]
     opened: int
+    asked: dict[str, None] = field(default_factory=dict)
 
     def foretold(self, found: Selection, told: Judgement, claim: Judged, others: Sequence[Judged]) -> Foretold | None:
         """What a claim foretells beside the others that are claimed or likely; None where there are no locked tests."""
         both = self.with_locked()
         if len(both.blocks) == self.opened:
             return None
+        self.asked.setdefault(claim.scored.candidate.id)
         claimed = {id(c.alone.columns) for c in (claim, *others)}
         beside = [o.scored for o in others]
         kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed)]
