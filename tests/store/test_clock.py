@@ -92,7 +92,7 @@ def test_an_idle_test_has_its_clock_by_the_others_where_they_agree(
 
 @pytest.mark.parametrize(("events", "moved"), [((), True), (("seen by a person",), False)])
 def test_events_that_a_person_declared_are_not_overruled_by_other_tests(events: tuple[str, ...], moved: bool) -> None:
-    dated = SimpleNamespace(raws=[SimpleNamespace(clock="absolute", start_ns=None)])
+    dated = SimpleNamespace(raws=[SimpleNamespace(clock="absolute", start_ns=None)], is_dated=True)
     dated.spec = SimpleNamespace(clock=SimpleNamespace(events=events))
     plan: Any = SimpleNamespace(sources={"nc": dated})
     told = Clock(250_000_000_000, 0.0, 0, key="k")

@@ -136,7 +136,7 @@ def start_ns(start: str, plan: TestPlan, source: SourcePlan | None = None) -> in
 
 
 def is_relative(source: SourcePlan) -> bool:
-    return all(raw.clock == "relative" and raw.start_ns is None for raw in source.raws)
+    return not source.is_dated
 
 
 def first_ns(source: SourcePlan) -> int:
