@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect, Kin
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.evidence import Columns, Weighed
+from thermodata.diagnosis.kin import Kin
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import Scored

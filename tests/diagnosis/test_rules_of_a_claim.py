@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.judge import equivalents
+from thermodata.diagnosis.kin import Kin
 from thermodata.diagnosis.probability import at_best, probability, sharpness
 from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import refinement
-from thermodata.diagnosis.candidates import Kin
 from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.kin import Kin
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.probability import CLAIMED, PROBABILITY
 from thermodata.diagnosis.problem import Problem

@@ -21,6 +21,7 @@ BESIDE = {
     "heat_balance.py": ("clocks_by_heat",),
     "investigate.py": ("investigation", "logging_faults"),
     "judge.py": ("the_verdict", "a_claim"),
+    "kin.py": ("candidates",),
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
     "locked.py": ("the_locked_tests", "investigation"),
@@ -162,12 +163,12 @@ MUTANTS = [
     diagnosis("rules.py", "(strong or sure) and", "strong and", "a sure cause is refused for its fall"),
     diagnosis("rules.py", "SURE_BETTER_LIMIT if sure else", "BETTER_LIMIT if sure else", "a sure cause is refused"),
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
-    diagnosis("candidates.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
+    diagnosis("kin.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
     diagnosis(
-        "candidates.py", '"part" if warm and _one', '"same" if warm and _one', "the air's lag is a mode of its gradient"
+        "kin.py", '"part" if warm and _one', '"same" if warm and _one', "the air's lag is a mode of its gradient"
     ),
     diagnosis(
-        "candidates.py",
+        "kin.py",
         '"heat" if other else',
         '"same" if other else',
         "the coolant's switch is a mode of its temperature",
@@ -491,7 +492,7 @@ MUTANTS = [
     diagnosis(
         "candidates.py", "and not placed", "and all(usable[c].at is None for c in binding.values())", "any sensor"
     ),
-    diagnosis("candidates.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
+    diagnosis("kin.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
     diagnosis("candidates.py", "or effect.name == STATIC", "", "a gain is asked for twice"),
     diagnosis(
         "candidates.py",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.kin import Kin, ModelOf, kin_of, refines
 from thermodata.diagnosis.present import (
     CONTROL,
     GENERIC,
@@ -31,16 +31,10 @@ from thermodata.schema.places import is_around, is_beside, is_casting
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
-# "same": another mode of an effect that the model has, or another reading of its channels. "heat": another effect of
-# the same cause, by other channels, as the coolant's switch beside its temperature. "part": one of several
-# temperatures that an effect of the model reads together, as the air beside its gradient. "near": an effect of a family
-# that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with other gains
-# (`gain_by`)
-Kin = Literal["same", "heat", "part", "near", "related", "itself"] | None
 STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 # parts of a body that make heat
-MAKE_HEAT = ("bearing", "motor")
+HEATED_PARTS = ("bearing", "motor")
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
@@ -137,7 +131,7 @@ def candidates(
     plain = [p for p in own if is_plain(p.effect, library)]
     # a plain function is no other effect than what it stands for
     acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
-    model = _Model(own, acting, frozenset(p.family for p in acting) - {GENERIC})
+    model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     # a sensor that failed goes with anything that happened when it did
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
@@ -159,7 +153,7 @@ def candidates(
                 continue
             if refines(effect) and not model.has_one_of(refines(effect), names):
                 continue
-            kin = _kin(effect, family, names, model, library, usable)
+            kin = kin_of(effect, family, names, model, library, usable)
             nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable)]
             if not nameless and len(bodies) == len(names):
                 continue
@@ -185,23 +179,6 @@ def candidates(
     return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
 
 
-@dataclass(frozen=True, slots=True)
-class _Model:
-    """own: its effects. acting: these, and what they stand for. families: of all of these."""
-
-    own: tuple[Present, ...]
-    acting: tuple[Present, ...]
-    families: frozenset[str]
-
-    @property
-    def read(self) -> frozenset[str]:
-        return frozenset[str]().union(*(p.channels for p in self.own))
-
-    def has_one_of(self, effects: Container[str], names: frozenset[str]) -> bool:
-        """Whether one of the effects acts in all phases, by one of the channels."""
-        return any(p.effect in effects and p.whole and p.channels & names for p in self.acting)
-
-
 def _follows(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
     follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at)
@@ -214,7 +191,7 @@ def _is_body(name: str, channels: Mapping[str, ChannelInfo]) -> bool:
     own = channels[name]
     if own.quantity != "temperature" or own.at is None:
         return False
-    heated = (f"{own.at}.{part}" for part in MAKE_HEAT)
+    heated = (f"{own.at}.{part}" for part in HEATED_PARTS)
     return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
 
 
@@ -225,63 +202,6 @@ def _is_around(channel: ChannelInfo) -> bool:
 def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
     """Whether its name says no more than which channels it reads."""
     return candidate.family == CONTROL or (candidate.family == GENERIC and candidate.channels in named)
-
-
-def _kin(
-    effect: Effect,
-    family: str,
-    names: frozenset[str],
-    model: _Model,
-    library: Mapping[str, Effect],
-    channels: Mapping[str, ChannelInfo],
-) -> Kin:
-    near = names <= model.read or _near(names, model.read, channels)
-    if refines(effect):
-        return "same"
-    # a temperature is the state of one body; a speed makes heat, and force
-    warm = all(channels[n].quantity == "temperature" for n in names)
-    if family == GENERIC and near:
-        return "part" if warm and _one_of_several(names, [p.channels for p in model.own]) else "same"
-    acting = [(library[p.effect], p) for p in model.acting if p.effect in library]
-    of_it = [p for own, p in acting if hasattr(effect, "cause") and _heat(own, p.family) == _heat(effect, family)]
-    if of_it:
-        other = all(p.effect != effect.name and not names & p.channels for p in of_it)
-        return "heat" if other else "same"
-    if family not in model.families:
-        return None
-    if any(cause(own) == cause(effect) for own, _ in acting):
-        return "same"
-    if names <= model.read and warm:
-        return "part" if _one_of_several(names, [p.channels for p in model.own if p.family == family]) else "same"
-    return "near" if near else "related"
-
-
-def _one_of_several(names: frozenset[str], read: Sequence[frozenset[str]]) -> bool:
-    """Whether an effect of the model reads it together with others, and none reads it alone."""
-    return names not in read and any(names < some for some in read)
-
-
-def _near(names: frozenset[str], read: frozenset[str], channels: Mapping[str, ChannelInfo]) -> bool:
-    """Whether a channel sits where the model reads one already: at its place, around it, or within it."""
-    mine, theirs = ({p for n in some if n in channels and (p := channels[n].at)} for some in (names, read))
-    return any(holds(a, b) or holds(b, a) for a in mine for b in theirs)
-
-
-def cause(effect: Effect) -> str:
-    """The heat or motion that an effect stands for: bearing friction, whether by temperature or by speed."""
-    found: str = getattr(effect, "cause", effect.name)
-    return found
-
-
-def _heat(effect: Effect, family: str) -> tuple[str, str]:
-    """The heat that an effect stands for, and the axis where each has its own."""
-    return cause(effect), family if "{" in effect.family else ""
-
-
-def refines(effect: Effect) -> tuple[str, ...]:
-    """Effects that this one is a refinement of: it is asked for only where the model has one of them."""
-    found: tuple[str, ...] = getattr(effect, "refines", ())
-    return found
 
 
 def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect, refines
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.evidence import Columns, beyond_known, moments
+from thermodata.diagnosis.kin import refines
 from thermodata.diagnosis.known import Known
 from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.probability import sharpness_asked

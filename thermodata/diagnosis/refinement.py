@@ -11,9 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect, cause, refines
+from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.kin import cause, refines
 from thermodata.diagnosis.known import known, rms
 from thermodata.diagnosis.known_effects import from_other_zero, is_warm, owners
 from thermodata.diagnosis.present import GENERIC
