@@ -1,4 +1,4 @@
-"""Column, probe and fixture; and the control's own compensation, which mirrors a temperature."""
+"""Column, ram and crossbeam, probe and fixture; and the control's own compensation, which mirrors a temperature."""
 
 from __future__ import annotations
 
