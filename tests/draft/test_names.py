@@ -227,6 +227,10 @@ def test_a_tank_is_one_with_and_without_its_umlaut() -> None:
         ("Traversa sotto", "crossbeam.bottom"),
         ("Ram", "ram"),
         ("Ram front bearing", "spindle.bearing.front"),
+        ("Bed top", "bed.top"),
+        ("Maschinenbett unten", "bed.bottom"),
+        ("床身上部温度", "bed.top"),
+        ("Bett", "bed"),
     ],
 )
 def test_the_side_of_a_beam_is_read(name: str, at: str) -> None:

@@ -97,6 +97,13 @@ def test_sides_of_the_column_pair_up() -> None:
     assert found == [("T_cr", "T_cf"), ("T_cl", "T_right")]
 
 
+def test_the_bed_bends_by_two_opposite_sides() -> None:
+    sides = {s: ChannelInfo(s, "temperature", "degC", f"bed.{s}") for s in ("top", "bottom", "front")}
+    found = [tuple(b.values()) for b in bindings(effect("bed_bending"), sides)]
+    assert found == [("top", "bottom")]
+    assert bindings(effect("bed_bending"), {"T_bed": ChannelInfo("T_bed", "temperature", "degC", "bed")}) == []
+
+
 def test_the_family_names_the_axis() -> None:
     screw = effect("feed_screw")
     assert family_of(screw, {"temperature": "T_nut_x"}, CHANNELS) == "feed_x"

@@ -25,7 +25,7 @@ _ROTARY = re.compile(
 _SPINDLE_1 = re.compile(r"^s \d(?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
 _SIDES = ("front", "rear", "left", "right")
-_BEAMS = ("column", "ram", "crossbeam")  # that bend with the difference of two sides
+_BEAMS = ("column", "ram", "crossbeam", "bed")  # that bend with the difference of two sides
 _PLAIN = (
     "headstock",
     "tailstock",
@@ -35,7 +35,6 @@ _PLAIN = (
     "tool",
     "floor",
     "cabinet",
-    "bed",
     "outside",
 )
 _HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'

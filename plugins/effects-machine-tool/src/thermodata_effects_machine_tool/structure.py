@@ -1,4 +1,4 @@
-"""Column, ram and crossbeam, probe and fixture; and the control's own compensation, which mirrors a temperature."""
+"""Column, ram, crossbeam and bed, probe and fixture; and the control's own compensation, which mirrors a temperature."""
 
 from __future__ import annotations
 
@@ -74,6 +74,26 @@ class CrossbeamBending(ColumnBending):
     needs = (
         Need("warm_side", "temperature", ("crossbeam.top", "crossbeam.rear")),
         Need("cold_side", "temperature", ("crossbeam.bottom", "crossbeam.front")),
+    )
+
+
+class BedBending(ColumnBending):
+    """The bed bends with the difference between its sides, as where the coolant warms its top or the floor cools it.
+
+        d = k F_tau{dT_warm - dT_cold}
+
+    k [um/K], tau [min], temperatures [K] of top and bottom, rear and front, or left and right.
+    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "bed_bending"
+    family = "bed"
+    meaning = "the bed bends with the difference of its sides: k F{dT top - dT bottom}, rear - front or left - right"
+    telltale = "tilts what stands on the bed; told apart by sensors on both sides at once"
+    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (
+        Need("warm_side", "temperature", ("bed.top", "bed.rear", "bed.left")),
+        Need("cold_side", "temperature", ("bed.bottom", "bed.front", "bed.right")),
     )
 
 
