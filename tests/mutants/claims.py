@@ -24,6 +24,7 @@ BESIDE = {
     "kin.py": ("candidates",),
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
+    "listed.py": ("the_answer", "the_locked_tests"),
     "locked.py": ("the_locked_tests", "investigation"),
     "logging_faults.py": ("logging_faults",),
     "next_test.py": ("what_is_shown", "unread_parts"),
@@ -96,7 +97,7 @@ MUTANTS = [
     diagnosis("unread.py", "if axis !=", "if False and axis !=", "a rotary axis is given a nut"),
     diagnosis("unread.py", "and quantity == TEMPERATURE}", "}", "a feed at the motor is no longer the screw's"),
     diagnosis("next_test.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
-    diagnosis("answer.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
+    diagnosis("listed.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
     diagnosis("candidates.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
     diagnosis(
         "probability.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"
@@ -368,11 +369,11 @@ MUTANTS = [
     diagnosis(
         "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
     ),
-    diagnosis("answer.py", "if heads else None", "", "a share that nobody measured is told"),
-    diagnosis("answer.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
-    diagnosis("answer.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
+    diagnosis("listed.py", "if heads else None", "", "a share that nobody measured is told"),
+    diagnosis("listed.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
+    diagnosis("listed.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
     diagnosis(
-        "answer.py",
+        "listed.py",
         "== 1 and judged[0].scored.columns is s.columns",
         "== 1",
         "what was dropped falls from the wrong error",

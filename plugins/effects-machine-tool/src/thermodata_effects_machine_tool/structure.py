@@ -1,4 +1,4 @@
-"""Column, ram, crossbeam and bed, probe and fixture; and the control's own compensation, which mirrors a temperature."""
+"""Column, ram, crossbeam, bed, probe and fixture; and the control's own compensation: it mirrors a temperature."""
 
 from __future__ import annotations
 
