@@ -170,7 +170,8 @@ class Reader(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """A driver that an effect needs. places: dotted, `{a}` an axis letter, `*` any one part; () any place."""
+    """A driver that an effect needs. places: dotted, `{a}` an axis letter, `{s}spindle` any spindle, `*` any one
+    part; () any place."""
 
     role: str
     quantity: str

@@ -262,3 +262,27 @@ def test_a_cooler_is_none_of_what_it_cools_and_a_height_is_asked(name: str, at: 
 )
 def test_a_rotary_axis_is_read_in_further_languages(name: str, unit: str) -> None:
     assert (guess(name, unit).at or "").startswith("rotary.a")
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "at"),
+    [
+        ("Motortemp S3 Gegenspindel", "°C", "counter_spindle.motor"),
+        ("Drehzahl Gegenspindel", "1/min", "counter_spindle"),
+        ("Subspindle load", "%", "counter_spindle"),
+        ("副主轴前轴承温度", "℃", "counter_spindle.bearing.front"),
+        ("Main spindle front bearing", "°C", "spindle.bearing.front"),
+        ("Frässpindel Lager vorn", "°C", "spindle.bearing.front"),  # of a milling machine
+        ("Turret housing", "°C", "turret"),
+        ("Live tool speed", "rpm", "turret"),
+        ("Werkzeugrevolver Motor", "°C", "turret.motor"),
+    ],
+)
+def test_spindles_and_turrets_of_a_turn_mill_centre_are_told_apart(name: str, unit: str, at: str) -> None:
+    found = guess(name, unit)
+    assert (found.at, found.sure, found.questions) == (at, True, ())
+
+
+def test_an_amplifier_is_no_axis() -> None:
+    assert guess("MX840B_0_CH 24", "°C").at is None
+    assert guess("Motor X 2", "°C").at == "axis.x.motor"

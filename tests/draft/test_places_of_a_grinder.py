@@ -87,6 +87,19 @@ def test_two_speeds_without_a_name_at_one_spindle_are_asked(tmp_path: Path, say:
     assert "at: spindle}   # guess" in found["nAct"]
 
 
+def test_several_spindles_are_told_apart_by_their_names_or_numbers(tmp_path: Path, say: Say) -> None:
+    named = _draft(tmp_path / "a", "Zeit;Frässpindel Lager vorn [°C];Gegenspindel Lager vorn [°C]", say)
+    found = [line.partition("at: ")[2].partition("}")[0] for line in named.values()]
+    assert found == ["milling_spindle.bearing.front", "counter_spindle.bearing.front"]
+    alone = _draft(tmp_path / "b", "Zeit;Frässpindel Lager vorn [°C];T_Halle [°C]", say)
+    assert any("at: spindle.bearing.front}   # sure" in line for line in alone.values())
+    counted = _draft(tmp_path / "c", "Zeit;Drehzahl S1 [1/min];Drehzahl S2 [1/min];S2 Motortemperatur [°C]", say)
+    at = [line.partition("at: ")[2].partition("}")[0] for line in counted.values()]
+    assert at == ["spindle", "second_spindle", "second_spindle.motor"]
+    sensors = _draft(tmp_path / "d", "Zeit;Spindel 1 [°C];Spindel 2 [°C];Drehzahl [1/min]", say)
+    assert not any("second" in line for line in sensors.values())
+
+
 def test_a_table_that_travels_is_a_linear_axis_and_one_that_turns_a_rotary() -> None:
     assert (kind_of("01_tisch_Z", []).kind, kind_of("01_tisch_Z", []).conditions) == ("linear_axis", {"axis": "Z"})
     assert kind_of("01_tisch", []).kind == "rotary_axis"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.effect import effect
-from thermodata.effect.binding import bindings, candidate_id, family_of
+from thermodata.effect.binding import bindings, candidate_id, family_of, unnamed
 from thermodata.effect.places import match
 from thermodata.view.dataset import ChannelInfo
 
@@ -102,6 +102,34 @@ def test_the_bed_bends_by_two_opposite_sides() -> None:
     found = [tuple(b.values()) for b in bindings(effect("bed_bending"), sides)]
     assert found == [("top", "bottom")]
     assert bindings(effect("bed_bending"), {"T_bed": ChannelInfo("T_bed", "temperature", "degC", "bed")}) == []
+
+
+TWO_SPINDLES = {
+    "T_main": ChannelInfo("T_main", "temperature", "degC", "spindle.bearing.front"),
+    "T_counter": ChannelInfo("T_counter", "temperature", "degC", "counter_spindle.bearing"),
+    "n_main": ChannelInfo("n_main", "rotational_speed", "rpm", "spindle"),
+    "n_counter": ChannelInfo("n_counter", "rotational_speed", "rpm", "counter_spindle"),
+}
+
+
+def test_each_spindle_has_effects_of_its_own() -> None:
+    bearing, mixed = effect("spindle_bearing"), effect("spindle_heating_cooling")
+    assert bindings(bearing, TWO_SPINDLES) == [{"temperature": "T_main"}, {"temperature": "T_counter"}]
+    assert [tuple(b.values()) for b in bindings(mixed, TWO_SPINDLES)] == [
+        ("T_main", "n_main"),
+        ("T_counter", "n_counter"),
+    ]
+    assert family_of(bearing, {"temperature": "T_main"}, TWO_SPINDLES) == "spindle"
+    assert family_of(bearing, {"temperature": "T_counter"}, TWO_SPINDLES) == "counter_spindle"
+    assert family_of(effect("spindle_gearbox"), {"temperature": "T_main"}, TWO_SPINDLES) == "gearbox"
+
+
+def test_an_effect_without_drivers_means_the_spindle_without_a_name() -> None:
+    bearing = effect("spindle_bearing")
+    assert unnamed(bearing, TWO_SPINDLES) == [{"temperature": "T_main"}]
+    counter = {n: c for n, c in TWO_SPINDLES.items() if "counter" in n}
+    assert unnamed(bearing, counter) == [{"temperature": "T_counter"}]
+    assert unnamed(effect("feed_screw"), CHANNELS) == bindings(effect("feed_screw"), CHANNELS)
 
 
 def test_the_family_names_the_axis() -> None:

@@ -88,7 +88,7 @@ def reads(channels: Mapping[str, Described], place: str) -> bool:
 
 def warms_the_holder(channel: Described) -> bool:
     """Whether what holds the probes warms with it, beside the machine."""
-    cuts = channel.quantity in CUTS and (channel.at or "").lower() == "spindle"
+    cuts = channel.quantity in CUTS and (channel.at or "").lower().endswith("spindle")
     return cuts or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from thermodata.draft.parts import Draft
 from thermodata.draft.write import flow, one_line, scalar
-from thermodata.effect.binding import bindings
+from thermodata.effect.binding import unnamed
 from thermodata.effect.registry import effects
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.places import is_around
@@ -71,7 +71,7 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
     for name in _PLAIN:
         for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
             effect = known.get(tried)
-            fits = _on_axis(bindings(effect, drivers), drivers, axis or "none") if effect is not None else []
+            fits = _on_axis(unnamed(effect, drivers), drivers, axis or "none") if effect is not None else []
             if effect is not None and fits:
                 rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
                 spec = flow({"effect": tried, "drivers": fits[0]})

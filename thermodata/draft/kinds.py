@@ -216,7 +216,7 @@ def _add(found: _Moved, quantity: str | None, at: str, largest: float, span: flo
         found.seen = True
         if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
             found.rotary = True
-        elif largest > 20 and at == "spindle" and course is not None:
+        elif largest > 20 and at.endswith("spindle") and course is not None:
             found.speeds = max(found.speeds, _plateaus(course), key=len)
         elif largest > 1 and at.startswith(("table", "rotary")):
             found.rotary = True

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from thermodata.draft.vocabulary import places_in
 
@@ -13,7 +13,8 @@ _BESIDE = (
     r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f"
 )
 _AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
-_LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
+# 'MX840B' is an amplifier, and no axis
+_LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)(?! \d{{3}} b)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(
     r"(?<!\S)(?:axis|achse|osa|asse|axe|eje|eixo|tengely|eksen|ось|ax|rotary|torquemotor|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
     r"drehzahl|otacky) ?([abc])(?!\S)"
@@ -66,7 +67,12 @@ def place_of(text: str, quantity: str) -> Place:
         said |= {"screw"}
     if "workhead" in said:
         said -= {"spindle"}  # a grinder turns its part by a spindle of its own
-    said = _by_the_machine(said)
+    if said & {"counter spindle", "milling spindle", "main spindle"}:
+        said |= {"spindle"}
+    if "turret" in said:
+        return _turret(said, quantity)
+    counter = "counter spindle" in said
+    said = _by_the_machine(said) - {"counter spindle", "milling spindle", "main spindle"}
     near_the_floor = {"air", "floor"} <= said and quantity == "temperature"
     said -= {"air"}
     if near_the_floor:
@@ -78,9 +84,21 @@ def place_of(text: str, quantity: str) -> Place:
     axis = turning[1] if turning else axis
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     found = rule(said, axis) if rule else Place(None)
+    if counter and found.at is not None and found.at.startswith("spindle"):
+        asked = found.question and found.question.replace(" spindle.", " counter_spindle.")
+        return replace(found, at=f"counter_{found.at}", question=asked)
     if found.at == "hall" and quantity == "temperature" and _HEIGHT.search(text):
         return Place("hall", question="at: hall.top, hall.bottom, or hall, at the height of the machine?")
     return found
+
+
+def _turret(said: set[str], quantity: str) -> Place:
+    """Of a lathe's turret and its driven tools."""
+    if quantity in ("temperature", "rotational_speed"):
+        return Place("turret.motor" if "motor" in said and quantity == "temperature" else "turret", True)
+    if quantity in _BY_DRIVE:
+        return Place("turret")
+    return Place(None, question="at: of the turret?")
 
 
 def _by_the_machine(said: set[str]) -> set[str]:

@@ -11,10 +11,13 @@ from thermodata.draft.parts import DraftChannel
 from thermodata.draft.vocabulary import places_in
 from thermodata.reader.text import split_unit
 
+_ORDER = {2: "second", 3: "third", 4: "fourth"}
+
 
 def beside_each_other(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
-    """The channels, the letters of sides read together, and speeds that would all be the spindle's asked."""
-    return _speeds(_sides(list(channels)))
+    """The channels, the letters of sides read together, several spindles told apart, and speeds that would all be the
+    spindle's asked."""
+    return _speeds(_spindles(_sides(list(channels))))
 
 
 def _own(channel: DraftChannel) -> str:
@@ -32,6 +35,31 @@ def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
             channel = replace(channel, said=replace(channel.said, at=f"column.{side}", sure=False))
         made.append(channel)
     return made
+
+
+def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """Each spindle by its name, where a machine has several: the milling spindle of a machine that has a counter
+    spindle or a main one, and those that the control counts, S1 and S2, where it counts two speeds."""
+    said = [places_in(_own(c)) for c in channels]
+    several = any(s & {"counter spindle", "main spindle"} for s in said)
+    counted = {n for c in channels if c.said.quantity == "rotational_speed" and (n := _count(c)) is not None}
+    made = []
+    for channel, words_ in zip(channels, said, strict=True):
+        number, name = _count(channel), None
+        if several and "milling spindle" in words_:
+            name = "milling"
+        elif not words_ & {"counter spindle", "main spindle", "milling spindle"} and len(counted) > 1:
+            name = None if number is None else _ORDER.get(number)
+        if name is not None and (channel.said.at or "").partition(".")[0] == "spindle":
+            channel = replace(channel, said=replace(channel.said, at=f"{name}_{channel.said.at}"))
+        made.append(channel)
+    return made
+
+
+def _count(channel: DraftChannel) -> int | None:
+    """2 of 'S2 speed' and of 'Spindle2 load'."""
+    found = re.search(r"(?<!\S)(?:s|sp|spindle|spindel|mandrino|broche|husillo|vreteno) ?([1-4])(?!\S)", _own(channel))
+    return int(found[1]) if found else None
 
 
 def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:

@@ -67,6 +67,18 @@ _QUANTITY_WORDS: dict[str, str] = {
 _PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
     "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
+    "main spindle": "main~spindle hauptspindel broche~principale mandrino~principale hlavni~vret husillo~principal "
+    "主主轴 第一主轴 メインスピンドル 主スピンドル 메인스핀들 wrzeciono~glowne главн~шпиндел",
+    "counter spindle": "counter~spindle counterspindle sub~spindle subspindle gegenspindel abgreifspindel "
+    "contre~broche contrebroche reprise~broche broche~de~reprise contromandrino contro~mandrino "
+    "contrahusillo contra~husillo subhusillo protivret proti~vret przeciwwrzecion противошпиндел 副主轴 "
+    "背主轴 サブスピンドル 背面主軸 서브스핀들 서브~스핀들",
+    "milling spindle": "milling~spindle mill~spindle frasspindel fraesspindel broche~de~fraisage broche~fraisage "
+    "mandrino~fresa mandrino~di~fresatura mandrino~fresatura husillo~de~fresado husillo~fresado frezovaci~vret "
+    "wrzeciono~frez фрезерн~шпиндел 铣主轴 动力主轴 ミーリング主軸 フライス主軸 밀링~스핀들 밀링스핀들",
+    "turret": "turret revolver. revolverkopf werkzeugrevolver driven~tool driven~tools live~tool live~tools livetool "
+    "tourelle torretta torreta revolverov. revolverova nozova~hlava glowica~rewolwer револьвер 刀塔 动力刀 "
+    "タレット 回転工具 터렛 angetriebene~werkzeuge motorizzat outil~tournant outils~tournants",
     "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
     "pracovni~vreteno pracovni~vretene pracovniho~vretene pracovniho~vretena pracovnim~vretenu pracovnim~vreteni "
     "pracovni~vretenik pracovniho~vreteniku pracovnim~vreteniku workspindle work~spindle",

@@ -11,7 +11,7 @@ from thermodata.schema.quantity import linear_conversion
 
 _WARMER_K = 3.0
 _FEWEST = 3  # tests, of which the coolest tells what the machine at rest reads
-_HEATED = ("spindle", "axis.", "table", "rotary")
+_HEATED = ("spindle", "counter_spindle", "milling_spindle", "axis.", "table", "rotary", "turret")
 
 
 def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Named]) -> dict[str, str]:

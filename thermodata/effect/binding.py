@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Protocol
 
@@ -32,6 +33,12 @@ def bindings(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str
     return [found for found, _ in _all(effect, channels)]
 
 
+def unnamed(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str, str]]:
+    """The same, of several spindles that one alone which has no name: `spindle`, and not `counter_spindle`."""
+    found = list(_all(effect, channels))
+    return [binding for binding, variables in found if "" in variables.values()] or [binding for binding, _ in found]
+
+
 def family_of(effect: Effect, binding: Mapping[str, str], channels: Mapping[str, Described]) -> str:
     """The effect's family with the place's variables filled in: feed_{a} -> feed_z."""
     if "{" not in effect.family:
@@ -41,10 +48,8 @@ def family_of(effect: Effect, binding: Mapping[str, str], channels: Mapping[str,
         info = channels.get(binding.get(need.role, ""))
         for pattern in need.places:
             variables |= match(pattern, info.at if info else None) or {}
-    family = effect.family
-    for name, value in variables.items():
-        family = family.replace(f"{{{name}}}", value)
-    return family.split("_{")[0] if "{" in family else family
+    family = re.sub(r"\{(\w+)\}", lambda m: variables.get(m[1], ""), effect.family)
+    return family.rstrip("_")
 
 
 def candidate_id(effect: str, binding: Mapping[str, str]) -> str:
@@ -109,7 +114,7 @@ def _fits(need: Need, info: Described, variables: Mapping[str, str]) -> dict[str
         return dict(variables)
     if info.at is None:
         # a machine tool log without places: the one speed in it is the spindle's
-        spindle = info.quantity == "rotational_speed" and any(p.split(".")[0] == "spindle" for p in need.places)
+        spindle = info.quantity == "rotational_speed" and any(p.split(".")[0].endswith("spindle") for p in need.places)
         return dict(variables) if spindle else None
     for pattern in need.places:
         hit = match(pattern, info.at, variables)

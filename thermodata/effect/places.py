@@ -1,7 +1,8 @@
 """Dotted places and the patterns that effects name them with.
 
 `spindle.bearing` holds `spindle.bearing.front` (a place holds all that is below it); `*` is any one part;
-`{a}` is any one part too, the same in all needs of an effect (an axis letter).
+`{a}` is any one part too, the same in all needs of an effect (an axis letter), and `{s}spindle` any one that ends so:
+`spindle`, `counter_spindle`, `milling_spindle`.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-_VARIABLE = re.compile(r"^\{(\w+)\}$")
+_VARIABLE = re.compile(r"^\{(\w+)\}(\w*)$")
 
 
 def match(pattern: str, place: str | None, known: Mapping[str, str] | None = None) -> dict[str, str] | None:
@@ -25,7 +26,8 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
     for want, part in zip(wanted, parts, strict=False):
         variable = _VARIABLE.match(want)
         if variable:
-            if found.setdefault(variable[1], part) != part:
+            name, end = variable.groups()
+            if not part.endswith(end) or found.setdefault(name, part.removesuffix(end)) != part.removesuffix(end):
                 return None
         elif want not in ("*", part):
             return None
@@ -35,3 +37,8 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
 def holds(place: str, other: str | None) -> bool:
     """Whether `other` lies at or below `place`."""
     return match(place, other) is not None
+
+
+def shown(pattern: str) -> str:
+    """A pattern as a person reads it: `{s}spindle` is any spindle."""
+    return pattern.replace("{s}", "")

@@ -21,8 +21,9 @@ A model is a sum of these. An effect turns its drivers into columns; each column
 displacement d [um]. `F_tau{u}` is a first-order lag with unit gain, `tau dx/dt + x = u`, exact for inputs that run
 straight between samples. Temperatures count from the start of the test (dT). *Parameters* are searched between their
 bounds; *gains* are solved linearly. A model file names an effect as `{effect: NAME}`; places are those of
-[places.md](places.md), where `{a}` is one axis letter, the same in all needs of the effect, and `hall.*` is the hall
-and all that lies below it. How the diagnosis uses them stands in [method.md](method.md).
+[places.md](places.md), where `{a}` is one axis letter, the same in all needs of the effect, `{s}spindle` any spindle
+(`spindle`, `counter_spindle`), and `hall.*` is the hall and all that lies below it. How the diagnosis uses them stands
+in [method.md](method.md).
 
 Two effects more belong to every model and need no plugin: `transfer_function` (identified, or given by its
 coefficients) and `prediction` (another program's model); see [method.md](method.md#the-model).

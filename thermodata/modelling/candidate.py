@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
-from thermodata.effect.binding import Described, bindings
+from thermodata.effect.binding import Described, bindings, unnamed
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import EffectSpec, Model
@@ -68,7 +68,7 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
         if channel not in channels:
             raise unknown_name("channel", channel, list(channels), where=f"candidate '{candidate}'")
     choices = bindings(effect, channels)
-    fitting = [c for c in choices if list(c.values()) == given or not given]
+    fitting = [c for c in choices if list(c.values()) == given] if given else unnamed(effect, channels)
     if len(fitting) == 1:
         return EffectSpec(effect=name, drivers=dict(fitting[0]))
     if len(given) == len(effect.needs):  # a channel without a place, named on purpose

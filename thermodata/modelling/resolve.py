@@ -8,8 +8,8 @@ from types import SimpleNamespace
 from typing import Any, TypeVar, cast
 
 from thermodata.effect import effect as find_effect
-from thermodata.effect.binding import ANY, bindings, family_of
-from thermodata.effect.places import holds
+from thermodata.effect.binding import ANY, family_of, unnamed
+from thermodata.effect.places import holds, shown
 from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
 from thermodata.modelling import nested, prediction, shaped, transfer
 from thermodata.modelling.bound import BoundResponse, BoundTerm
@@ -235,12 +235,14 @@ def bind(
         return binding
     if binding and all(n.optional for n in rest):
         return binding
-    choices = bindings(cast(Effect, SimpleNamespace(needs=rest)), channels)
+    choices = unnamed(cast(Effect, SimpleNamespace(needs=rest)), channels)
     if not choices:
         raise MissingChannelError(
             f"no channel fits what '{effect.name}' needs",
             where=where,
-            expected="; ".join(f"{n.role}: {n.quantity} at {' or '.join(n.places) or 'any place'}" for n in rest),
+            expected="; ".join(
+                f"{n.role}: {n.quantity} at {' or '.join(map(shown, n.places)) or 'any place'}" for n in rest
+            ),
             got=", ".join(f"{n} ({i.quantity} at {i.at})" for n, i in channels.items()),
             hint=f"name it: drivers: {{{rest[0].role}: CHANNEL}}",
         )

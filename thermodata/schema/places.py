@@ -20,6 +20,8 @@ PLACES: dict[str, str] = {
     "spindle.motor": "the winding of the spindle's motor",
     "spindle.drive": "the spindle's drive amplifier",
     "spindle.gearbox": "the gearbox between motor and spindle",
+    "counter_spindle": "the second spindle of a lathe, which takes the part over; it has the parts of `spindle`",
+    "milling_spindle": "the milling spindle of a turn-mill centre, beside that which turns the part; the same",
     "headstock": "the housing that holds the spindle",
     "ram": "the slide that carries the spindle out",
     "ram.front": "the side of the ram towards the working space",
@@ -29,6 +31,8 @@ PLACES: dict[str, str] = {
     "ram.top": "the upper side of a ram that lies",
     "ram.bottom": "its lower side",
     "tailstock": "what holds the far end of a part that turns",
+    "turret": "the turret of a lathe: its temperature, the speed of its driven tools",
+    "turret.motor": "the motor of the turret, or of its driven tools",
     "saddle": "the slide between two axes",
     "crossbeam": "the beam of a gantry or a portal",
     "crossbeam.top": "its upper side",
@@ -164,6 +168,8 @@ def is_known(place: str) -> bool:
     if place.startswith(_DIAMETER) and place.removeprefix(_DIAMETER).isdecimal():
         return True
     part, _, rest = place.partition(".")
+    if part.endswith("_spindle") and not rest.startswith("."):  # a spindle by its name, with the parts of a spindle
+        return f"spindle{'.' + rest if rest else ''}" in PLACES
     letter, _, below = rest.partition(".")
     letters = {"axis": "xyz", "rotary": "abc"}.get(part, "")
     return len(letter) == 1 and letter in letters and f"{part}.*{'.' + below if below else ''}" in PLACES

@@ -22,6 +22,10 @@ _PLACES = """
 `at:` is a dotted place. A place holds all that lies below it: an effect that asks for `spindle.bearing` takes
 `spindle.bearing.front`. `*` is an axis letter: x, y, z of a linear axis, a, b, c of a rotary one. Case does not count.
 
+A machine with several spindles names all but the first: `counter_spindle`, `milling_spindle`, or any word that ends
+in `_spindle`, each with the parts of a spindle (`counter_spindle.bearing.front`). An effect of the spindle is asked of
+each.
+
 Any other place is allowed. It stays generic: no effect that names a place takes the channel, and the diagnosis tries a
 plain lag of it only. A channel without `at:` is tried as a plain lag too, but for one: a rotational speed without a
 place is taken for the spindle's.

@@ -57,7 +57,7 @@ def benchmark(
 
 def true_family(hide: str, axis: str, library: Mapping[str, Effect]) -> str:
     """The family of the hidden effect, with the axis that it acts on."""
-    return library[hide].family.replace("{a}", axis.lower()) if hide in library else hide
+    return library[hide].family.replace("{a}", axis.lower()).replace("{s}", "") if hide in library else hide
 
 
 def mark(hide: str, family: str, effect: str, claimed_family: str, equivalent: Sequence[str]) -> Outcome:

@@ -45,7 +45,9 @@ RIGHT: Mapping[str, Right] = {
     "hall_layers": _right([("vertical_gradient", "A1_high,A2_low")], "", "ambient"),
     "coolant_film": _right([("coolant", "M_cool")], "M_cool C05_bedtop", "coolant"),
     "hydraulic_oil": _right([("hydraulics", "C11_oil")], "C11_oil C07_rib p_hyd", "hydraulics"),
-    "turret_gear": _right([("lag", "C08_turret"), ("lag", "n_tool")], "C08_turret n_tool", ""),
+    "turret_gear": _right(
+        [("turret_heat", "C08_turret"), ("turret_friction", "n_tool")], "C08_turret n_tool", "turret"
+    ),
     "hot_part": _right([("workpiece", "C12_part"), ("cutting_power", "P_S")], "C12_part P_S", "workpiece cutting"),
     "probe_bracket": _right([("probe_temperature", "C09_bracket")], "C09_bracket", "probe"),
     "guide_friction": _right([("guideway", "C03_guide"), ("lag", "C03_guide")], "C03_guide", "guide_z"),

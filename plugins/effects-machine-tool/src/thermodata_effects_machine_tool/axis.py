@@ -1,4 +1,4 @@
-"""Linear axes and the table: friction of screw, nut and guideway, feed motor, screw growth, table bearing."""
+"""Linear and turning axes, table and turret: friction of screw, nut, guideway and bearings, motors, screw growth."""
 
 from __future__ import annotations
 
@@ -10,10 +10,21 @@ from thermodata.effect.lag import lag, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
-from .shared import REFERENCE_FEED_M_MIN, REFERENCE_TURNING_RPM, Lagged, exponent, gain, power_of, tau
+from .shared import (
+    REFERENCE_FEED_M_MIN,
+    REFERENCE_SPEED_RPM,
+    REFERENCE_TURNING_RPM,
+    Lagged,
+    exponent,
+    gain,
+    power_of,
+    tau,
+)
 
 ROTARY_HEAT = "heat of a rotary axis"
 """By its temperature or by its speed it is the same."""
+TURRET_HEAT = "heat of a turret"
+"""By its temperature or by the speed of its driven tools it is the same."""
 
 
 class FeedScrew(Lagged):
@@ -197,3 +208,49 @@ class RotaryFriction(Lagged):
 
     def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
         return power_of(drivers.values["speed"], REFERENCE_TURNING_RPM, p["exponent"])
+
+
+class TurretHeat(Lagged):
+    """A turret grows with its temperature: its motor, and the gear and bearings of driven tools, warm it.
+
+        d = k F_tau{dT}
+
+    k [um/K], tau [min], dT [K].
+    Source: as feed_motor, for a turret; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "turret_heat"
+    cause = TURRET_HEAT
+    family = "turret"
+    meaning = "growth with the temperature of a turret: k F{dT}"
+    equation = "d = k F_tau{dT}"
+    telltale = "follows the driven tools while the spindle stands; told apart by driving them alone"
+    source = "as feed_motor, for a turret; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("temperature", "temperature", ("turret",)),)
+    params = (tau(40, 5, 240, reach=(1, 360)),)
+    gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
+
+
+class TurretFriction(Lagged):
+    """Friction heat of driven tools in a turret, by their speed, where no sensor sees it.
+
+        d = k F_tau{(|n| / 10000 rpm)^p}
+
+    k [um] at 10000 rpm, tau [min], p [1], n [rpm].
+    Source: as spindle_friction, for driven tools; bounds: docs/method.md#bounds-of-the-effects
+    """
+
+    name = "turret_friction"
+    cause = TURRET_HEAT
+    family = "turret"
+    meaning = "friction heat of driven tools from their speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
+    equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
+    telltale = "follows the driven tools while the spindle stands; told apart by driving them alone at two speeds"
+    source = "as spindle_friction, for driven tools; bounds: docs/method.md#bounds-of-the-effects"
+    needs = (Need("speed", "rotational_speed", ("turret",)),)
+    params = (tau(40, 2, 360), exponent())
+    gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
+    driven = ("abs(speed / 10000) ** exponent",)
+
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        return power_of(drivers.values["speed"], REFERENCE_SPEED_RPM, p["exponent"])

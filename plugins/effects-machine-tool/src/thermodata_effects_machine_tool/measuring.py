@@ -37,7 +37,7 @@ class RunoutAlias:
     )
     source = "sampling of a sine: what a mean over 10 s leaves of it; bounds: docs/method.md#bounds-of-the-effects"
     not_in_control = "it is the run-out of a mandrel as a probe sees it, which the control does not have"
-    needs = (Need("speed", "rotational_speed", ("spindle",)),)
+    needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params: tuple[Param, ...] = (Param("rate", "Hz", 10.0, 0.5, 1000.0, "sampling rate of the probe"),)
     gains: tuple[Gain, ...] = (gain("um", 0.5, 30, "offset where the run-out stands still"),)
 

@@ -50,7 +50,7 @@ class CuttingPower(Lagged):
     equation = "d = k F_tau{P}"
     telltale = "follows the load; told apart by the same path as an air cut"
     source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("power", "power", ("spindle",)),)
+    needs = (Need("power", "power", ("{s}spindle",)),)
     params = (tau(30, 1, 240),)
     gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
 
@@ -71,7 +71,7 @@ class CuttingLoad(Lagged):
     equation = "d = k F_tau{load / 100 %}"
     telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"
     source = "as cutting_power, for a spindle of a few kilowatts; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("load", "load", ("spindle",)),)
+    needs = (Need("load", "load", ("{s}spindle",)),)
     params = (tau(30, 1, 240),)
     gains = (gain("um", 5, 300, "displacement at rest at full load"),)
     driven = ("load / 100",)

@@ -27,12 +27,12 @@ class SpindleBearing(Lagged):
 
     name = "spindle_bearing"
     cause = BEARING_FRICTION
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "heating and cooling with the spindle, slower than the bearing itself; told apart by a stop while warm"
     source = "[straka2021], [horejs2022] transfer functions; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
@@ -50,12 +50,12 @@ class SpindleBearing2:
     name = "spindle_bearing_2"
     cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
     equation = "d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}"
     telltale = "two slopes in one cooling; told apart by a long cooling"
     source = "[straka2021], [horejs2022] functions of second order; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
     params = (
         tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
         tau(150, 60, 360, "tau_slow", "time constant of the housing"),
@@ -82,12 +82,12 @@ class SpindleMotor(Lagged):
     """
 
     name = "spindle_motor"
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "growth with the temperature of the motor winding: k F{dT}; large at low speed"
     equation = "d = k F_tau{dT}"
     telltale = "large at low speed, where the bearings stay cool; told apart by 500 against 9000 rpm"
     source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.motor",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.motor",)),)
     params = (tau(40, 10, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
 
@@ -102,12 +102,12 @@ class SpindleGearbox(Lagged):
     """
 
     name = "spindle_gearbox"
-    family = "gearbox"
+    family = "{s}gearbox"
     meaning = "heat of the gearbox into the headstock: k F{dT of the gearbox}; goes on after a stop"
     equation = "d = k F_tau{dT}"
     telltale = "changes with the gear at one speed, slower than the bearings; told apart by one speed in two gears"
     source = "as spindle_motor, for a larger body; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.gearbox",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.gearbox",)),)
     params = (tau(60, 5, 360),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin of the gearbox"),)
 
@@ -123,12 +123,12 @@ class SpindleFriction(Lagged):
 
     name = "spindle_friction"
     cause = BEARING_FRICTION
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
     telltale = "not linear in the speed; told apart by three speeds"
     source = "[mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("speed", "rotational_speed", ("spindle",)),)
+    needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
     driven = ("abs(speed / 10000) ** exponent",)
@@ -147,12 +147,12 @@ class CentrifugalShift:
     """
 
     name = "centrifugal_shift"
-    family = "centrifugal"
+    family = "{s}centrifugal"
     meaning = "shift of the shaft under centrifugal load, at once and reversible: k (n/10000 rpm)^2"
     equation = "d = k (n / 10000 rpm)^2"
     telltale = "a jump within a minute of a change of speed that goes back with it; told apart by short pulses of speed"
     source = "[abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("speed", "rotational_speed", ("spindle",)),)
+    needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params = ()
     gains = (gain("um", 0.5, 30, "displacement at 10000 rpm"),)
 
@@ -177,12 +177,15 @@ class SpindleHeatingCooling:
     name = "spindle_heating_cooling"
     cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
     equation = "tau dd/dt + d = k dT, tau = tau_on while |n| > 1 rpm, else tau_off"
     telltale = "a lobe in cooling only; told apart by a stop while warm"
     source = "[horejs2010] separate functions for heating and cooling; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
+    needs = (
+        Need("temperature", "temperature", ("{s}spindle.bearing",)),
+        Need("speed", "rotational_speed", ("{s}spindle",)),
+    )
     params = (
         tau(45, 1, 360, "tau_on", "time constant while turning"),
         tau(90, 1, 720, "tau_off", "time constant while standing"),
@@ -219,12 +222,15 @@ class SpeedDependentGain:
     name = "speed_dependent_gain"
     cause = BEARING_FRICTION
     refines = ("spindle_bearing",)
-    family = "spindle"
+    family = "{s}spindle"
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
     equation = "d = k F_tau{dT n / 10000 rpm}"
     telltale = "the same temperature acts otherwise at another speed; told apart by one temperature at two speeds"
     source = "[horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("spindle.bearing",)), Need("speed", "rotational_speed", ("spindle",)))
+    needs = (
+        Need("temperature", "temperature", ("{s}spindle.bearing",)),
+        Need("speed", "rotational_speed", ("{s}spindle",)),
+    )
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0, 20, "change of the gain at 10000 rpm"),)
 
