@@ -71,6 +71,13 @@ def test_one_claim_is_told_with_its_probability_and_both_errors() -> None:
     assert verdict_sentence(found("effect", [bare])) == "missing: screw (T); error on left-out tests 4.00 -> 1.00 um"
 
 
+def test_a_claim_names_the_effects_on_other_channels_that_it_cant_be_told_from() -> None:
+    twins = ["lag:T_other", "screw:v", "lag:T", "motor:T_mot", "motor:T_mot_2", "oil:T", "guide:T_g,v", "sun:E"]
+    text = verdict_sentence(found("effect", [claim("screw", equivalent=twins)]))
+    assert text.startswith("missing: screw (T), probability 94 %, not told from motor (T_mot) and guide (T_g, v); ")
+    assert "not told" not in verdict_sentence(found("effect", [claim("screw", equivalent=["lag:T", "oil:T"])]))
+
+
 def test_all_claims_of_one_answer_are_told() -> None:
     def all_of(*names: str) -> list[Candidate]:
         given: dict[str, Any] = {"screw": {}, "sun": {"share": 0.7, "rmse_um_before": 2.0}, "oil": {"share": None}}

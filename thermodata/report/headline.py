@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
-from thermodata.report.verdict import claims_of, listed, named, other_heat, probability, verdict_sentence
+from thermodata.report.verdict import as_named, claims_of, listed, named, other_heat, probability, verdict_sentence
 from thermodata.report.words import change, number
 from thermodata.schema.diagnosis import Candidate
 
@@ -54,19 +54,13 @@ def causes(claims: Sequence[Candidate]) -> str:
 
 
 def _cause(claim: Candidate) -> str:
-    others = [_as_named(e) for e in claim.equivalent[:_MOST_NAMES]]
+    others = [as_named(e) for e in claim.equivalent[:_MOST_NAMES]]
     more = len(claim.equivalent) - len(others)
     elsewhere = [other_heat(claim)] if claim.unread else []
     names = [named(claim), *others, *([f"{more} more"] if more else []), *elsewhere]
     which = ["these tests can't tell which"] if others or elsewhere else []
     sure = [f"{probability(claim.probability)} sure"] if claim.probability is not None else []
     return "; ".join([", or ".join(names), *which, *sure])
-
-
-def _as_named(candidate: str) -> str:
-    """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
-    effect, _, channels = candidate.partition(":")
-    return f"{effect} ({channels.replace('+', ', ')})" if channels else effect
 
 
 def sentences(data: ReportData) -> list[str]:

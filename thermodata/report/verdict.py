@@ -17,6 +17,8 @@ NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
 NOISY = 1.5
 """An error up to so many times the noise is noise."""
+_UNNAMED = ("lag", "control_compensation")  # which say no more than the channels that they read
+_MOST_TWINS = 2
 FAR = 2.0
 """An error on locked tests of so many times that on left-out ones says that these lack something."""
 
@@ -144,7 +146,7 @@ def noise_words(found: Diagnosis) -> str:
 
 
 def _missing(claims: Sequence[Candidate], left: float | None) -> str:
-    names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c)])) for c in claims]
+    names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c), _not_told_from(c)])) for c in claims]
     # commas stand within a name and its probability
     text = f"missing: {names[0] if len(names) == 1 else ', and '.join([', '.join(names[:-1]), names[-1]])}"
     return f"{text}; {_left_out(claims, left)}{_locked(claims)}"
@@ -152,6 +154,22 @@ def _missing(claims: Sequence[Candidate], left: float | None) -> str:
 
 def _or_elsewhere(one: Candidate) -> str:
     return f"{named(one)} or {other_heat(one)}" if one.unread else named(one)
+
+
+def _not_told_from(one: Candidate) -> str:
+    """'not told from feed_motor (T_mot_X)': of the effects that have a name and read other channels, each once."""
+    found: dict[str, str] = {}
+    for twin in one.equivalent:
+        effect, _, channels = twin.partition(":")
+        if effect not in (*_UNNAMED, one.effect) and not set(channels.split(",")) <= set(one.drivers):
+            found.setdefault(effect, as_named(twin))
+    return f"not told from {listed(list(found.values())[:_MOST_TWINS])}" if found else ""
+
+
+def as_named(candidate: str) -> str:
+    """'feed_screw:T_nut_Z' -> 'feed_screw (T_nut_Z)'."""
+    effect, _, channels = candidate.partition(":")
+    return f"{effect} ({channels.replace(',', ', ')})" if channels else effect
 
 
 def _how_sure(one: Candidate) -> str:
