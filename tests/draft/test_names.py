@@ -269,6 +269,8 @@ def test_a_rotary_axis_is_read_in_further_languages(name: str, unit: str) -> Non
     [
         ("Motortemp S3 Gegenspindel", "°C", "counter_spindle.motor"),
         ("Drehzahl Gegenspindel", "1/min", "counter_spindle"),
+        ("counter_spindle_load", "%", "counter_spindle"),
+        ("counter_spindle_motor_temp", "degC", "counter_spindle.motor"),
         ("Subspindle load", "%", "counter_spindle"),
         ("副主轴前轴承温度", "℃", "counter_spindle.bearing.front"),
         ("Main spindle front bearing", "°C", "spindle.bearing.front"),
@@ -286,3 +288,9 @@ def test_spindles_and_turrets_of_a_turn_mill_centre_are_told_apart(name: str, un
 def test_an_amplifier_is_no_axis() -> None:
     assert guess("MX840B_0_CH 24", "°C").at is None
     assert guess("Motor X 2", "°C").at == "axis.x.motor"
+
+
+def test_a_counter_is_a_number_and_a_counter_spindle_none() -> None:
+    assert guess("part counter", None).why_not
+    found = guess("counter_spindle_load", None)
+    assert (found.quantity, found.at) == ("load", "counter_spindle")

@@ -199,6 +199,16 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
 
 
+def test_the_likeliest_that_the_locked_tests_refuse_is_told_with_that() -> None:
+    why = (
+        "not claimed: sun explains the open tests, but the locked ones do not bear it out (error there 1.00 -> 1.20 um)"
+    )
+    said = "the likeliest that was logged is sun (T), probability 82 %"
+    refused = verdict_sentence(found("unknown", [one("sun", id="sun", probability=0.82, why=why)]))
+    assert refused.endswith(f"{said}, though the locked tests do not bear it out")
+    assert verdict_sentence(found("unknown", [one("sun", id="sun", probability=0.82)])).endswith(said)
+
+
 @pytest.mark.parametrize(("tests", "said"), [(2, True), (0, False), (None, False)])
 def test_that_the_lock_was_opened_for_what_is_not_claimed_is_said(tests: int | None, said: bool) -> None:
     text = verdict_sentence(found("unknown", [one("sun", probability=0.5, locked_tests_asked=tests)]))

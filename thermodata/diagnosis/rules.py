@@ -180,7 +180,8 @@ def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
             f"its size from the other {tests}, the error more than doubles where it acts ({scored.error_before:.2f} -> "
             f"{scored.error_after:.2f} {unit}): {tests} go against each other"
         )
-    where = f"in the {int(scored.acts.sum())} {tests} in which it acts the error"
+    count = int(scored.acts.sum())
+    where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
     if scored.drop <= 0:
         return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
     return f"{where} falls by {scored.drop:.0%} only, its size from the others (limit {fall:.0%})"

@@ -249,7 +249,13 @@ def _unclaimed(found: Diagnosis) -> str:
     return (
         f"something is missing{seen}, and the evidence{asked} suffices to name no cause; the likeliest that was logged "
         f"is {named(first)}, probability {probability(first.probability)}"
+        f"{', though the locked tests do not bear it out' if _is_refused(first) else ''}"
     )
+
+
+def _is_refused(one: Candidate) -> bool:
+    """Whether the locked tests spoke against it, by its own sentence."""
+    return f"{one.id} explains the open tests, but the locked ones do not bear it out" in one.why
 
 
 def in_parts(found: Diagnosis) -> str:
