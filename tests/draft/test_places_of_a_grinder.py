@@ -96,6 +96,14 @@ def test_several_spindles_are_told_apart_by_their_names_or_numbers(tmp_path: Pat
     counted = _draft(tmp_path / "c", "Zeit;Drehzahl S1 [1/min];Drehzahl S2 [1/min];S2 Motortemperatur [°C]", say)
     at = [line.partition("at: ")[2].partition("}")[0] for line in counted.values()]
     assert at == ["spindle", "second_spindle", "second_spindle.motor"]
+    header = "Zeit;Drehzahl S1 [1/min];Drehzahl S2 [1/min];Drehzahl S3 [1/min];Motortemp S3 Gegenspindel [°C]"
+    both = _draft(
+        tmp_path / "e", f"{header};Motortemp S2 Frässpindel [°C];Motortemp S1 [°C];Frässpindel Lager [°C]", say
+    )
+    at = [line.partition("at: ")[2].partition("}")[0] for line in both.values()]
+    assert at[:3] == ["spindle", "milling_spindle", "counter_spindle"]
+    assert at[3:6] == ["counter_spindle.motor", "milling_spindle.motor", "spindle.motor"]
+    assert "# ? at: milling_spindle.bearing.front or .rear?" in both["Frasspindel_Lager"]
     sensors = _draft(tmp_path / "d", "Zeit;Spindel 1 [°C];Spindel 2 [°C];Drehzahl [1/min]", say)
     assert not any("second" in line for line in sensors.values())
 

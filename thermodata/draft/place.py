@@ -23,7 +23,7 @@ _ROTARY = re.compile(
     r"|(?<!\S)([abc]) ?[轴軸]"
 )
 # a control counts its spindles; a sensor that is counted so has a temperature
-_SPINDLE_1 = re.compile(r"^s \d(?!\S)")
+_SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
 _SIDES = ("front", "rear", "left", "right")
 _BEAMS = ("column", "ram", "crossbeam", "bed")  # that bend with the difference of two sides

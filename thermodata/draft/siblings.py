@@ -43,17 +43,31 @@ def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
     said = [places_in(_own(c)) for c in channels]
     several = any(s & {"counter spindle", "main spindle"} for s in said)
     counted = {n for c in channels if c.said.quantity == "rotational_speed" and (n := _count(c)) is not None}
+    # 'S3 counter spindle' tells whose number 3 is
+    names = dict(_ORDER) | {
+        number: name
+        for channel, words_ in zip(channels, said, strict=True)
+        for name in ("counter", "milling")
+        if f"{name} spindle" in words_ and (number := _count(channel)) is not None
+    }
     made = []
     for channel, words_ in zip(channels, said, strict=True):
         number, name = _count(channel), None
-        if several and "milling spindle" in words_:
-            name = "milling"
-        elif not words_ & {"counter spindle", "main spindle", "milling spindle"} and len(counted) > 1:
-            name = None if number is None else _ORDER.get(number)
-        if name is not None and (channel.said.at or "").partition(".")[0] == "spindle":
-            channel = replace(channel, said=replace(channel.said, at=f"{name}_{channel.said.at}"))
-        made.append(channel)
+        if "milling spindle" in words_:
+            name = "milling" if several else None
+        elif not words_ & {"counter spindle", "main spindle"} and len(counted) > 1 and number is not None:
+            name = names.get(number)
+        made.append(channel if name is None else _of_spindle(channel, name))
     return made
+
+
+def _of_spindle(channel: DraftChannel, name: str) -> DraftChannel:
+    """name: of a spindle beside the first one."""
+    at = channel.said.at or ""
+    if at.partition(".")[0] != "spindle":
+        return channel
+    asked = tuple(q.replace(" spindle.", f" {name}_spindle.") for q in channel.said.questions)
+    return replace(channel, said=replace(channel.said, at=f"{name}_{at}", questions=asked))
 
 
 def _count(channel: DraftChannel) -> int | None:
