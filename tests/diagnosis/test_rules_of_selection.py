@@ -89,6 +89,34 @@ def test_what_needs_fewer_channels_is_asked_for_a_name_in_turn() -> None:
     assert name(preferred([both, one, replace(named, evidence=85.0)])) == "one"
 
 
+def lagged(evidence: float, *, quickest: bool, params: tuple[Param, ...] = (TAU,)) -> Scored:
+    """One with two time constants to choose from: the quicker is the likelier, or the slower."""
+    found = scored("friction", channels=("n",), evidence=evidence)
+    asked = replace(found.candidate, effect=replace(found.candidate.effect, params=params))  # type: ignore[type-var]
+    made = replace(found.columns, candidate=asked, points=[{"tau": 1.0}, {"tau": 5.0}])
+    likely, other = np.array([[evidence]]), np.array([[evidence - 50]])
+    weighed = replace(found.weighed, log_bf=np.vstack([likely, other] if quickest else [other, likely]))
+    return replace(found, candidate=asked, columns=made, weighed=weighed)
+
+
+@pytest.mark.parametrize(
+    ("evidence", "quickest", "channel", "taken"),
+    [
+        (90.1, True, "n", "shift"),
+        (89.9, True, "n", "friction"),
+        (90.1, False, "n", "friction"),
+        (90.1, True, "T_b", "friction"),
+    ],
+)
+def test_what_acts_at_once_is_preferred_to_the_quickest_heat(
+    evidence: float, quickest: bool, channel: str, taken: str
+) -> None:
+    friction, shift = lagged(100.0, quickest=quickest), scored("shift", channels=(channel,), evidence=evidence)
+    assert name(preferred([friction, shift])) == taken
+    ranked = Ranked(None, (friction, shift))  # type: ignore[arg-type]
+    assert gives_way(friction, shift, ranked) is (taken == "shift"), "nor does heat that drove it out stay"
+
+
 def test_what_was_not_scored_is_not_preferred() -> None:
     lag = scored("lag", family="generic", evidence=100.0)
     assert name(preferred([lag, scored("named", evidence=99.0, shape=())])) == "lag"

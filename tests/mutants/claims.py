@@ -400,6 +400,10 @@ MUTANTS = [
     diagnosis("preference.py", "ALIKE_SHARE = 0.8", "ALIKE_SHARE = 0.2", "a name elsewhere is taken for physics"),
     diagnosis("preference.py", "\nALIKE = 0.8", "\nALIKE = 0.1", "a name elsewhere is taken for physics"),
     diagnosis("preference.py", "FEWER_SHARE = 0.8", "FEWER_SHARE = 0.2", "half of a cause is preferred"),
+    diagnosis("preference.py", "AT_ONCE_SHARE = 0.9 ", "AT_ONCE_SHARE = 0.5 ", "heat is taken for a shift at once"),
+    diagnosis("preference.py", "set(own.candidate.channels) != set", "set() != set", "another channel's shift acts"),
+    diagnosis("preference.py", "(own, best) or _at_once(own, best)", "(own, best)", "heat that acts at once stays"),
+    diagnosis("preference.py", "return all(point[t] <= min", "return all(point[t] >= min", "slow heat acts at once"),
     diagnosis("selection.py", "noise = _second_chance(problem, chosen, dropped, noise, sound)", "", "twins drop both"),
     diagnosis(
         "investigate.py",
@@ -434,7 +438,7 @@ MUTANTS = [
     ),
     diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
     diagnosis(
-        "preference.py", "better or _is_its_name(own, best)", "better", "a lag stands where its name is as likely"
+        "preference.py", "better or _is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
     ),
     diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
     diagnosis("preference.py", "FORETELLS = 0.9, 0.8", "FORETELLS = 0.9, 0.9", "a twin is taken by a hair"),

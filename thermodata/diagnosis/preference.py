@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from thermodata.diagnosis.present import CONTROL, GENERIC
+from thermodata.diagnosis.present import CONTROL, GENERIC, TIME_UNITS
 from thermodata.diagnosis.probability import probability
 from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
@@ -16,6 +16,7 @@ ALIKE_SHARE = 0.8  # the same for a name on another channel, or beside a passive
 ALIKE = 0.8
 FEWER_SHARE = 0.8
 CAUSE_SHARE = 0.8  # and a cause, beside an effect of the model that acts otherwise: tests differ in much else
+AT_ONCE_SHARE = 0.9  # and one that acts at once, on the same channels, where a lag can't be quick enough
 UNNAMED = (GENERIC, CONTROL)
 # a twin (cosine) that is nearly as likely, and leaves so much less of tests that are left out: a speed and the
 # temperature of the body that it heats differ in little else
@@ -23,8 +24,8 @@ TWIN, FORETELLS = 0.9, 0.8
 
 
 def preferred(ranked: Sequence[Scored]) -> Scored | None:
-    """The most likely, unless one that shares a channel with it has a name, or needs fewer channels, and is nearly as
-    likely."""
+    """The most likely, unless one that shares a channel with it has a name, needs fewer channels, or acts at once where
+    the other is as quick as it can be, and is nearly as likely."""
     if not ranked:
         return None
     best = ranked[0]
@@ -44,9 +45,22 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
             or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
+            or _at_once(best, other)
         ):
             return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
     return best
+
+
+def _at_once(own: Scored, other: Scored) -> bool:
+    """Whether the other, on the same channels and nearly as likely, has no time constant, and one's own is the shortest
+    that is asked of it: heat takes its time."""
+    times = [p.name for p in own.candidate.effect.params if p.unit in TIME_UNITS]
+    if not times or any(p.unit in TIME_UNITS for p in other.candidate.effect.params):
+        return False
+    if set(own.candidate.channels) != set(other.candidate.channels) or other.evidence < AT_ONCE_SHARE * own.evidence:
+        return False
+    points, point = own.columns.points, own.columns.points[own.weighed.best[0]]
+    return all(point[t] <= min(p[t] for p in points) for t in times)
 
 
 def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
@@ -73,7 +87,7 @@ def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
     better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
-    return better or _is_its_name(own, best)
+    return better or _is_its_name(own, best) or _at_once(own, best)
 
 
 def _is_its_name(own: Scored, best: Scored) -> bool:
