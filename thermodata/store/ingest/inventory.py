@@ -30,12 +30,14 @@ Row = dict[str, Any]
 @dataclass(slots=True)
 class Inventory:
     """name: the campaign. raws: key -> its streams, of any campaign and of earlier versions of files too.
-    rows: table -> test -> rows of this campaign. generation: of the store, as of this reading."""
+    rows: table -> test -> rows of this campaign. sources: test -> its rows of the table `source`, also of tests
+    that were not asked for. generation: of the store, as of this reading."""
 
     name: str = ""
     generation: int = -1
     raws: dict[str, list[RawStream]] = field(default_factory=dict)
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=dict)
+    sources: dict[str, list[Row]] = field(default_factory=dict)
     campaign: Row | None = None
     calibrations: list[Row] = field(default_factory=list)
     clocks: dict[str, Clock] = field(default_factory=dict)
@@ -100,6 +102,8 @@ def read_inventory(
             if row["campaign"] == campaign:
                 grouped.setdefault(row["test"], []).append(row)
         inventory.rows[table] = grouped
+    for row in fetch(con, "select * from source where campaign = ?", [campaign]):
+        inventory.sources.setdefault(row["test"], []).append(row)
     campaigns = fetch(con, "select * from campaign where campaign = ?", [campaign])
     inventory.campaign = campaigns[0] if campaigns else None
     inventory.calibrations = fetch(con, "select * from calibration where campaign = ?", [campaign])

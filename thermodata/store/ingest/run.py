@@ -14,6 +14,7 @@ from thermodata.errors import StoreError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.store.catalogue.store import Store, new_mark
+from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
 from thermodata.store.ingest.file_versions import keep_earlier
@@ -147,6 +148,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     parts = {
         path: size for own in (parts_of(rows, ""), *(n.parts for n in notes.values())) for path, size in own.items()
     }
+    sources = {name: own for name, own in inventory.sources.items() if name in left.tests} | rows["source"]
     summary = IngestSummary(
         campaign.id,
         tests=len(campaign.tests),
@@ -157,7 +159,14 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         made=tidy_layer.new_streams,
         calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
         losses=with_lines(losses, path),
-        notes=list(dict.fromkeys(same_content(files_of_tests, raw_layer.hashes()) + unanswered(campaign) + said)),
+        notes=list(
+            dict.fromkeys(
+                same_content(files_of_tests, raw_layer.hashes())
+                + odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})
+                + unanswered(campaign)
+                + said
+            )
+        ),
     )
     again = replace(summary, read=0, made=0, notes=[*summary.notes, NOTHING])
     # what was damaged and is made anew has the same rows: the views must see it all the same

@@ -1,0 +1,65 @@
+"""A log that in one test begins and ends as much later beside another is told (store/ingest/beside_each_other.py)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from thermodata.store.ingest.beside_each_other import odd_clocks
+
+DAY, MINUTE = 86_400.0, 60.0
+
+
+def row(source: str, start_s: float, lasts_s: float, step_s: float | None = 10.0) -> dict[str, Any]:
+    rows = round(lasts_s / (step_s or 10.0)) + 1
+    return {"source": source, "start_ns": round(start_s * 1e9), "rows": rows, "step_s": step_s}
+
+
+def days(moved_s: float = 50 * MINUTE, longer_s: float = 0.0, count: int = 5, late_s: float = 0.0) -> dict[str, Any]:
+    """A test a day; on the third the control's log stands elsewhere. late_s: how much it differs from day to day."""
+    found = {}
+    for day in range(count):
+        start, off = 1.76e9 + day * DAY, moved_s if day == 2 else late_s * (-1) ** day
+        lasts = 5 * 3600.0 + 900.0 * day
+        extra = longer_s if day == 2 else 0.0
+        found[f"d{day}"] = [row("daq", start, lasts), row("nc", start + off - 20.0, lasts + extra + 100.0)]
+    return found
+
+
+def test_a_clock_that_is_off_in_one_test_is_told() -> None:
+    said = odd_clocks(days())
+    assert len(said) == 1
+    assert said[0].startswith(
+        "test 'd2': source 'nc' begins and ends 50 min later beside 'daq' than in the 4 other tests"
+    )
+    assert "clock: {offset: -3000 s} for 'nc'" in said[0]
+    assert "source 'daq' begins and ends 50 min later beside 'nc'" in odd_clocks(days(-50 * MINUTE))[0]
+
+
+@pytest.mark.parametrize(
+    ("of", "told"),
+    [
+        ({"moved_s": 130.0}, True),
+        ({"moved_s": 110.0}, False),  # two loggers are switched on within two minutes
+        ({"longer_s": -50 * MINUTE}, False),  # switched on late, and off as ever
+        ({"longer_s": 50 * MINUTE}, False),  # the end is later still: nobody knows
+        ({"count": 4}, True),
+        ({"count": 3}, False),  # which of so few is the odd one?
+        ({"late_s": 140.0}, True),
+        ({"late_s": 160.0}, False),  # they never begin together
+    ],
+)
+def test_only_where_both_ends_are_off_alike_and_the_other_tests_agree(of: dict[str, Any], told: bool) -> None:
+    assert bool(odd_clocks(days(**of))) is told
+
+
+def test_what_has_no_even_steps_or_no_time_is_not_asked() -> None:
+    for changed in ({"step_s": None}, {"start_ns": None}, {"rows": 0}):
+        tests = {name: [rows[0], {**rows[1], **changed}] for name, rows in days().items()}
+        assert odd_clocks(tests) == []
+
+
+def test_streams_of_one_source_are_one_log() -> None:
+    tests = {name: [*rows, row("nc", rows[1]["start_ns"] / 1e9 + 600.0, 60.0)] for name, rows in days().items()}
+    assert len(odd_clocks(tests)) == 1
