@@ -206,7 +206,7 @@ def test_where_a_sensor_would_see_it_first_is_said_with_what_it_is_not() -> None
 
 def test_where_nothing_goes_with_it_the_data_are_said_to_be_silent() -> None:
     text = said(NOT_COLUMN)
-    assert "can't say where it is, only where it is not: near column" in text
+    assert "can't say where it is; least like it is what is logged near column" in text
     assert "note what runs in t0 and is not logged" in text
 
 

@@ -94,7 +94,8 @@ def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Susp
     elif suspect is None:
         said.append(
             "No logged channel goes with it, so the data can't say where it is"
-            + (f", only where it is not: near {_or(far)}" if far else "")
+            # heat on its way through a machine looks unlike what is logged where it came from
+            + (f"; least like it is what is logged near {_or(far)}" if far else "")
             + f"; note what runs in {strong[0].test} and is not logged"
         )
     elif far:
