@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from thermodata.draft.clocks import Alignment, alignments, start_question, zone_question
+from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import guess
 from thermodata.draft.hints import hinted
@@ -301,9 +301,7 @@ def _test(
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
 
 
-def _of_clocks(
-    group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]
-) -> tuple[str | None, str | None]:
-    """Questions about a source's zone, and when it began, unless its clock is had from another's."""
+def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
+    """Questions about a source's zone, when it began, unless its clock is had from another's, and times that repeat."""
     known = group.source in aligned or any(a.there == group.source for a in aligned.values())
-    return zone_question(group, groups), None if known else start_question(group, groups)
+    return zone_question(group, groups), None if known else start_question(group, groups), repeats_question(group)
