@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import called, guess
 from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
@@ -167,7 +167,7 @@ def _channels(
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
-        name = channel_name(_wished(signal.name, said), taken)
+        name = channel_name(_wished(called(signal), said), taken)
         calibration = None
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
@@ -190,7 +190,7 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
         values = joined(values, f.sample.values.get((signal.stream, signal.name)))
         units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(signal.name, units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         return Guess(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import guess_of
 from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, joined, values_of
 from thermodata.errors import ThermodataError
@@ -127,7 +127,7 @@ def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
     found: list[tuple[str, str]] = []
     for signal in signals:
-        said: Guess = guess(signal.name, signal.unit, signal.dtype)
+        said: Guess = guess_of(signal)
         if said.quantity in _COURSE and signal.dtype != "str":
             found.append((signal.stream, signal.name))
     return set(found[:_MOST_COURSES])

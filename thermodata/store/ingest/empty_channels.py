@@ -10,7 +10,8 @@ from thermodata.store.ingest.losses import Losses, loss_row
 
 
 def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
-    """A loss for each that is not declared as missing; one that no test has a value of is none, for then nothing says that it should have some."""
+    """A loss for each that is not declared as missing; one that no test has a value of is none, for then nothing says
+    that it should have some."""
     having: dict[tuple[str, str], list[str]] = {}
     for name, note in tests.items():
         empty = {channel for _, _, channel in note.empty}
