@@ -16,6 +16,7 @@ from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
+from thermodata.draft.orientation import which_way, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
@@ -78,7 +79,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
-    left_out += tuple((p, "taken for a jump test, and no probe in volts needs it") for p in idle)
+    left_out += tuple((p, why_idle(p, jumps, calibrations)) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -172,7 +173,7 @@ def _channels(
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
-            note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
+            said = replace(said, sure=False, questions=(*said.questions, which_way(said)))
         own = {id(f) for f in files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
