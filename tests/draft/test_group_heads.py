@@ -67,3 +67,10 @@ def test_which_rows_are_heads(above: list[str], over: list[str]) -> None:
     assert names == NAMES
     assert units == UNITS
     assert found == over
+
+
+@pytest.mark.parametrize(("name", "asked"), [("Status", True), ("Data Quality", True), ("Program status of NC", False)])
+def test_words_that_tell_of_the_readings_are_asked(name: str, asked: bool) -> None:
+    said = guess(name, None, "str")
+    assert said.quantity == "label"
+    assert any("count like all others" in q for q in said.questions) is asked

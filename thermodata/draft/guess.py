@@ -32,6 +32,13 @@ _IMPLIED = {
     "voltage": "V",
 }
 _COLDEST_K = 250.0  # of a machine and its hall; 235 is 23.5 degC in tenths
+_STATUS = re.compile(
+    r"(?i)(data ?|sensor ?|mess)?(status|quality|qualität|zustand|stav|état|estado|stato|validity|gültig)"
+)
+_ASK_STATUS = (
+    "the status of the readings? its words are kept, and rows that it calls bad count like all others: leave those "
+    "out of the tests by window, or by measuring with a channel of numbers"
+)
 _SMALL_MM = 5.0  # an axis travels further than a tool is displaced
 _SHARES = ("load", "humidity")
 _MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
@@ -94,6 +101,8 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
             else found
         )
     found = quantity_of(what, text, known, dtype, values)
+    if found.quantity == "label" and _STATUS.fullmatch(_last(bare).strip()):
+        return replace(found, sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None or found.quantity == "label":
         return found
     return _small(_place(_unit(found, unit, written, values), own, text), own, values)
