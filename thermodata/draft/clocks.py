@@ -12,6 +12,7 @@ from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
+from thermodata.store.ingest.repeated_times import MANY
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
@@ -87,6 +88,19 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
                     f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "
                     "clock: {offset: 0 s} if they begin together"
                 )
+    return None
+
+
+def repeats_question(group: Group) -> str | None:
+    """What to ask where many rows stand at the time of the row before, which count nowhere; None where few do."""
+    for file in group.files:
+        said = file.sample.repeats
+        if said.rows >= MANY * file.sample.rows > 0 and said.period_s > 0 and not any(s.held for s in file.signals):
+            return (
+                f"{said.rows} of {file.sample.rows} rows of {file.path.name} stand at the time of the row before, and "
+                f"count nowhere; are rows evenly spaced? then table: {{time: {{period: {said.period_s:.4g} s}}}}, and "
+                "give each test its start: 2026-03-02 08:00"
+            )
     return None
 
 

@@ -16,6 +16,7 @@ from thermodata.draft.place import Place, axis_of, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says
+from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
@@ -31,6 +32,14 @@ _IMPLIED = {
     "voltage": "V",
 }
 _COLDEST_K = 250.0  # of a machine and its hall; 235 is 23.5 degC in tenths
+_STATUS = re.compile(
+    r"(?i)(data ?|sensor ?|mess)?(status|quality|qualität|zustand|stav|état|estado|stato|validity|gültig)"
+)
+_ASK_STATUS = (
+    "the status of the readings? its words are kept, and rows that it calls bad count like all others: leave those "
+    "out of the tests by window, or by measuring with a channel of numbers"
+)
+_SMALL_MM = 5.0  # an axis travels further than a tool is displaced
 _SHARES = ("load", "humidity")
 _MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 _PLAUSIBLE = {
@@ -59,6 +68,16 @@ _NEEDS_PLACE = (
 )
 
 
+def called(signal: Signal) -> str:
+    """A signal's name with the head of the group that it stands under: "Displacements/X"."""
+    return "/".join(filter(None, (signal.properties.get("group"), signal.name)))
+
+
+def guess_of(signal: Signal, values: Values | None = None) -> Guess:
+    """The same of a signal, as all that its file says of it has it."""
+    return guess(called(signal), signal.unit, signal.dtype, values)
+
+
 @lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
@@ -82,9 +101,22 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
             else found
         )
     found = quantity_of(what, text, known, dtype, values)
+    if found.quantity == "label" and _STATUS.fullmatch(_last(bare).strip()):
+        return replace(found, sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None or found.quantity == "label":
         return found
-    return _place(_unit(found, unit, written, values), own, text)
+    return _small(_place(_unit(found, unit, written, values), own, text), own, values)
+
+
+def _small(found: Guess, own: str, values: Values | None) -> Guess:
+    """With a question where only the unit says that a length is a position, and it moves no further than a tool that
+    is displaced: 'X [mm]'."""
+    still = values is not None and values.n > 0 and values.high - values.low < _SMALL_MM
+    axis = axis_of(own)
+    if found.quantity != "position" or found.basis != ("unit",) or not still or axis is None:
+        return found
+    asked = f"a position, or a displacement? then quantity: displacement, axis: {axis.upper()}, at: tcp"
+    return replace(found, sure=False, questions=(*found.questions, asked))
 
 
 def _last(name: str) -> str:

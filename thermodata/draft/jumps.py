@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from thermodata.calibration.plateaus import Step, find_steps
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import guess_of
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sample import Course
@@ -42,11 +42,7 @@ def jump_of(file: RawFile) -> JumpTest | None:
     signal None: a person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
     best: JumpTest | None = None
-    probes = {
-        (s.stream, s.name): s
-        for s in file.signals
-        if guess(s.name, s.unit, s.dtype).quantity in ("displacement", "voltage")
-    }
+    probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
     stirred = _others_move(file, set(probes))
     for key, _ in probes.items():
         course = file.sample.courses.get(key)
@@ -75,7 +71,7 @@ def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
         seen = file.sample.values.get(key)
         if key in probes or seen is None:
             continue
-        quantity = guess(signal.name, signal.unit, signal.dtype).quantity
+        quantity = guess_of(signal).quantity
         if quantity == "rotational_speed" and max(abs(seen.low), abs(seen.high)) > 20:
             return True
         if quantity == "temperature" and seen.high - seen.low > 5:

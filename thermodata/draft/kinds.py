@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import guess_of
 from thermodata.draft.naming import words
 from thermodata.draft.place import axis_of
 from thermodata.draft.raw_file import RawFile
@@ -186,7 +186,7 @@ def _moved(files: Sequence[RawFile]) -> _Moved:
             seen, course = file.sample.values.get(key), file.sample.courses.get(key)
             if seen is None:
                 continue
-            said = guess(signal.name, signal.unit, signal.dtype, seen)
+            said = guess_of(signal, seen)
             factor = _factor(said.quantity, said.unit)
             _add(
                 found,

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.calibration.quality_concise import concise
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import guess_of
 from thermodata.draft.values import values_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
@@ -140,7 +140,7 @@ def flagged(
         if column is None:
             continue
         seen = values_of(column)
-        guessed = guess(signal.name, signal.unit, signal.dtype, None if signal.scaling else seen)
+        guessed = guess_of(signal, None if signal.scaling else seen)
         quantity, unit, channel = said.get(signal.name) or (guessed.quantity or "voltage", guessed.unit, None)
         told[signal.name] = {
             "quantity": quantity if channel or guessed.quantity else None,

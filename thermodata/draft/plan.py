@@ -7,15 +7,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from thermodata.draft.clocks import Alignment, alignments, start_question, zone_question
+from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import called, guess
 from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
+from thermodata.draft.orientation import which_way, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
@@ -78,7 +79,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
-    left_out += tuple((p, "taken for a jump test, and no probe in volts needs it") for p in idle)
+    left_out += tuple((p, why_idle(p, jumps, calibrations)) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -167,12 +168,12 @@ def _channels(
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
-        name = channel_name(_wished(signal.name, said), taken)
+        name = channel_name(_wished(called(signal), said), taken)
         calibration = None
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
             calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
-            note = "; ".join(filter(None, (note, "its sign is unknown until a calibration says which way it counts")))
+            said = replace(said, sure=False, questions=(*said.questions, which_way(said)))
         own = {id(f) for f in files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
@@ -190,7 +191,7 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
         values = joined(values, f.sample.values.get((signal.stream, signal.name)))
         units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(signal.name, units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         return Guess(
@@ -301,9 +302,7 @@ def _test(
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
 
 
-def _of_clocks(
-    group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]
-) -> tuple[str | None, str | None]:
-    """Questions about a source's zone, and when it began, unless its clock is had from another's."""
+def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
+    """Questions about a source's zone, when it began, unless its clock is had from another's, and times that repeat."""
     known = group.source in aligned or any(a.there == group.source for a in aligned.values())
-    return zone_question(group, groups), None if known else start_question(group, groups)
+    return zone_question(group, groups), None if known else start_question(group, groups), repeats_question(group)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.guess import guess
+from thermodata.draft.guess import guess_of
 from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, joined, values_of
 from thermodata.errors import ThermodataError
@@ -45,9 +45,26 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
+class Repeats:
+    """Rows at the time of the row before. rows: how many; period_s: how far rows are apart if they are even."""
+
+    rows: int = 0
+    period_s: float = 0.0
+
+    def beside(self, t_ns: Int1D) -> Repeats:
+        """With those of another block of times, shape (n,)."""
+        same = int(np.count_nonzero(np.diff(t_ns) == 0))
+        if not same:
+            return self
+        stamps, times = np.unique(t_ns, return_counts=True)
+        steps = np.diff(stamps) if stamps.size > 1 else np.zeros(1, np.int64)
+        return Repeats(self.rows + same, float(np.median(steps)) / float(np.median(times)) / 1e9 or self.period_s)
+
+
+@dataclass(frozen=True, slots=True)
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
-    for; first_ns, last_ns: of what was read; failed: what ended the reading of it."""
+    for; first_ns, last_ns: of what was read; failed: what ended the reading of it; repeats: of times."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -58,12 +75,14 @@ class Sample:
     losses: int = 0
     rows: int = 0
     failed: str = ""
+    repeats: Repeats = Repeats()
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
     """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
     bytes."""
     watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
+    repeats = Repeats()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
     wanted = _courses(recording.signals)
@@ -78,6 +97,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
                 continue
             _take(item, values, parts, wanted)
             unseen.discard(item.stream)
+            repeats = repeats.beside(item.t_ns)
             first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
             last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
             rows += item.t_ns.size
@@ -91,7 +111,9 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         losses, whole, failed = losses + 1, False, short(error)
     finally:
         items.close()  # type: ignore[attr-defined]
-    return Sample(values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows, failed)
+    return Sample(
+        values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows, failed, repeats
+    )
 
 
 def short(error: Exception) -> str:
@@ -105,7 +127,7 @@ def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
     found: list[tuple[str, str]] = []
     for signal in signals:
-        said: Guess = guess(signal.name, signal.unit, signal.dtype)
+        said: Guess = guess_of(signal)
         if said.quantity in _COURSE and signal.dtype != "str":
             found.append((signal.stream, signal.name))
     return set(found[:_MOST_COURSES])

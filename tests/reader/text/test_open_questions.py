@@ -108,3 +108,29 @@ def test_a_short_list_of_numbers_is_no_recording(tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="no time column") as error:
         read(write(tmp_path / "a.csv", "\n".join(UNDATED.splitlines()[:5]) + "\n"))
     assert not isinstance(error.value, QuestionError)
+
+
+def excel(header: str, step_days: float = 5 / 86_400, first: float = 46_083 + 1 / 3) -> str:
+    rows = "".join(f"{first + i * step_days:.9f}".replace(".", ",") + f";{i},5\n" for i in range(12))
+    return f"{header};Z [um]\n{rows}"
+
+
+@pytest.mark.parametrize("header", ["Datum/Zeit", "Datum Uhrzeit", "Date and time", "Datum und Zeit", "Datum"])
+def test_days_under_a_word_for_date_and_time_are_excels(header: str, tmp_path: Path) -> None:
+    times, _, _ = read(write(tmp_path / "a.csv", excel(header)))
+    assert times[0] == pytest.approx(1_772_438_400 * S, abs=S // 1000)
+    assert times[-1] - times[0] == pytest.approx(55 * S, abs=S // 1000)
+
+
+def test_days_under_a_word_for_time_alone_are_asked(tmp_path: Path) -> None:
+    with pytest.raises(QuestionError, match="Excel's days or seconds"):
+        read(write(tmp_path / "a.csv", excel("Zeit")))
+
+
+@pytest.mark.parametrize(("first", "unit"), [(46_083 + 1 / 3, "excel"), (100.0, "s")])
+def test_the_advice_for_a_column_that_only_rises_has_the_unit_of_its_size(
+    first: float, unit: str, tmp_path: Path
+) -> None:
+    with pytest.raises(QuestionError) as raised:
+        read(write(tmp_path / "a.csv", excel("Messung", first=first)))
+    assert f"time: {{column: 1, unit: {unit}}}" in raised.value.ask

@@ -14,6 +14,7 @@ Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, tim
 TIME_WORD = re.compile(
     r"^(t|ts|t_s|time_s|(?i:epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
     r"time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
+    r"(dat[eu]m?|dátum|data|fecha)( ?[/&+,_-] ?| (und|and|a|y|e|et) | )(time|(uhr)?zeit|čas|cas|hora|heure)|"
     r"laufzeit|zeitstempel|elapsed([ _]?time)?|rel(ative)?[ _.]?time|heure|horodatage|hora|fecha|"
     r"時間|時間戳|日期|日期時間|时间|时间戳|时刻|日期时间|日時|日付|時刻|시간|시각|일시))\.?:?$"
 )

@@ -30,7 +30,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     return tuple(
-        Signal(names[i], timed.stream, units[i], kind)
+        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_over(i))
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
@@ -57,8 +57,7 @@ def describe(table: Table, source: Source) -> Recording:
         starts = [int(b.t_ns[0]) for b in reader.read(Chunk(data, first, 0, False)) if isinstance(b, Block)]
         start = min(starts, default=0)
         notes += _zone_notes(table, source, start)
-    if any(timed.of_day for timed in table.groups):
-        notes.append(DayCount.NOTE)
+    notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
     if table.cut:
         notes.append(_CUT)
     return Recording(

@@ -18,8 +18,9 @@ _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 
 def names_and_units(
     rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
-) -> tuple[list[str], list[str | None]]:
-    """Names and units from the rows before the data; rows that do not span the table are preamble."""
+) -> tuple[list[str], list[str | None], list[str]]:
+    """Names, units, and heads of groups over the names, '' where there is none, from the rows before the data; rows
+    that do not span the table are preamble."""
     texts = [_texts(r, width) for r in rows]
     units: list[str | None] = [None] * width
     if units_row is None:
@@ -40,10 +41,11 @@ def names_and_units(
         spanning = spanning[: named + 1]
     names = spanning[-1] if spanning else [""] * width
     at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
+    over = [""] * width
     if at and any(texts[at - 1]):
-        names = _under(texts[at - 1], names)
+        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
-    return names, [u or f for u, f in zip(units, found, strict=True)]
+    return names, [u or f for u, f in zip(units, found, strict=True)], over
 
 
 def _texts(row: Sequence[Cell], width: int) -> list[str]:
@@ -185,6 +187,20 @@ def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
         and len(units) * 3 >= len(said)
         and len(units) > sum(map(looks_like_unit, named))
     )
+
+
+def _heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
+    """The head of the group that each name stands in: several heads, each written once over the first of its columns,
+    and words, not numbers; a single one is a title of the sheet."""
+    heads = [c for c in above if c]
+    merged = len(heads) < len(names) and any(n and not a for a, n in zip(above, names, strict=True))
+    if len(heads) < 2 or not merged or any(is_number(c) or is_stamp(c) for c in heads) or _mostly_units(above):
+        return [""] * len(names)
+    carried, group = [], ""
+    for k, cell in enumerate(above):
+        group = "" if k == 0 and _is_label(cell) else cell or group
+        carried.append(group if names[k] else "")
+    return carried
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:

@@ -46,13 +46,20 @@ class Group:
 @dataclass(frozen=True)
 class Layout:
     """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
-    blanks around it. groups: one, or several where columns have times of their own."""
+    blanks around it. groups: one, or several where columns have times of their own. over: the head that stands over
+    several names, '' where there is none."""
 
     first: int
     names: tuple[str, ...]
     units: tuple[str | None, ...]
     groups: tuple[Group, ...]
     notes: tuple[str, ...] = ()
+    over: tuple[str, ...] = ()
+
+    def said_over(self, column: int) -> dict[str, str]:
+        """The properties of a signal: the head of the group that it stands in."""
+        head = self.over[column] if self.over else ""
+        return {"group": head} if head else {}
 
     @property
     def time(self) -> tuple[int, ...]:
@@ -98,17 +105,17 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if units_row is not None and header is not None and int(units_row) > first:
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
-    heads, units = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
+    heads, units, over = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
     data = _whole_rows(rows[first : first + 200], width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = lines_between(rows[skip:first], width, skip) if header is None else []
     if header is None and first > skip and numbered_rows(rows[first - 1], heads, data):
-        names, units = unique(["", *heads[:-1]]), [None, *units[:-1]]
+        names, units, over = unique(["", *heads[:-1]]), [None, *units[:-1]], ["", *over[:-1]]
         lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
-    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost))
+    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost), tuple(over))
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

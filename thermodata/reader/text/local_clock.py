@@ -13,7 +13,7 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _HOUR = 3600 * 10**9
 _NEAR = 3 * _HOUR
-_HALF_DAY = 12 * 3600 * 10**9
+_DAY = 24 * _HOUR
 
 
 class LocalClock:
@@ -46,15 +46,22 @@ class LocalClock:
 
 class DayCount:
     """Times of day without a date, in file order: they count from the first, and each step back by half a day or more
-    is the next midnight; in a file that stands newest first each step ahead by as much is the midnight before."""
+    is the next midnight; in a file that stands newest first each step ahead by as much is the midnight before.
+    cycle_ns: an hour in place of the day where they are minutes and seconds."""
 
     NOTE = "times of day without a date: counted from the first row"
+    NOTE_MINUTES = "times in minutes and seconds: counted from the first row"
 
-    def __init__(self) -> None:
+    def __init__(self, cycle_ns: int = _DAY) -> None:
+        self._cycle = cycle_ns
         self._first: int | None = None
         self._last = 0
         self._nights = 0
         self._clock = Steps()
+
+    @classmethod
+    def note(cls, cycle_ns: int) -> str:
+        return cls.NOTE if cycle_ns == _DAY else cls.NOTE_MINUTES
 
     def relative(self, of_day_ns: Int1D) -> Int1D:
         """Nanoseconds since the first of all, shape (n,); NAT stays."""
@@ -66,8 +73,11 @@ class DayCount:
                 self._first = self._last = int(values[0])
             steps = np.diff(values, prepend=self._last)
             self._clock.add(values)
-            turned = -(steps > _HALF_DAY).astype(np.int64) if self._clock.newest_first else steps < -_HALF_DAY
+            ahead = -steps if self._clock.newest_first else steps
+            # a step by more than all of it is no turn: 75:00 goes back to 00:00 where a recording begins anew
+            turned = ((ahead < -self._cycle // 2) & (ahead > -self._cycle)).astype(np.int64)
+            turned = -turned if self._clock.newest_first else turned
             nights = self._nights + np.cumsum(turned)
-            result[good] = values + nights * 2 * _HALF_DAY - self._first
+            result[good] = values + nights * self._cycle - self._first
             self._last, self._nights = int(values[-1]), int(nights[-1])
         return result

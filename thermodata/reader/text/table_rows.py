@@ -201,7 +201,7 @@ class _Clock:
         local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
         self.epoch = epoch
         self.clock = LocalClock(timezone if local else None)
-        self.days = DayCount()
+        self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
         self.counted = 0
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:

@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError, QuestionError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
@@ -93,9 +94,11 @@ def time_of(
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes: list[str] = []
+    name = names[columns[0]]
+    if form is None and unit is None and len(columns) == 1:
+        form = said_clock(name, units[columns[0]], cells)
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    name = names[columns[0]]
     text = unit or units[columns[0]] or unit_of_time(name)
     if text is None:
         text = size_of_clock(name, cells, where)

@@ -19,9 +19,10 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
+from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
@@ -63,17 +64,21 @@ def find_formats(
 ) -> tuple[TimeFormat, ...]:
     """The format of each time column of one time (a date and a time of day add up).
 
-    names, columns: their names, and sampled cells of each; declared: strptime's letters, or the order of day and month:
-    dmy, mdy, ymd; more: further cells of the k-th column, asked for where those do not tell day from month.
-    QuestionError: no order of day and month in all of them; FormatError: no cell is a time.
+    names, columns: their names, and sampled cells of each; declared: strptime's letters, the order of day and month
+    (dmy, mdy, ymd), or what two parts of a time are (mm:ss, hh:mm); more: further cells of the k-th column, asked for
+    where those do not tell day from month. QuestionError: no order of day and month in all of them, or 05:10 that may
+    be minutes or hours; FormatError: no cell is a time.
     """
     if declared == UNKNOWN:
-        raise unanswered("time.format", f"{', '.join(_ORDERS)}, or strptime's letters", where)
+        raise unanswered("time.format", f"{', '.join((*_ORDERS, *CLOCKS))}, or strptime's letters", where)
     order = declared if declared in _ORDERS else None
+    clock = declared if declared in CLOCKS else None
+    if declared is None and len(columns) == 1:
+        ask_for_minutes(names[0], columns[0], partial(more, 0), where)
     forms: list[TimeFormat] = list(declared_parts(declared, len(columns)))
     if forms:
         declared = None  # what stands beside a date in parts tells its own format
-    wanted: Sequence[str] = () if declared is None or order else [declared]
+    wanted: Sequence[str] = () if declared is None or order or clock else [declared]
     if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
         wanted = declared.split()
     for k, (name, cells) in list(enumerate(zip(names, columns, strict=True)))[len(forms) :]:
@@ -85,7 +90,7 @@ def find_formats(
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
             own = timestamp.declared_format(text)
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
-        form = form or find_format(cells, where, name, partial(more, k), order)
+        form = form or _two_parts(clock, cells, more(k)) or find_format(cells, where, name, partial(more, k), order)
         forms.append(_zoned(form, cells))
     return tuple(forms)
 
@@ -94,6 +99,14 @@ def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
     some = [c for c in _spread(cells, _FEW) if timestamp.parse_one(c, form) != NAT]
     zoned = sum(timestamp.is_zoned(c, form) for c in some)
     return timestamp.with_zone(form, zoned * 2 > len(some))
+
+
+def _two_parts(clock: str | None, cells: Sequence[str], more: Sequence[str]) -> TimeFormat | None:
+    """The format of cells of two parts that are declared or named; None where they have others."""
+    few = _spread(cells, _FEW)
+    if clock == "mm:ss" and share(few, MINUTES) > 0.5:
+        return MINUTES
+    return HOURS if clock == "hh:mm" and share(few, HOURS) > 0.5 and _goes_on(more or cells, HOURS) else None
 
 
 def find_format(
@@ -106,7 +119,7 @@ def find_format(
     """The format of cells of one column, whether they name an offset from UTC or not; errors as above. order: the
     declared one of day and month."""
     few = _spread(cells, _FEW)
-    if share(few, ELAPSED) > 0.8 and _goes_on(more() or cells):
+    if share(few, ELAPSED) > 0.8 and _goes_on(more() or cells, ELAPSED):
         return ELAPSED
     for least in (0.8, 0.3):
         for forms, enough in (({"": TIME_OF_DAY}, least), (DATE, max(least, 0.9)), (DATETIME, least)):
@@ -126,10 +139,10 @@ def find_format(
     )
 
 
-def _goes_on(cells: Sequence[str]) -> bool:
+def _goes_on(cells: Sequence[str], form: TimeFormat) -> bool:
     """Whether durations reach beyond a day, or leave room for it (000:10:00), and never fall: a damaged time of day is
     none."""
-    ns = timestamp.parse(list(cells), ELAPSED)
+    ns = timestamp.parse(list(cells), form)
     ns = ns[ns != NAT]
     roomy = all(_HUNDREDS.match(c) for c in cells if c.strip())
     return bool(ns.size and (roomy or ns.max() >= _DAY_NS) and (np.diff(ns) >= 0).all())
@@ -208,7 +221,7 @@ def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | N
     (form,) = find_formats([""], [list(cells)], declared, where)
     ns = timestamp.parse(list(cells), form)
     if form.role == "time":
-        return times_of_day(ns)
+        return times_of_day(ns, form.cycle_ns)
     if form.zoned:
         return Stamps(ns, True, ())
     utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
@@ -230,6 +243,6 @@ def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
     return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
 
 
-def times_of_day(of_day_ns: Int1D) -> Stamps:
+def times_of_day(of_day_ns: Int1D, cycle_ns: int = _DAY_NS) -> Stamps:
     """Times of day without a date count from the first; each step back by half a day is the next midnight."""
-    return Stamps(DayCount().relative(of_day_ns), False, (DayCount.NOTE,))
+    return Stamps(DayCount(cycle_ns).relative(of_day_ns), False, (DayCount.note(cycle_ns),))

@@ -53,7 +53,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     rising = _rising(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[0], rising, where, 1)
-    epoch = None if rising is None else found_epoch(rising)
+    epoch = None if rising is None else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     unit = epoch or (low if (low := names[0].strip().lower()) in SECONDS else "s")
     other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: {unit}}}" if rising is not None else ""
     return QuestionError(
@@ -76,6 +76,12 @@ def _rising(data: Sequence[Sequence[Cell]]) -> Array | None:
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
+def may_be_excel(values: Array) -> bool:
+    """Whether numbers may be Excel's days of 2000 to 2099, in steps below some hours; or seconds all the same."""
+    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
+    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+
+
 def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     """The unit of a time that names none, where its size leaves one sense only: a count from a date.
     QuestionError where it does not."""
@@ -83,8 +89,7 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
         return epoch
-    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
-    if days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any()):
+    if may_be_excel(values):
         if re.search(r"(?i)dat", name):
             return "excel"
         raise QuestionError(

@@ -73,6 +73,11 @@ class TimeFormat:
     strptime: str | None = None  # a declared format with names of months and the like
     columns: int = 1  # that hold its parts, from its own on
 
+    @property
+    def cycle_ns(self) -> int:
+        """Behind what a time without a date begins anew: an hour where it has no hours, else a day."""
+        return _DAY // 24 if self.pattern is not None and "N" in self.pattern.groupindex else _DAY
+
 
 def _compile(body: str) -> re.Pattern[str]:
     return re.compile(r"\s*'?" + body + r"\s*", re.ASCII)  # an apostrophe keeps a spreadsheet from reading a date
@@ -87,6 +92,8 @@ TIME_OF_DAY = _format("time", _TIME, "HH:MM:SS")
 ELAPSED = _format(
     "time", r"(?P<E>\d{1,5}):(?P<M>\d{2}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "HHH:MM:SS", zone=False
 )
+HOURS = _format("time", r"(?P<E>\d{1,5}):(?P<M>\d{2})", "HHH:MM", zone=False)
+MINUTES = _format("time", r"(?P<N>\d{1,5}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "MM:SS", zone=False)
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
 UNIX_MS = _format("offset", r"(?P<oms>\d{12,13})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds since 1970", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
@@ -153,6 +160,8 @@ def declared_format(text: str) -> TimeFormat:
                 f"time format '{text}' cannot be used", expected="%Y %y %m %d %b %H %I %M %S %f %p %z", got=part
             )
     day, clock = bool(used & _CALENDAR), bool(used & {"H", "I"})
+    if "M" in used and not day and not clock:  # '%M:%S' are minutes from a start
+        body = body.replace(_STRPTIME["M"], r"(?P<N>\d{1,5})")
     try:
         pattern = _compile(body)
     except re.error as error:
@@ -176,7 +185,7 @@ def is_date_text(cell: str) -> bool:
 
 def is_time_of_day(cell: str) -> bool:
     """Whether a text is a time of day without a date, or a duration that is written like one."""
-    return any(form.pattern is not None and form.pattern.fullmatch(cell) for form in (TIME_OF_DAY, ELAPSED))
+    return any(form.pattern is not None and form.pattern.fullmatch(cell) for form in (TIME_OF_DAY, ELAPSED, MINUTES))
 
 
 def parse(cells: Any, form: TimeFormat) -> Int1D:
@@ -306,6 +315,11 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         if minute > 59 or second > 59:
             return NAT
         total += (int(g["E"]) * 3600 + minute * 60 + second) * _S
+    if g.get("N") is not None:
+        second = int(g.get("S") or 0)
+        if second > 59:
+            return NAT
+        total += (int(g["N"]) * 60 + second) * _S
     if g.get("f"):
         total += int(g["f"].ljust(9, "0"))
     return total - offset_ns(g["z"]) if g.get("z") else total
@@ -364,6 +378,9 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     if "E" in fields:
         bad |= (minute > 59) | (second > 59)
         total += (fields["E"] * 3600 + minute * 60 + second) * _S
+    if "N" in fields:
+        bad |= second > 59
+        total += (fields["N"] * 60 + second) * _S
     if "f" in fields:
         total += fields["f"]
     if groups.get("z"):

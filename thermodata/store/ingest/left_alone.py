@@ -32,10 +32,11 @@ class TestNote:
     their sizes where known. version: of all that a fit depends on; None where nothing was made of the test. tidied:
     whether its streams could be made.
 
-    channels: (source, stream, channel, whether it is text). clocks, lent: those that were estimated, as (offset_ns,
-    drift_ppm, base_ns, suspect, key, notes) before and after the other tests were asked. dated: sources with dates of
-    their own. start_s: on the absolute clock. courses: (end [s], levels) of each of its tidy files. verdicts: (its
-    channels, verdict) of each stream. overruled: which rules of the campaign file found something.
+    channels: (source, stream, channel, whether it is text). empty: (source, stream, channel) without any value. clocks,
+    lent: those that were estimated, as (offset_ns, drift_ppm, base_ns, suspect, key, notes) before and after the other
+    tests were asked. dated: sources with dates of their own. start_s: on the absolute clock. courses: (end [s], levels)
+    of each of its tidy files. verdicts: (its channels, verdict) of each stream. overruled: which rules of the campaign
+    file found something.
     """
 
     __test__ = False
@@ -50,6 +51,7 @@ class TestNote:
     version: str | None = None
     tidied: bool = False
     channels: list[list[Any]] = field(default_factory=list)
+    empty: list[list[Any]] = field(default_factory=list)
     clocks: dict[str, list[Any]] = field(default_factory=dict)
     lent: dict[str, list[Any]] = field(default_factory=dict)
     dated: list[str] = field(default_factory=list)

@@ -141,6 +141,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     losses = [
         *raw_layer.said[""].losses,
         *(dict(row) for note in notes.values() for row in note.losses),  # lines are of this campaign file
+        *tidy_layer.losses,
         *raw_layer.empty_sources(list(notes.values())),
         *(loss_row(p) for p in problems),
     ]

@@ -20,9 +20,11 @@ from thermodata.schema.campaign import Campaign
 from thermodata.schema.places import is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
+from thermodata.store.ingest.empty_channels import empty_channels
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
-from thermodata.store.ingest.losses import loss_row
+from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.repeated_times import said_of_repeats
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of
@@ -40,12 +42,14 @@ Columns = list[tuple[str, bool]]
 @dataclass(slots=True)
 class TidyLayer:
     """What a campaign's tidy layer is and lost. rows: table -> test -> the catalogue's rows; tests: what is told of
-    each; both of the tests that were looked at. notes: what concerns no one test. new_streams: made now.
+    each; both of the tests that were looked at. notes, losses: what concerns no one test, or shows beside others.
+    new_streams: made now.
     """
 
     rows: dict[str, dict[str, list[Row]]] = field(default_factory=lambda: {t: {} for t in BY_TEST})
     tests: dict[str, TestNote] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    losses: Losses = field(default_factory=list)
     new_streams: int = 0
 
 
@@ -108,6 +112,7 @@ def tidy_tests(
             note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         note.notes += plan.notes
+    layer.losses += empty_channels(campaign, known)
     layer.notes += idle(campaign.overrule, {name: note.overruled for name, note in known.items() if note.tidied})
     return layer
 
@@ -130,6 +135,13 @@ def _note_courses(note: TestNote, test: _Tidied) -> None:
     note.lent = estimated(test.clocks)
     note.start_s = None if test.where.relative else test.where.zero_ns / 1e9
     files = [(r["part"], meta_of(r)) for rows in test.files.values() for r in rows]
+    note.empty = [
+        [source, stream, b.name]
+        for (source, stream), rows in test.files.items()
+        for meta in map(meta_of, rows)
+        for b in test.plan.bound.values()
+        if "filled" in meta and (b.source, b.stream) == (source, stream) and b.name not in meta["filled"]
+    ]
     note.courses = [[meta["to_s"], meta.get("levels")] for part, meta in files if part == "test"]
     named = {name for _, levels in note.courses if levels for name in levels["values"]}
     own = {name: b.channel for name, b in test.plan.bound.items() if name in named}
@@ -287,6 +299,7 @@ def _tidy_rows(
         meta |= {"verdict": dict(verdict)} if verdict else {}
         if file is result.files[-1]:
             meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
+            meta |= {"filled": sorted(result.filled)}
         rows.append(
             {
                 "campaign": campaign,
@@ -318,6 +331,7 @@ def _count(note: TestNote, files: Sequence[Row], test: str) -> None:
         for flag, count in meta.get("flags", {}).items():
             note.flags[flag] = note.flags.get(flag, 0) + count
         note.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
+        note.notes += said_of_repeats(test, row["source"], meta, row["rows"])
         note.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
         for item in json.loads(row["losses"]) if row["losses"] not in (None, "", "[]") else ():
             note.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from thermodata.errors import nearest
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.campaign_channels import Channel
 from thermodata.schema.places import PLACES, is_known
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
 _SHOWN = 6
+SIGN = "calibrations: {sign_z: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}}"
 
 
 def unanswered(campaign: Campaign) -> list[str]:
@@ -24,9 +26,24 @@ def unanswered(campaign: Campaign) -> list[str]:
         said.append(
             f"without a place (at: ...): {_listed(nowhere)}; no effect that needs one there will be tried with them"
         )
+    turned = [n for n, c in campaign.channels.items() if _unoriented(c, campaign)]
+    if turned:
+        said.append(
+            f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them. A jump test tells "
+            f"it, or the way the probe looks: {SIGN}"
+        )
     if campaign.tests and all(t.role == "none" for t in campaign.tests):
         said.append("no test has a role: write role: calibration, verification or locked, or name tests in the model")
     return said
+
+
+def _unoriented(channel: Channel, campaign: Campaign) -> bool:
+    """Whether nothing says which way a displacement counts: no jump test, and no probe whose facing is declared."""
+    if channel.quantity not in ("displacement", "tilt") or channel.derive is not None:
+        return False
+    named = [channel.calibration] if isinstance(channel.calibration, str) else channel.calibration or []
+    own = [campaign.calibrations[n] for n in named if n in campaign.calibrations]
+    return not any(c.kind == "jump" or (c.kind == "scale" and c.axis and c.facing) for c in own)
 
 
 def _listed(names: list[str]) -> str:

@@ -54,6 +54,7 @@ class TidyResult:
     losses: list[Loss] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     notes: tuple[str, ...] = ()
+    filled: set[str] = field(default_factory=set)  # channels that have a value at all
 
 
 def write_member(
@@ -230,8 +231,10 @@ def tidy_schema(columns: Columns) -> pa.Schema:
 
 def _count(result: TidyResult, channels: dict[str, Column]) -> None:
     """Counts samples and flags of the test's own rows."""
-    for column in channels.values():
+    for name, column in channels.items():
         result.samples += len(column.flags)
+        if name not in result.filled and (column.values.dtype.kind != "f" or not np.isnan(column.values).all()):
+            result.filled.add(name)
         if not column.flags.any():
             continue
         seen = int(np.bitwise_or.reduce(column.flags))

@@ -170,6 +170,7 @@ def describe(path: Path, source: Source) -> Recording:
             s.units[name],
             "str" if v.dtype == object else "float64",
             Scaling("linear", {"gain": 100.0, "offset": 0.0}) if name in s.percent else None,
+            s.said[name],
         )
         for s in found.streams
         for name, v in s.values.items()

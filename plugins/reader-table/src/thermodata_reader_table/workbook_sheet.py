@@ -33,7 +33,7 @@ from thermodata.reader.zone import NAT
 class Stream:
     """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
     over: rows of a column whose cells say overload; sheet: where it stands; percent: columns that hold a fraction and
-    show it in per cent."""
+    show it in per cent; said: properties of each."""
 
     name: str
     times: Stamps
@@ -43,6 +43,7 @@ class Stream:
     over: dict[str, Bool1D]
     sheet: str
     percent: frozenset[str]
+    said: dict[str, dict[str, str]]
 
 
 class Table:
@@ -86,10 +87,12 @@ class Table:
                 )
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
             percent: set[str] = set()
+            said: dict[str, dict[str, str]] = {}
             for i in group.columns:
                 column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
                 values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
+                said[before + self.layout.names[i]] = self.layout.said_over(i)
                 if self._in_percent(i):
                     units[before + self.layout.names[i]] = "%"
                     percent.add(before + self.layout.names[i])
@@ -97,7 +100,7 @@ class Table:
                     over[before + self.layout.names[i]] = beyond[keep]
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = Stamps(times.t_ns[keep], times.absolute, ())
-            yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent))
+            yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
 
     def _in_percent(self, column: int) -> bool:
         """Whether a column is shown in per cent, and its header does not say that it is a fraction. FormatError where

@@ -1,0 +1,75 @@
+"""The sign of a displacement is asked and told until something turns it; a second jump test is named as one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from thermodata.draft.make import draft_files
+from thermodata.schema.campaign import Campaign
+from thermodata.store.ingest.unanswered import unanswered
+
+
+def log(path: Path, column: str, values: list[float]) -> None:
+    path.parent.mkdir(exist_ok=True)
+    rows = "".join(f"{i},{v:.4f},22.0\n" for i, v in enumerate(values))
+    path.write_text(f"time [s],{column},T1 [degC]\n{rows}")
+
+
+def staircase(height: float) -> list[float]:
+    return [5.0 + 0.0003 * (i % 3) + height * ((i // 20) % 2) for i in range(200)]
+
+
+def test_the_sign_of_a_displacement_in_micrometres_is_asked(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "dZ [um]", [i / 10 for i in range(100)])
+    made = draft_files(tmp_path / "lab").draft
+    (asked,) = [q for c in made.channels if c.name == "dZ" for q in c.said.questions]
+    assert "which way does it count?" in asked
+    assert "axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap" in asked
+
+
+@pytest.mark.parametrize(
+    ("calibration", "told"),
+    [
+        (None, True),
+        ({"kind": "scale", "axis": "Z", "gain": "1 um/um"}, True),
+        ({"kind": "scale", "axis": "Z", "gain": "1 um/um", "facing": "-Z"}, False),
+        ({"kind": "linear", "gain": 1, "offset": "1 um"}, True),
+    ],
+)
+def test_it_is_told_with_every_ingest_until_something_turns_it(
+    calibration: dict[str, object] | None, told: bool
+) -> None:
+    channel = {"source": "log", "signal": "dZ", "quantity": "displacement", "unit": "um", "axis": "Z", "at": "tcp"}
+    campaign = {
+        "schema": "thermodata/campaign/1",
+        "id": "lab",
+        "sources": {"log": {"reader": "table", "files": "{test}.csv"}},
+        "channels": {"dZ": channel | ({"calibration": "z"} if calibration else {})},
+        "calibrations": {"z": calibration} if calibration else {},
+        "tests": [{"id": "a", "kind": "mixed", "role": "none"}],
+    }
+    said = [
+        s for s in unanswered(Campaign.model_validate(yaml.safe_load(yaml.safe_dump(campaign)))) if "sign unknown" in s
+    ]
+    assert bool(said) is told
+    assert all("dZ" in s and "facing" in s for s in said)
+
+
+def test_a_second_jump_test_of_a_probe_is_named_with_the_steps_of_both(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "Probe Z [V]", [5 + i / 10_000 for i in range(3000)])
+    log(tmp_path / "lab" / "jump_Z_after.csv", "Probe Z [V]", staircase(2.12))
+    log(tmp_path / "lab" / "jump_Z_before.csv", "Probe Z [V]", staircase(2.0))
+    ((path, why),) = [x for x in draft_files(tmp_path / "lab").draft.not_used if "jump" in x[0]]
+    assert path == "jump_Z_before.csv"
+    assert "a second jump test of 'Probe Z [V]', beside jump_Z_after.csv" in why
+    assert "-5.7 %" in why
+
+
+def test_a_jump_test_that_no_probe_needs_is_named_as_such(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "dZ [um]", [i / 10 for i in range(3000)])
+    log(tmp_path / "lab" / "jump_Z.csv", "dZ [um]", staircase(100.0))
+    ((_, why),) = [x for x in draft_files(tmp_path / "lab").draft.not_used if "jump" in x[0]]
+    assert why == "taken for a jump test, and no probe in volts needs it"

@@ -1,0 +1,75 @@
+"""A channel that is empty in the whole of a test, and rows whose times stand still: told at ingest, and asked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.make import draft_files
+from thermodata.reader import registry
+from thermodata.store import Store
+from thermodata.store.ingest.run import IngestSummary, ingest
+
+
+@pytest.fixture(autouse=True)
+def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    from thermodata.store.ingest import raw_layer
+
+    monkeypatch.setattr(raw_layer, "find_reader", registry.reader)
+
+
+def write(folder: Path, speeds: dict[str, str], step_s: int = 60, missing_in: str = "", cut: int = 16) -> Path:
+    """A campaign of CSV files, one a test, with its speed in all rows; times are cut to `cut` letters."""
+    folder.mkdir(exist_ok=True)
+    for test, speed in speeds.items():
+        seconds = [i * step_s for i in range(40)]
+        times = [f"2026-03-02 08:{t // 60:02d}:{t % 60:02d}" for t in seconds]
+        rows = "".join(f"{time[:cut]},{20 + i / 10:.1f},{speed}\n" for i, time in enumerate(times))
+        (folder / f"{test}.csv").write_text(f"time,T1 [degC],n [rpm]\n{rows}")
+    (folder / "campaign.yaml").write_text(
+        "schema: thermodata/campaign/1\nid: lab\nsources:\n"
+        '  log: {reader: table, files: "{test}.csv"}\nchannels:\n'
+        "  T1: {source: log, signal: T1, quantity: temperature}\n"
+        f"  n: {{source: log, signal: n, quantity: rotational_speed{missing_in}}}\n"
+        "tests:\n" + "".join(f"  - {{id: {test}, kind: mixed, role: none}}\n" for test in speeds)
+    )
+    return folder / "campaign.yaml"
+
+
+def losses(summary: IngestSummary) -> list[tuple[str, str]]:
+    return [(x["test"], x["reason"]) for x in summary.losses]
+
+
+def test_a_channel_that_is_empty_in_one_test_is_its_loss(store: Store, tmp_path: Path) -> None:
+    path = write(tmp_path / "lab", {"a": "3000", "b": "", "c": "9000"})
+    for _ in range(2):  # the second time nothing changed
+        ((test, reason),) = losses(ingest(store, path))
+        assert test == "b"
+        assert "channel 'n' has no value in the whole of b, and has in a, c" in reason
+    write(tmp_path / "lab", {"a": "3000", "b": "6000", "c": "9000"})
+    assert losses(ingest(store, path)) == []
+
+
+def test_it_is_told_too_where_only_another_test_is_looked_at(store: Store, tmp_path: Path) -> None:
+    path = write(tmp_path / "lab", {"a": "", "b": ""})
+    assert losses(ingest(store, path)) == [], "nothing says that there should be any"
+    write(tmp_path / "lab", {"a": "", "b": "3000"})
+    assert [test for test, _ in losses(ingest(store, path))] == ["a"]
+
+
+def test_an_empty_channel_that_is_declared_missing_is_none(store: Store, tmp_path: Path) -> None:
+    path = write(tmp_path / "lab", {"a": "3000", "b": ""}, missing_in=", missing_in: [b]")
+    assert losses(ingest(store, path)) == []
+
+
+@pytest.mark.parametrize(("step_s", "told"), [(5, True), (50, False), (60, False)])
+def test_rows_whose_times_stand_still_are_told_and_asked(store: Store, tmp_path: Path, step_s: int, told: bool) -> None:
+    path = write(tmp_path / "lab", {"a": "3000"}, step_s)
+    notes = [n for n in ingest(store, path).notes if "at the time of the row before" in n]
+    assert bool(notes) is told
+    path.unlink()
+    asked = [q for s in draft_files(tmp_path / "lab").draft.sources for q in s.questions if "row before" in q]
+    assert bool(asked) is told
+    assert all("table: {time: {period: ...}}, which is about 4.6 s" in note for note in notes)
+    assert all("table: {time: {period: 5 s}}" in question for question in asked)
