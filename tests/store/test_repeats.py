@@ -17,7 +17,9 @@ N = 200
 
 def found(t_s: Array, *columns: Array, begins: tuple[int, ...] = (), held: bool = False) -> Repeats:
     t: Int1D = (np.asarray(t_s) * S).astype(np.int64)
-    return find_repeats(lambda a, b: t[a:b], lambda a, b: keys_of([c[a:b] for c in columns]), len(t), begins, held=held)
+    return find_repeats(
+        lambda a, b: t[a:b], lambda a, b: keys_of([c[a:b] for c in columns], b - a), len(t), begins, held=held
+    )
 
 
 def order(t_s: Array, twice: Repeats) -> Order:
@@ -101,6 +103,18 @@ def test_words_and_missing_values_are_values() -> None:
     assert not found(t, number, word, count).rows
     count[105] += 1
     assert not found(t, number, count).rows
+
+
+def test_a_copy_behind_steps_back_that_are_none_is_found_and_behind_very_many_it_is_not() -> None:
+    def behind(steps: int) -> Repeats:
+        t = np.arange(10.0 * steps)
+        t[5::10] -= 3.5
+        end = t.max() + np.arange(1.0, 101)
+        t = np.concatenate([t, end, end[50:]])
+        return found(t, np.round(t * 7))
+
+    assert behind(150).rows == 50
+    assert behind(250).rows == 0
 
 
 def test_what_is_left_of_several_files() -> None:

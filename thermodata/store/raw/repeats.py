@@ -5,7 +5,7 @@ A clock that was set back looks alike, but what it logs under the times that it 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,7 +15,8 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.store.raw.clock_faults import JITTER_NS
 
 CHUNK_ROWS = 500_000
-_MOST_STRETCHES = 10_000
+_MOST_OTHERS = 200  # stretches that are no copies: in a log of so many steps back nobody looks further
+_MOST_VALUES = 4_000_000  # held at once [32 MB]
 _FIRST_LOOK = 16  # rows of a stretch, one of which has been there before if it is a copy
 Hashes = npt.NDArray[np.uint64]
 Times = Callable[[int, int], Int1D]
@@ -69,26 +70,28 @@ def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *
     highs: list[int] = []
     cut: list[tuple[int, int]] = []
     mixed: list[tuple[int, int]] = []
-    rows = 0
+    rows = others = 0
     for a, b in _stretches(times, n, lows, highs):
         some = _compared(times, keys, lows, highs, a, a, min(b, a + _FIRST_LOOK))
-        if not some.same.any():
-            continue
         first = a + (int(np.argmax(some.same)) if held else 0)
         same = new = 0
         values: set[int] = set()
-        for start in range(first, b, CHUNK_ROWS):
+        for start in range(first, b, CHUNK_ROWS) if some.same.any() else ():
             found = _compared(times, keys, lows, highs, a, start, min(b, start + CHUNK_ROWS))
             if found.other.any():
+                same = 0
                 break
             same, new = same + int(found.same.sum()), new + int((~found.same).sum())
             values |= set(np.unique(found.keys[found.same])[:2].tolist())
-        else:
-            if same >= new + first - a and (len(values) > 1 or a in begins):
-                rows += same
-                (mixed if new else cut).append((first, b))
-                if first > a:
-                    mixed.append((a, first))
+        if same and same >= new + first - a and (len(values) > 1 or a in begins):
+            rows += same
+            (mixed if new else cut).append((first, b))
+            if first > a:
+                mixed.append((a, first))
+            continue
+        others += 1
+        if others == _MOST_OTHERS:
+            break
     return Repeats(_pairs(cut), _pairs(mixed), rows)
 
 
@@ -114,7 +117,7 @@ def _pairs(stretches: list[tuple[int, int]]) -> Int1D:
 def _stretches(times: Times, n: int, lows: list[int], highs: list[int]) -> Iterator[tuple[int, int]]:
     """(first, past-the-last) rows between a step back in time and the first row that is later than all before. lows,
     highs: the earliest and latest time of each chunk, filled in as far as rows were looked at."""
-    high, begin, level, found = np.iinfo(np.int64).min, -1, 0, 0
+    high, begin, level = np.iinfo(np.int64).min, -1, 0
     for first in range(0, n, CHUNK_ROWS):
         t = times(first, min(n, first + CHUNK_ROWS))
         lows.append(int(t.min()))
@@ -136,9 +139,7 @@ def _stretches(times: Times, n: int, lows: list[int], highs: list[int]) -> Itera
                 break
             at += int(later[0])
             yield begin, first + at
-            begin, found = -1, found + 1
-            if found == _MOST_STRETCHES:
-                return
+            begin = -1
     if begin >= 0:
         yield begin, n
 
@@ -173,10 +174,10 @@ def _compared(
     return _Compared(same, there & ~same, own)
 
 
-def keys_of(columns: Sequence[Array]) -> Hashes:
-    """A number for the values of each row, shape (n,): equal where all values are. columns: of shape (n,), one at
-    least; no value is as good as another."""
-    keys = np.zeros(len(columns[0]), np.uint64)
+def keys_of(columns: Iterable[Array], n: int) -> Hashes:
+    """A number for the values of each row, shape (n,): equal where all values are; no value is as good as another.
+    columns: of shape (n,)."""
+    keys = np.zeros(n, np.uint64)
     for values in columns:
         if values.dtype == object:
             bits = np.fromiter((hash(v) & 0xFFFFFFFFFFFFFFFF for v in values), np.uint64, len(values))
@@ -188,6 +189,13 @@ def keys_of(columns: Sequence[Array]) -> Hashes:
                 bits = bits ^ rest.astype(np.uint64)
         keys = _mixed(keys, bits)
     return keys
+
+
+def batches(names: Sequence[str], rows: int) -> Iterator[Sequence[str]]:
+    """Columns of which so many rows may be held at once."""
+    width = max(1, _MOST_VALUES // max(rows, 1))
+    for k in range(0, len(names), width):
+        yield names[k : k + width]
 
 
 def _mixed(a: Hashes, b: Hashes) -> Hashes:

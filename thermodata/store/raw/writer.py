@@ -18,7 +18,7 @@ from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.clock_faults import LEAP_NS
 from thermodata.store.raw.columns import RawFile
 from thermodata.store.raw.order import by_time, find_order
-from thermodata.store.raw.repeats import Hashes, find_repeats, keys_of
+from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -108,7 +108,8 @@ class StreamWriter:
 
         def keys(a: int, b: int) -> Hashes:
             first, last = (n - b, n - a) if self.newest_first else (a, b)
-            found = keys_of(file.read([self.columns[s.name] for s in self.signals], first, last))
+            some = batches([self.columns[s.name] for s in self.signals], last - first)
+            found = keys_of((c for names in some for c in file.read(names, first, last)), last - first)
             return found[::-1] if self.newest_first else found
 
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate, pairwise
 from pathlib import Path
@@ -13,7 +13,7 @@ from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, by_time, find_order, in_order
-from thermodata.store.raw.repeats import Hashes, find_repeats, keys_of, pieces
+from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of, pieces
 from thermodata.store.raw.streams import RawStream
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
@@ -257,10 +257,14 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
     """What tells the values of rows apart; a signal that a file lacks is one without a value."""
     text = {s.name: s.dtype == "str" for raw, _ in line.raws for s in raw.signals}
 
+    def columns(start: int, stop: int) -> Iterator[Array]:
+        for names in batches(list(text), stop - start):
+            found = line.columns(names, start, stop)
+            for name in names:
+                yield found[name] if name in found else np.full(stop - start, None if text[name] else np.nan)
+
     def keys(start: int, stop: int) -> Hashes:
-        found = line.columns(list(text), start, stop)
-        none = {name: np.full(stop - start, None if is_text else np.nan) for name, is_text in text.items()}
-        return keys_of([found.get(name, none[name]) for name in text])
+        return keys_of(columns(start, stop), stop - start)
 
     return keys
 
