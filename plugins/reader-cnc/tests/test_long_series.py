@@ -98,6 +98,8 @@ def test_columns_of_numbers_beside_the_value_are_said(tmp_path: Path) -> None:
     [
         ("time,measurement,machine,field,value", "{ms},temp,M1,{tag},{v}"),
         ("time,field,value", "{ms},{tag},{v}"),
+        ("time,field,value", "{ms}000,{tag},{v}"),
+        ("name,time,field,value", "temp,{ms}000000,{tag},{v}"),
         ("L1Name,updatedate,enddate,timespan,signalname,value", "M1,{us} AM,{us} AM,5,{tag},{v}"),
         ("Tag,Time,Value", "{tag},{pi},{v}"),
     ],

@@ -16,7 +16,7 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.status import zero_is_good
 from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.timestamp import UNIX_MS, TimeFormat, declared_format
+from thermodata.reader.text.timestamp import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (
@@ -151,8 +151,9 @@ def find_layout(
 
 def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
     """How the times are written; None where they are no dates. FormatError: no order of day and month."""
-    if stamps and all(re.fullmatch(r"\d{12,13}", s) for s in stamps):
-        return UNIX_MS
+    for digits, form in ((r"\d{12,13}", UNIX_MS), (r"\d{16}", UNIX_US), (r"\d{19}", UNIX_NS)):
+        if stamps and all(re.fullmatch(digits, s) for s in stamps):
+            return form
     order = declared if declared in ("dmy", "mdy", "ymd") else None
     if declared and not order and "%" in declared:
         return declared_format(declared)
