@@ -113,3 +113,26 @@ def test_a_row_stands_where_its_first_value_does(ordered: bool, at: list[int]) -
     block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
     assert block is not None
     assert block.at is None
+
+
+SAMPLES = [(1, "T", 1.0), (1, "n", 5.0), (1, "T", 2.0), (3, "T", 4.0), (2, "T", 3.0), (3, "n", 6.0), (3, "T", 7.0)]
+
+
+def test_where_all_is_kept_no_value_stands_in_for_another_of_its_time() -> None:
+    held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc", ordered=False, keep_all=True)
+    for t, name, value in SAMPLES:
+        held.add(t * 1_000_000_000, name, value)
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    assert (block.t_ns // 1_000_000_000).tolist() == [1, 1, 2, 3, 3]
+    assert block.values["T"].tolist() == [1, 2, 3, 4, 7]
+    assert block.values["n"].tolist() == [5, 5, 5, 5, 6]
+
+
+def test_a_state_has_one_value_at_a_time() -> None:
+    held = HeldRows[int]({"T": "float64", "n": "float64"}, "nc", ordered=False)
+    for t, name, value in SAMPLES:
+        held.add(t * 1_000_000_000, name, value)
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    assert block.values["T"].tolist() == [2, 3, 7]

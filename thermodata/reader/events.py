@@ -27,15 +27,17 @@ _STEP_NS = 60 * 10**9
 
 class HeldRows(Generic[Stamp]):
     """Collects values into blocks of rows. Values that share a time stamp and stand together share a row; of several
-    values of one signal in a row the last stands.
+    values of one signal in a row the last stands, for a state has one value at a time.
+
+    keep_all: each value of one signal at one time has a row of its own, for samples under coarse stamps are no states.
 
     dtypes: signal -> "str" or a number's. ordered: the log's own order is the order of its rows, as recorded; else
     rows are sorted by time inside a block, so that stamps of several clocks in one table do not step back (a step of
     a minute or more is no such jitter and stays where it is).
     """
 
-    def __init__(self, dtypes: Mapping[str, str], stream: str, ordered: bool = True) -> None:
-        self.stream, self._ordered = stream, ordered
+    def __init__(self, dtypes: Mapping[str, str], stream: str, ordered: bool = True, keep_all: bool = False) -> None:
+        self.stream, self._ordered, self._keep_all = stream, ordered, keep_all
         self._dtypes = dict(dtypes)
         self._held: dict[str, tuple[Value, int]] = dict.fromkeys(self._dtypes, (None, _NONE))
         self._seen: set[str] = set()
@@ -56,10 +58,11 @@ class HeldRows(Generic[Stamp]):
         stands in the log: a row stands where its first value does. KeyError: no such signal."""
         if name not in self._dtypes:
             raise KeyError(name)
-        if not self._stamps or self._stamps[-1] != stamp:
+        rows, values, flags = self._changes.setdefault(name, ([], [], []))
+        again = self._keep_all and bool(rows) and rows[-1] == len(self._stamps) - 1
+        if again or not self._stamps or self._stamps[-1] != stamp:
             self._stamps.append(stamp)
             self._at.append(at)
-        rows, values, flags = self._changes.setdefault(name, ([], [], []))
         rows.append(len(self._stamps) - 1)
         values.append(value)
         flags.append(flag | _NONE if value is None else flag)
@@ -100,9 +103,22 @@ class HeldRows(Generic[Stamp]):
         steps = np.diff(times)
         if self._ordered or not (steps < 0).any() or steps.min() <= -_STEP_NS:
             return place, times
-        times, inverse = np.unique(times, return_inverse=True)
-        place[good] = inverse
-        return place, times
+        unique, inverse = np.unique(times, return_inverse=True)
+        if self._keep_all and (twice := self._twice(place, inverse)).any():
+            # rows of a time at which a signal has two values stay as they are, one behind the other
+            turn = np.where(twice[inverse], _turns(times), 0)
+            unique, inverse = np.unique(np.stack([times, turn]), axis=1, return_inverse=True)
+            unique = unique[0]
+        place[good] = inverse.ravel()
+        return place, unique
+
+    def _twice(self, place: Int1D, inverse: Int1D) -> Bool1D:
+        """At which times a signal has several values; inverse: which time each row has."""
+        found = np.zeros(int(inverse.max(initial=-1)) + 1, bool)
+        for rows, _, _ in self._changes.values():
+            at = place[rows]
+            found |= np.bincount(inverse[at[at >= 0]], minlength=found.size) > 1
+        return found
 
     def _first_at(self, place: Int1D, n: int) -> Int1D | None:
         """Where the block's rows stand; None where the values did not say so."""
@@ -137,6 +153,16 @@ class HeldRows(Generic[Stamp]):
         last = known[-1]
         self._held[name] = (None if last is None or last != last else last, int(marks[-1]))
         return known[which], marked
+
+
+def _turns(times: Int1D) -> Int1D:
+    """How many of the times before it are the same as each, shape (n,)."""
+    order = np.argsort(times, kind="stable")
+    t = times[order]
+    starts = np.flatnonzero(np.concatenate([[True], t[1:] != t[:-1]]))
+    turns = np.empty(times.size, np.int64)
+    turns[order] = np.arange(times.size) - np.repeat(starts, np.diff(np.append(starts, times.size)))
+    return turns
 
 
 def _cell(value: Value, dtype: str) -> Value:

@@ -96,6 +96,9 @@ HOURS = _format("time", r"(?P<E>\d{1,5}):(?P<M>\d{2})", "HHH:MM", zone=False)
 MINUTES = _format("time", r"(?P<N>\d{1,5}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "MM:SS", zone=False)
 OFFSET_MS = _format("offset", r"(?P<oms>\d{1,12})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds", zone=False)
 UNIX_MS = _format("offset", r"(?P<oms>\d{12,13})(?:\.(?P<of>\d{1,6})\d*|\.)?", "milliseconds since 1970", zone=False)
+# by InfluxDB's precisions, which its exports count in
+UNIX_US = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{3})", "microseconds since 1970", zone=False)
+UNIX_NS = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{6})", "nanoseconds since 1970", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")  # the name of such a column
 # parts of a second in a column behind whole ones: the name of such a column, and how its cells read

@@ -51,11 +51,15 @@ def in_order(n: int) -> Order:
     return Order(n, empty, np.zeros(1, np.int64), empty, np.empty((0, 2), np.int64))
 
 
-def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
-    """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clock_faults`."""
+def find_order(times: Times, n: int, *, resets_allowed: bool, sound: Int1D | None = None) -> Order:
+    """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clock_faults`.
+
+    sound: (first, past-the-last) rows that may step back, for they belong among those before, shape (k, 2).
+    """
     faults = Faults(resets_allowed)
+    looked = times if sound is None or not len(sound) else _standing(times, sound)
     for first in range(0, n, CHUNK_ROWS):
-        t = times(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
+        t = looked(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
         if not faults.look(t, first, min(CHUNK_ROWS, len(t))):
             break
     keep = n if faults.keep is None else faults.keep
@@ -69,6 +73,18 @@ def find_order(times: Times, n: int, *, resets_allowed: bool) -> Order:
         faults.notes(),
     )
     return replace(order, islands=_islands(times, order, faults.lowest))
+
+
+def _standing(times: Times, sound: Int1D) -> Times:
+    """Times of which those of some stretches are replaced by the one before them."""
+
+    def looked(start: int, stop: int) -> Int1D:
+        t = times(start, stop).copy()
+        for a, b in sound[(sound[:, 0] < stop) & (sound[:, 1] > start)].tolist():
+            t[max(a - start, 0) : b - start] = times(a - 1, a)[0] if a <= start else t[a - start - 1]
+        return t
+
+    return looked
 
 
 def by_time(times: Times, n: int) -> Order:

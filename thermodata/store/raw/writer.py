@@ -18,6 +18,7 @@ from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.clock_faults import LEAP_NS
 from thermodata.store.raw.columns import RawFile
 from thermodata.store.raw.order import by_time, find_order
+from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -105,8 +106,17 @@ class StreamWriter:
             t_ns: Int1D = file.read(["t_ns"], first, last)[0]
             return t_ns[::-1] if self.newest_first else t_ns
 
+        def keys(a: int, b: int) -> Hashes:
+            first, last = (n - b, n - a) if self.newest_first else (a, b)
+            some = batches([self.columns[s.name] for s in self.signals], last - first)
+            found = keys_of((c for names in some for c in file.read(names, first, last)), last - first)
+            return found[::-1] if self.newest_first else found
+
         try:
-            return (by_time(times, n) if self.unordered else find_order(times, n, resets_allowed=False)).extent
+            if self.unordered:
+                return by_time(times, n).extent
+            twice = find_repeats(times, keys, n, held=all(s.held for s in self.signals))
+            return find_order(times, n, resets_allowed=False, sound=twice.sound).extent
         finally:
             file.close()
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +13,7 @@ from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, by_time, find_order, in_order
+from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of, pieces
 from thermodata.store.raw.streams import RawStream
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
@@ -22,7 +23,8 @@ _MOST_STRETCHES = 50
 
 @dataclass(slots=True)
 class Timeline:
-    """rows: how many. raws: (raw, what is added to its times [ns]) in file order.
+    """rows: how many. raws: (raw, what is added to its times [ns]) in file order. cut: (first, past-the-last) rows of
+    them that are left out, shape (k, 2).
 
     Row numbers count in time order. Not shared between threads.
     """
@@ -35,6 +37,7 @@ class Timeline:
     suspect: bool = False
     losses: tuple[Loss, ...] = ()
     notes: tuple[str, ...] = ()
+    cut: Int1D = field(default_factory=lambda: np.empty((0, 2), np.int64))
     _files: RawFiles = field(default_factory=RawFiles)
     _times: Int1D | None = None
 
@@ -155,11 +158,11 @@ class Timeline:
         """(raw, its rows a to b) that make up rows start to stop in file order; of a file that stands newest first
         they are counted from its end."""
         at = 0
-        for raw, _ in self.raws:
-            a, b = max(start - at, 0), min(stop - at, raw.rows)
-            at += raw.rows
+        for k, low, high in pieces([raw.rows for raw, _ in self.raws], self.cut):
+            a, b = max(start - at, 0), min(stop - at, high - low)
+            at += high - low
             if a < b:
-                yield raw, a, b
+                yield self.raws[k][0], low + a, low + b
 
     def _file_times(self, start: int, stop: int) -> Int1D:
         """Times in file order, corrected and with what resets add."""
@@ -220,8 +223,9 @@ def make_timeline(
     """Puts the rows of the files of one stream in order.
 
     raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line.
-    Rows that step back by a second at most are sorted in and flagged; `clock_faults` says what is done about strays
-    and clocks that were set. What follows a long step back is lost with a reason where resets are not allowed.
+    Rows that step back by a second at most are sorted in and flagged. What stands in the files twice is left out
+    (`repeats`); `clock_faults` says what is done about strays and clocks that were set. What follows a long step back
+    is lost with a reason where resets are not allowed.
     """
     n = sum(raw.rows for raw, _ in raws)
     line = Timeline(n, store, tuple(raws), correct, in_order(n), suspect, (), tuple(notes))
@@ -230,7 +234,12 @@ def make_timeline(
     if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
         order = by_time(line._file_times, n)
     else:
-        order = find_order(line._file_times, n, resets_allowed=resets_allowed)
+        begins = [0, *accumulate(raw.rows for raw, _ in raws)]
+        held = all(s.held for raw, _ in raws for s in raw.signals)
+        twice = find_repeats(line._file_times, _keys(line), n, begins, held=held)
+        line.cut, n = twice.cut, n - int((twice.cut[:, 1] - twice.cut[:, 0]).sum())
+        line.notes += twice.notes()
+        order = find_order(line._file_times, n, resets_allowed=resets_allowed, sound=twice.left())
     if order.keep < n:
         line.losses = (_lost(line, order.keep, n),)
     line.notes += order.notes
@@ -242,6 +251,22 @@ def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
     return all(raw.ordered for raw, _ in raws) and all(
         a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
     )
+
+
+def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
+    """What tells the values of rows apart; a signal that a file lacks is one without a value."""
+    text = {s.name: s.dtype == "str" for raw, _ in line.raws for s in raw.signals}
+
+    def columns(start: int, stop: int) -> Iterator[Array]:
+        for names in batches(list(text), stop - start):
+            found = line.columns(names, start, stop)
+            for name in names:
+                yield found[name] if name in found else np.full(stop - start, None if text[name] else np.nan)
+
+    def keys(start: int, stop: int) -> Hashes:
+        return keys_of(columns(start, stop), stop - start)
+
+    return keys
 
 
 def _lost(line: Timeline, keep: int, n: int) -> Loss:

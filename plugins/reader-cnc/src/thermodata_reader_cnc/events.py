@@ -165,10 +165,16 @@ def recording(
 
 
 class HeldTable:
-    """Collects events into blocks of rows. Events that share a time stamp and stand together share a row."""
+    """Collects events into blocks of rows. Events that share a time stamp and stand together share a row. keep_all:
+    as `HeldRows` has it."""
 
     def __init__(
-        self, plan: Plan, source: Source, complain: Callable[[Event, str], Iterator[Loss]], ordered: bool = True
+        self,
+        plan: Plan,
+        source: Source,
+        complain: Callable[[Event, str], Iterator[Loss]],
+        ordered: bool = True,
+        keep_all: bool = False,
     ) -> None:
         self.plan, self.complain = plan, complain
         self.clock = LocalClock(source.timezone)
@@ -177,7 +183,7 @@ class HeldTable:
         for key, fed in plan.items.items():
             groups.setdefault(plan.stream(key), {}).update({t.name: t.dtype for t in fed})
         for stream, dtypes in groups.items():
-            self._rows[stream] = HeldRows(dtypes, stream, ordered)
+            self._rows[stream] = HeldRows(dtypes, stream, ordered, keep_all)
         widest = max(map(len, groups.values()), default=1)
         self._most = max(1, _MOST_VALUES // widest)
         self._waiting = 0
@@ -189,16 +195,16 @@ class HeldTable:
             yield from self.complain(event, "an item that the first look at the file did not meet; it is not read")
             return
         rows = self._rows[self.plan.stream(event.key)]
-        if rows.last != event.time:
-            if self._waiting >= self._most:
-                yield from self.flush()
-            self._waiting += 1
+        if rows.last != event.time and self._waiting >= self._most:
+            yield from self.flush()
+        before = len(rows)
         words = event.value.split(None, _MOST_WORDS + 1)
         for target in fed:
             value, flag, good = _value(target, event.value, words)
             if not good:
                 yield from self.complain(event, f"expected a number, got '{event.value[:40]}'")
             rows.add(event.time, target.name, value, event.flag | flag, event.at)
+        self._waiting += len(rows) - before
 
     @property
     def last_time(self) -> str | None:

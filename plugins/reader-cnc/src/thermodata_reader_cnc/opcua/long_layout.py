@@ -1,5 +1,5 @@
 """Where a long table holds its parts: the time, the tag, the value and its status, under the names that loggers and
-historians give them. InfluxDB parts a tag into columns, of which those count that differ."""
+historians give them. A tag may be parted into columns, of which those count that differ."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.errors import FormatError
+from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Grid
 from thermodata.reader.text.long_rows import NAME_WORDS, VALUE_WORDS
@@ -15,15 +16,17 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.status import zero_is_good
 from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.timestamp import UNIX_MS, TimeFormat, declared_format
+from thermodata.reader.text.timestamp import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
+from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (
     *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
-    *("tstamp", "ts", "receivedat", "zeitstempel", "zeit", "čas"),
+    *("tstamp", "ts", "receivedat", "updatedate", "zeitstempel", "zeit", "čas"),
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
 _UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
 _STATUS = (*("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity", "dataintegrity"),)
+_OTHERS = (*_STATUS, *_UNITS, "datatype")
 _ROWS = 2000  # below the header, by which the times are known
 
 
@@ -31,7 +34,8 @@ _ROWS = 2000  # below the header, by which the times are known
 class Layout:
     """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
     is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
-    where there is none; annotated: lines that begin with '#' are none of it."""
+    where there is none; annotated: lines that begin with '#' are none of it; unread: names of columns of numbers that
+    differ and are none of these."""
 
     delimiter: str
     row: int
@@ -46,6 +50,7 @@ class Layout:
     zero_good: bool
     unit: int | None
     annotated: bool
+    unread: tuple[str, ...] = ()
 
     @property
     def wanted(self) -> set[int]:
@@ -66,7 +71,8 @@ class Layout:
         tags = [[c or "" for c in columns[k]] for k in self.tags]
         if len(tags) == 1:
             return tags[0]
-        return [self.known.get(each) or "/".join(filter(None, each)) for each in zip(*tags, strict=True)]
+        known = self.known
+        return [known[e] if e in known else "/".join(filter(None, e)) for e in zip(*tags, strict=True)]
 
     def is_header(self, line: str) -> bool:
         """Whether a line repeats the header, or is an annotation: no loss."""
@@ -105,11 +111,8 @@ def find_layout(
                 continue
             if influx:
                 times, status = (raw.index("_time"),), None
-                tags, known = _series(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
-            else:
-                tag = next((names.index(n) for n in NAME_WORDS if n in names), None)
-                tags, known = () if tag is None else (tag,), {}
-            if not tags and ("sourcetimestamp" not in names or status is None):
+            tag = next((names.index(n) for n in NAME_WORDS if n in names), None)
+            if not influx and tag is None and ("sourcetimestamp" not in names or status is None):
                 continue
             body = [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS] if not text.startswith("#")]
             body = [cells for cells in body if len(cells) == len(names)]
@@ -118,51 +121,39 @@ def find_layout(
                 continue
             zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
             unit = next((names.index(n) for n in _UNITS if n in names), None)
+            series = Series((), {})
+            if influx:
+                series = series_of_influx(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
+            elif tag is not None:
+                split = (fields(x, delimiter) for x in (*lines[row + 1 :], *later))
+                rows = [cells for cells in split if len(cells) == len(names)]
+                used = {*times, value, *(k for k, n in enumerate(names) if n in _OTHERS)}
+                t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
+                series = series_of(names, rows, t_ns, tag, used)
             return Layout(
                 delimiter,
                 row,
                 clean_line(line),
                 len(names),
                 times,
-                tags,
-                known,
+                series.tags,
+                series.known,
                 value,
                 status,
                 form,
                 zero,
                 unit,
                 influx,
+                tuple(raw[k] for k in series.unread),
             )
     return None
 
 
-def _series(
-    names: Sequence[str], rows: Sequence[Sequence[str]]
-) -> tuple[tuple[int, ...], Mapping[tuple[str, ...], str]]:
-    """(columns that tell series apart, the name of each series by the fewest of them) of an export of InfluxDB: its
-    field, what it is tagged with, and its measurement."""
-    keys = [k for word in ("_field", "", "_measurement") for k, n in enumerate(names) if _is_key(n, word)]
-    body = [r for r in rows if len(r) == len(names) and not r[0].startswith("#")]
-    found = dict.fromkeys(tuple(clean(r[k]) for k in keys) for r in body)
-    found.pop(tuple(names[k] for k in keys), None)  # headers that are repeated
-    telling: list[int] = []
-    for i in range(len(keys)):
-        if len({tuple(each[j] for j in (*telling, i)) for each in found}) > len(
-            {tuple(each[j] for j in telling) for each in found}
-        ):
-            telling.append(i)
-    return tuple(keys), {each: "/".join(filter(None, (each[i] for i in telling or [0]))) for each in found}
-
-
-def _is_key(name: str, word: str) -> bool:
-    """Whether a column is the one of this word; for none, whether it holds a tag."""
-    return name == word if word else bool(name) and name[0] != "_" and name not in ("result", "table")
-
-
 def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:
     """How the times are written; None where they are no dates. FormatError: no order of day and month."""
-    if stamps and all(re.fullmatch(r"\d{12,13}", s) for s in stamps):
-        return UNIX_MS
+    for digits, form in ((r"\d{12,13}", UNIX_MS), (r"\d{16}", UNIX_US), (r"\d{19}", UNIX_NS)):
+        if stamps and all(re.fullmatch(digits, s) for s in stamps):
+            return form
     order = declared if declared in ("dmy", "mdy", "ymd") else None
     if declared and not order and "%" in declared:
         return declared_format(declared)
@@ -172,9 +163,17 @@ def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat
         if error.what.startswith("day and month"):
             raise
         spelled = guess_format(stamps) if stamps else None
-        # the name of a month leaves nothing to confirm
-        return declared_format(spelled) if spelled and "%b" in spelled and "%Y" in spelled else None
+        # the name of a month leaves nothing to confirm but which end of it is the year
+        return declared_format(spelled) if spelled and "%b" in spelled and _year_is_last(spelled, stamps) else None
     return form if form.role == "datetime" else None
+
+
+def _year_is_last(spelled: str, stamps: Sequence[str]) -> bool:
+    """Whether 02-Mar-26 is of 2026, as historians write it: a log goes through days, and hardly through years."""
+    if "%Y" in spelled:
+        return True
+    ends = {m.groups() for s in stamps if (m := re.match(r"\s*(\d{1,2})\W[^\W\d]+\W(\d{2})\b", s))}
+    return bool(ends) and len({last for _, last in ends}) <= len({first for first, _ in ends})
 
 
 def _time(cells: Sequence[str], times: Sequence[int]) -> str:

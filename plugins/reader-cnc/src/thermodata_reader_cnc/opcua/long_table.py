@@ -147,6 +147,8 @@ def _look(path: Path, source: Source) -> _Look:
     by_tag = 0 < changes < 0.1 * len(head) and 2 * back > changes
     notes = [first.note] if first.note else []
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
+    if layout.unread:
+        notes.append(f"not read, beside the value: {', '.join(repr(name) for name in layout.unread)}")
     return _Look(
         layout,
         replace(plan, apart=plan.apart or by_tag),
@@ -200,7 +202,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     def complain(event: Event, reason: str) -> Iterator[Loss]:
         return limited(event.key, Loss(event.where, reason=f"'{event.key}': {reason}"))
 
-    table = HeldTable(look.plan, source, complain, ordered=look.by_tag)
+    table = HeldTable(look.plan, source, complain, ordered=look.by_tag, keep_all=True)
     for event in _all(path, look):
         if isinstance(event, Loss):
             yield from limited("", event)

@@ -1,0 +1,128 @@
+"""Long tables whose tag alone does not name what is measured."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_cnc import Reader
+from thermodata_reader_cnc.opcua import long_table
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.testing.reader import load
+from thermodata.testing.reader.case import Data
+
+N = 40
+
+
+def stamp(k: float) -> str:
+    return f"2026-03-02T08:{int(k) // 60:02d}:{k % 60:06.3f}Z"
+
+
+def read(tmp_path: Path, header: str, rows: list[str], declared: Source | None = None) -> Data:
+    path = tmp_path / "long.csv"
+    path.write_text("\n".join([header, *rows, ""]), encoding="utf-8")
+    return load(Reader(), path, declared or Source(timezone="UTC"))
+
+
+def values(data: Data) -> dict[str, list[float]]:
+    return {name: array.tolist() for (_, name), array in data.values.items()}
+
+
+@pytest.mark.parametrize("label", ["device", "host", "machine", "keller", "messung"])
+@pytest.mark.parametrize("apart_s", [0, 2])
+def test_sensors_of_one_name_on_two_devices_are_two_channels(tmp_path: Path, label: str, apart_s: int) -> None:
+    rows = [f"{stamp(5 * k + apart_s * d)},mc{d},T_bed,{20 + 10 * d + k / 8}" for k in range(N) for d in (0, 1)]
+    data = read(tmp_path, f"timestamp,{label},sensor,value", rows)
+    found = values(data)
+    assert set(found) == {"mc0/T_bed", "mc1/T_bed"}
+    for d in (0, 1):
+        own = np.array(found[f"mc{d}/T_bed"])
+        assert set(own[~np.isnan(own)]) == {20 + 10 * d + k / 8 for k in range(N)}
+    assert not data.losses
+
+
+def test_devices_that_stand_one_behind_the_other_are_channels_of_their_own(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},{where},T,{10 * d + k / 8}" for d, where in enumerate(("unten", "oben")) for k in range(N)]
+    found = values(read(tmp_path, "time,lage,tag,value", rows))
+    assert found == {"unten/T": [k / 8 for k in range(N)], "oben/T": [10 + k / 8 for k in range(N)]}
+
+
+def test_the_name_of_a_measurement_gives_way_to_the_names_of_its_fields(tmp_path: Path) -> None:
+    rows = [f"temperatures,{stamp(k)},M1,{f},{k + v}" for k in range(N) for v, f in enumerate(("front", "rear"))]
+    data = read(tmp_path, "name,time,machine,field,value", rows)
+    assert values(data) == {"front": [float(k) for k in range(N)], "rear": [k + 1.0 for k in range(N)]}
+    rows = [f"{name},{stamp(k)},M1,x,{k + v}" for k in range(N) for v, name in enumerate(("bed", "hall"))]
+    assert set(values(read(tmp_path, "name,time,machine,field,value", rows))) == {"bed/x", "hall/x"}
+
+
+def test_statistics_of_a_sensor_are_channels(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},T,{s},{k + v}" for k in range(N) for v, s in enumerate(("avg", "min", "max"))]
+    assert set(values(read(tmp_path, "time,tag,stat,value", rows))) == {"T/avg", "T/min", "T/max"}
+
+
+def test_a_word_that_says_how_the_machine_was_is_no_part_of_a_name(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},T{t},{'warm' if k < N // 2 else 'cold'},{k + t},REAL" for k in range(N) for t in (1, 2)]
+    found = values(read(tmp_path, "time,tag,remark,value,dataType", rows))
+    assert found == {"T1": [k + 1.0 for k in range(N)], "T2": [k + 2.0 for k in range(N)]}
+
+
+def test_a_device_that_the_first_look_did_not_meet_is_a_loss(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(long_table, "_LOOK", 1000)
+    rows = [f"{stamp(k)},mc1,T,{k}" for k in range(3000)]
+    rows[200] = f"{stamp(200)},mc2,T,7"
+    data = read(tmp_path, "time,device,tag,value", rows)
+    assert set(values(data)) == {"T"}
+    assert 7 not in values(data)["T"][190:210]
+    assert [loss.where for loss in data.losses] == ["long.csv line 202"]
+    assert "mc2/T" in data.losses[0].reason
+
+
+def test_all_values_under_one_coarse_stamp_are_kept(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{k // 4:02d},{tag},{k + v}" for k in range(N) for v, tag in enumerate(("T", "rpm"))]
+    data = read(tmp_path, "time,tag,value", rows)
+    assert values(data) == {"T": [float(k) for k in range(N)], "rpm": [k + 1.0 for k in range(N)]}
+    assert np.diff(data.t_ns["nc"]).tolist() == [0 if k % 4 else 10**9 for k in range(1, N)]
+
+
+def test_columns_of_numbers_beside_the_value_are_said(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},T{t},{k},{k + 0.5},5" for k in range(N) for t in (1, 2)]
+    data = read(tmp_path, "time,tag,value,raw,span", rows)
+    assert data.recording.notes == ("not read, beside the value: 'raw'",)
+
+
+@pytest.mark.parametrize(
+    ("header", "row"),
+    [
+        ("time,measurement,machine,field,value", "{ms},temp,M1,{tag},{v}"),
+        ("time,field,value", "{ms},{tag},{v}"),
+        ("time,field,value", "{ms}000,{tag},{v}"),
+        ("name,time,field,value", "temp,{ms}000000,{tag},{v}"),
+        ("L1Name,updatedate,enddate,timespan,signalname,value", "M1,{us} AM,{us} AM,5,{tag},{v}"),
+        ("Tag,Time,Value", "{tag},{pi},{v}"),
+    ],
+)
+def test_the_headers_of_further_exports(tmp_path: Path, header: str, row: str) -> None:
+    first = np.datetime64("2026-07-16T08:00:00", "ms").astype(int)
+    rows = [
+        row.format(
+            ms=first + k * 1000,
+            us=f"07/16/2026 08:00:{k:02d}",
+            pi=f"16-Jul-26 08:00:{k:02d}",
+            tag=tag,
+            v=k + v / 2,
+        )
+        for k in range(N)
+        for v, tag in enumerate(("T1", "T2"))
+    ]
+    data = read(tmp_path, header, rows)
+    assert values(data) == {"T1": [float(k) for k in range(N)], "T2": [k + 0.5 for k in range(N)]}
+    assert data.t_ns["nc"].tolist() == [(first + k * 1000) * 1_000_000 for k in range(N)]
+
+
+def test_a_month_by_name_between_two_numbers_that_goes_through_years_is_asked(tmp_path: Path) -> None:
+    rows = [f"T,02-Mar-{k:02d} 08:00:00,{k}" for k in range(1, 25)]
+    with pytest.raises(FormatError):
+        read(tmp_path, "Tag,Time,Value", rows)
