@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
 
+from thermodata.draft.jumps import JumpTest
 from thermodata.draft.make import draft_files
 from thermodata.schema.campaign import Campaign
 from thermodata.store.ingest.unanswered import unanswered
@@ -27,7 +29,7 @@ def test_the_sign_of_a_displacement_in_micrometres_is_asked(tmp_path: Path) -> N
     made = draft_files(tmp_path / "lab").draft
     (asked,) = [q for c in made.channels if c.name == "dZ" for q in c.said.questions]
     assert "which way does it count?" in asked
-    assert "axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap" in asked
+    assert "axis: Z, gain: 1 um/um, facing: ?, increases_with: ?" in asked
 
 
 @pytest.mark.parametrize(
@@ -73,3 +75,25 @@ def test_a_jump_test_that_no_probe_needs_is_named_as_such(tmp_path: Path) -> Non
     log(tmp_path / "lab" / "jump_Z.csv", "dZ [um]", staircase(100.0))
     ((_, why),) = [x for x in draft_files(tmp_path / "lab").draft.not_used if "jump" in x[0]]
     assert why == "taken for a jump test, and no probe in volts needs it"
+
+
+def test_a_probe_without_a_unit_is_one_by_its_name_and_has_its_jump_test(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "probe.x", [5.0 + i / 100 for i in range(200)])
+    log(tmp_path / "lab" / "S6000.csv", "probe.x", [5.0 - i / 100 for i in range(200)])
+    log(tmp_path / "lab" / "jump_X.csv", "probe.x", staircase(2.0))
+    made = draft_files(tmp_path / "lab").draft
+    (probe,) = [c for c in made.channels if c.signal == "probe.x"]
+    assert (probe.said.quantity, probe.said.axis, probe.calibration) == ("displacement", "X", "jump_probe_x")
+    assert any("unit" in q for q in probe.said.questions)
+    assert [t.id for t in made.tests] == ["S3000", "S6000"], "a jump test is no test"
+
+
+def test_a_jump_test_finds_its_probe_where_each_signal_has_a_stream() -> None:
+    def jump(*signals: str) -> JumpTest:
+        file = SimpleNamespace(signals=[SimpleNamespace(stream=f"s{i}", name=n) for i, n in enumerate(signals)])
+        return JumpTest(file, ("s0", signals[0]), (), 10.0, True)  # type: ignore[arg-type]
+
+    assert jump("Y").is_of("s0", "Y")
+    assert jump("Y").is_of("s1", "Y"), "the second signal of the tests, and the first here"
+    assert not jump("Y").is_of("s0", "X")
+    assert not jump("Y", "Y").is_of("s1", "Y"), "two of one name are told apart by their streams"

@@ -36,6 +36,12 @@ class JumpTest:
     dwell_s: float
     named: bool
 
+    def is_of(self, stream: str, name: str) -> bool:
+        """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""
+        if self.signal is None or self.signal[1] != name:
+            return False
+        return self.signal[0] == stream or sum(s.name == name for s in self.file.signals) == 1
+
 
 def jump_of(file: RawFile) -> JumpTest | None:
     """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with

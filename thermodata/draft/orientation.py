@@ -17,8 +17,8 @@ def which_way(said: Guess) -> str:
     name = f"sign_{axis.lower()}"
     return (
         f"which way does it count? its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
-        f"scale, axis: {axis}, gain: 1 um/{unit}, facing: -{axis}, increases_with: gap}} (or +{axis}, or approach) "
-        "under calibrations"
+        f"scale, axis: {axis}, gain: 1 um/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
+        f"+{axis} or -{axis}, where the probe looks; increases_with: gap or approach"
     )
 
 

@@ -164,7 +164,8 @@ def _channels(
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
         said, note = _said(signal, files)
-        jump = next((j for j in jumps if j.signal == (signal.stream, signal.name)), None)
+        key = (signal.stream, signal.name)
+        jump = next((j for j in jumps if j.signal == key or (signal.name not in twice and j.is_of(*key))), None)
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
@@ -234,7 +235,7 @@ def _calibration(
 ) -> tuple[str | None, Guess]:
     """The jump test of a probe in volts; without one, the question for it."""
     key = (signal.stream, signal.name)
-    fitting = [j for j in jumps if j.signal == key] or [
+    fitting = [j for j in jumps if j is jump or j.signal == key] or [
         j
         for j in jumps
         if j.signal is None

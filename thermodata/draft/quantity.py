@@ -172,6 +172,8 @@ def _by_name(named: tuple[str, ...], own: str, values: Values | None, dtype: str
         return Guess(None, why_not=f"quantity: {' or '.join(named)}? ({range_text(values)})")
     if named:
         return Guess(named[0], basis=("name",), sure=False)
+    if (axis_of(own) or "") in ("x", "y", "z") and places_in(own) == {"probe"}:
+        return Guess("displacement", basis=("name",))  # 'probe X'
     if (
         values is not None
         and not values.constant

@@ -10,7 +10,10 @@ from thermodata.schema.places import PLACES, is_known
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
 _SHOWN = 6
-SIGN = "calibrations: {sign_z: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}}"
+SIGN = (
+    "calibrations: {sign_z: {kind: scale, axis: Z, gain: 1 um/um, facing: ?, increases_with: ?}} (+Z or -Z; gap or "
+    "approach)"
+)
 
 
 def unanswered(campaign: Campaign) -> list[str]:
