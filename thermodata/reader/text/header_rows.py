@@ -85,6 +85,8 @@ def _named(spanning: Sequence[Sequence[str]], width: int) -> int | None:
         times = [k for k, c in enumerate(row) if _says_time(c)]
         if not times or not all(row) or len(set(row)) < width or any(is_number(c) or is_stamp(c) for c in row):
             continue
+        if _mostly_units(spanning[i + 1]) and not any(spanning[-1][k] for k in times):
+            return i  # units stand below names: a further row, without a word for the time, says where these come from
         below = [r for r in spanning[i + 1 :] if not _mostly_units(r)]
         return i if below and all(_names_nothing(r, times) for r in below) else None
     return None

@@ -284,7 +284,7 @@ def _width(body: Sequence[Sequence[Cell]]) -> int:
 
 
 def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
-    stamped = _stamped(body, width)
+    stamped, dates = _stamped(body, width), _dates(body, width)
     for i, row in enumerate(body):
         if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
             continue  # a row of a list of channels with their ranges
@@ -292,7 +292,9 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
             continue
         words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
-        dated = any(map(is_dated, row)) and 2 * sum(c not in ("", None) for c in row) > width
+        dated = 2 * sum(c not in ("", None) for c in row) > width and any(
+            is_dated(c) and (dates is None or k in dates) for k, c in enumerate(row)
+        )
         alone = following and not _is_data(following[0], width) and following[0] not in body[:i]
         if words and alone and not dated:
             continue  # "Serial;4711" above the header; a row above one that is repeated is data
@@ -305,6 +307,15 @@ def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         expected="rows of numbers and times",
         hint="declare table: {header_rows: ..., skip_rows: ...}",
     )
+
+
+def _dates(body: Sequence[Sequence[Cell]], width: int) -> set[int] | None:
+    """Columns that hold a date in nearly all rows of the second half; None where there are too few rows to say so. A
+    preamble has a date too: 'Start: 05.02.2026' above a time in seconds."""
+    late = [r for r in _second_half(body) if len(r) >= width - 1]
+    if len(late) < 5:
+        return None
+    return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_dated, 0.9, len(late))}
 
 
 def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
