@@ -131,8 +131,8 @@ MUTANTS = [
     text("time_formats.py", "zoned * 2 > len(some)", "zoned > 0", "one zone makes all local times bad"),
     text("time_formats.py", "_FEW, _MANY = 40, 4000", "_FEW, _MANY = 40, 40", "one day above 12 is not seen"),
     # ---- clocks
-    text("local_clock.py", "steps < -_HALF_DAY", "steps < 0", "each step back is a midnight"),
-    text("local_clock.py", "_HALF_DAY = 12 *", "_HALF_DAY = 6 *", "days have twelve hours"),
+    text("local_clock.py", "(ahead < -self._cycle // 2)", "(ahead < 0)", "each step back is a midnight"),
+    text("local_clock.py", "_DAY = 24 *", "_DAY = 12 *", "days have twelve hours"),
     text("local_clock.py", "nights = self._nights + ", "nights = ", "midnight is forgotten with the next part"),
     text(
         "local_clock.py",
