@@ -11,8 +11,9 @@ from dataclasses import replace
 from functools import lru_cache
 
 from thermodata.draft import units
+from thermodata.draft.axis import axis_of
 from thermodata.draft.naming import words
-from thermodata.draft.place import Place, axis_of, place_of
+from thermodata.draft.place import Place, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says

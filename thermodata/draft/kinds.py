@@ -9,9 +9,9 @@ from datetime import UTC, datetime
 
 import numpy as np
 
+from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import guess_of
 from thermodata.draft.naming import words
-from thermodata.draft.place import axis_of
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.said_by_names import Said, said_by
 from thermodata.draft.vocabulary import says

@@ -1,4 +1,4 @@
-"""Where on the machine: the place and the axis that a name speaks of."""
+"""Where on the machine: the place that a name speaks of."""
 
 from __future__ import annotations
 
@@ -6,22 +6,9 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from thermodata.draft.axis import axis_of
 from thermodata.draft.vocabulary import places_in
 
-_BESIDE = (
-    r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
-    r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f"
-)
-_AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
-# 'MX840B' is an amplifier, and no axis
-_LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)(?! \d{{3}} b)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
-_ROTARY = re.compile(
-    r"(?<!\S)(?:axis|achse|osa|asse|axe|eje|eixo|tengely|eksen|ось|ax|rotary|torquemotor|act|ist|pos|mot|motor|load|curr|current|torque|speed|"
-    r"drehzahl|otacky) ?([abc])(?!\S)"
-    r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
-    r"n|speed|drehzahl|otacky|rpm)(?!\S)"
-    r"|(?<!\S)([abc]) ?[轴軸]"
-)
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
@@ -50,13 +37,6 @@ class Place:
     at: str | None
     sure: bool = False
     question: str | None = None
-
-
-def axis_of(text: str) -> str | None:
-    """The one axis letter (lower case) that a name (as words()) speaks of; None where none or several."""
-    found = {a or b for a, b in _LINEAR.findall(text)}
-    found |= {a or b or c for a, b, c in _ROTARY.findall(text)}
-    return found.pop() if len(found) == 1 else None
 
 
 def place_of(text: str, quantity: str) -> Place:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.axis import axis_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import called, guess
@@ -18,7 +19,6 @@ from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name, words
 from thermodata.draft.orientation import which_way, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
-from thermodata.draft.place import axis_of
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.scan import Scan

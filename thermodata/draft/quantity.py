@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.draft import units
-from thermodata.draft.place import axis_of
+from thermodata.draft.axis import axis_of
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
 from thermodata.reader.time_units import found_epoch
