@@ -124,6 +124,15 @@ def test_each_spindle_has_effects_of_its_own() -> None:
     assert family_of(effect("spindle_gearbox"), {"temperature": "T_main"}, TWO_SPINDLES) == "gearbox"
 
 
+def test_a_speed_without_a_place_is_of_the_spindle_without_a_name() -> None:
+    speeds = {"n": ChannelInfo("n", "rotational_speed", "rpm"), "n_counter": TWO_SPINDLES["n_counter"]}
+    friction = effect("spindle_friction")
+    assert bindings(friction, speeds) == [{"speed": "n"}, {"speed": "n_counter"}]
+    assert unnamed(friction, speeds) == [{"speed": "n"}]
+    mixed = bindings(effect("spindle_heating_cooling"), speeds | {"T": TWO_SPINDLES["T_counter"]})
+    assert [tuple(b.values()) for b in mixed] == [("T", "n_counter")], "nor is it of the counter spindle"
+
+
 def test_an_effect_without_drivers_means_the_spindle_without_a_name() -> None:
     bearing = effect("spindle_bearing")
     assert unnamed(bearing, TWO_SPINDLES) == [{"temperature": "T_main"}]

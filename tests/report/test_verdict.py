@@ -199,14 +199,20 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
 
 
-def test_the_likeliest_that_the_locked_tests_refuse_is_told_with_that() -> None:
-    why = (
-        "not claimed: sun explains the open tests, but the locked ones do not bear it out (error there 1.00 -> 1.20 um)"
-    )
-    said = "the likeliest that was logged is sun (T), probability 82 %"
-    refused = verdict_sentence(found("unknown", [one("sun", id="sun", probability=0.82, why=why)]))
-    assert refused.endswith(f"{said}, though the locked tests do not bear it out")
-    assert verdict_sentence(found("unknown", [one("sun", id="sun", probability=0.82)])).endswith(said)
+def rung(name: str, *, holds: bool) -> Rung:
+    return Rung(name=name, asks="", value=1.0, limit=0.5, at="least", asked=True, holds=holds, unit="1")
+
+
+@pytest.mark.parametrize(("tests", "holds", "told"), [(2, True, True), (2, False, False), (None, True, False)])
+def test_the_likeliest_that_the_locked_tests_refuse_is_told_with_that(
+    tests: int | None, holds: bool, told: bool
+) -> None:
+    """It keeps all rules, and is no claim: there is nothing else that may have stopped it."""
+    rungs = [rung("fall", holds=True), rung("probability", holds=holds)]
+    first = one("sun", probability=0.82, locked_tests_asked=tests, rungs=rungs)
+    text = verdict_sentence(found("unknown", [first]))
+    assert "the likeliest that was logged is sun (T), probability 82 %" in text
+    assert text.endswith("though the locked tests do not bear it out") is told
 
 
 @pytest.mark.parametrize(("tests", "said"), [(2, True), (0, False), (None, False)])

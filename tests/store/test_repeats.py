@@ -120,3 +120,11 @@ def test_a_copy_behind_steps_back_that_are_none_is_found_and_behind_very_many_it
 def test_what_is_left_of_several_files() -> None:
     cut = np.array([[2, 4], [5, 6], [9, 12]])
     assert list(pieces([5, 6, 4], cut)) == [(0, 0, 2), (0, 4, 5), (1, 1, 4), (2, 1, 4)]
+
+
+def test_nobody_looks_for_copies_without_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each is held against all rows before it."""
+    t = np.concatenate([4 * k + np.array([0.0, 2.0, 0.0, 2.0]) for k in range(20)])
+    assert len(found(t, t).cut) == 20
+    monkeypatch.setattr(repeats_module, "_MOST_COPIES", 5)
+    assert len(found(t, t).cut) == 5

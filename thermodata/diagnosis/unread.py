@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from thermodata.effect.binding import Described
 from thermodata.effect.places import holds
 from thermodata.plugin import Effect
+from thermodata.schema.places import is_spindle
 
 AXIS = "axis."
 LINEAR = "xyzuvw"
@@ -88,7 +89,7 @@ def reads(channels: Mapping[str, Described], place: str) -> bool:
 
 def warms_the_holder(channel: Described) -> bool:
     """Whether what holds the probes warms with it, beside the machine."""
-    cuts = channel.quantity in CUTS and (channel.at or "").lower().endswith("spindle")
+    cuts = channel.quantity in CUTS and is_spindle(channel.at)
     return cuts or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.places import is_spindle
 from thermodata.view.dataset import TestData
 
 WINDOW_S = 1800.0
@@ -97,7 +98,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             continue
         if info.quantity in ("rotational_speed", "feed", "power", "load", "current", "voltage", "flow"):
             level, largest = float(np.median(np.abs(part))), float(np.nanmax(np.abs(values)))
-            of_spindle = info.quantity == "rotational_speed" and not (info.at or "").startswith(("table", "rotary"))
+            of_spindle = info.quantity == "rotational_speed" and (info.at is None or is_spindle(info.at))
             spindles = spindles or of_spindle
             if of_spindle and level < _AT_REST_RPM:
                 continue

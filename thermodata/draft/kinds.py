@@ -17,6 +17,7 @@ from thermodata.draft.said_by_names import Said, said_by
 from thermodata.draft.vocabulary import says
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D
+from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import canonical, linear_conversion
 
 _KINDS: tuple[tuple[str, str], ...] = (
@@ -216,7 +217,7 @@ def _add(found: _Moved, quantity: str | None, at: str, largest: float, span: flo
         found.seen = True
         if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
             found.rotary = True
-        elif largest > 20 and at.endswith("spindle") and course is not None:
+        elif largest > 20 and is_spindle(at) and course is not None:
             found.speeds = max(found.speeds, _plateaus(course), key=len)
         elif largest > 1 and at.startswith(("table", "rotary")):
             found.rotary = True

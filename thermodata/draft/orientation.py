@@ -1,14 +1,18 @@
-"""What turns a displacement to the machine's axes: its sign, asked where nothing tells it, and jump tests that are left
-over."""
+"""What turns a displacement to the machine's axes: jump tests, and the sign, asked where nothing tells it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from statistics import median
 
+from thermodata.draft.axis import axis_of
 from thermodata.draft.jumps import JumpTest
+from thermodata.draft.naming import words
 from thermodata.draft.parts import DraftJump
 from thermodata.draft.quantity import Guess
+from thermodata.draft.sources import Group
+from thermodata.plugin import Signal
 
 
 def which_way(said: Guess) -> str:
@@ -45,3 +49,49 @@ def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump]) ->
 def _height(steps: Sequence[float]) -> float:
     """The usual height of steps; 0 where there are none."""
     return median(abs(s) for s in steps) if steps else 0.0
+
+
+def calibration_of(
+    name: str,
+    signal: Signal,
+    said: Guess,
+    jump: JumpTest | None,
+    group: Group,
+    jumps: Sequence[JumpTest],
+    calibrations: list[DraftJump],
+) -> tuple[str | None, Guess]:
+    """The jump test of a probe in volts, added to the calibrations; without one, the question for it. jump: the one in
+    which it is seen to move; jumps: all, of which one that shows no steps may be its own by its name."""
+    jump = jump or next((j for j in jumps if _may_be_of(j, signal, said)), None)
+    if jump is None:
+        asked = "calibration? a jump test, or kind: scale with a gain in um/V"
+        return None, replace(said, sure=False, questions=(*said.questions, asked))
+    letter = axis_of(words(jump.file.path.stem))
+    axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
+    if said.axis is None and axis is not None:
+        others = (q for q in said.questions if q != "axis?")
+        asked = f"axis: {axis} by {jump.file.path.name}?"
+        said = replace(said, axis=axis, sure=False, questions=(*others, asked))
+    seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
+    steps = f"seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}"
+    calibrations.append(
+        DraftJump(
+            f"jump_{name}",
+            group.source,
+            str(jump.file.path),
+            signal.name,
+            axis,
+            float(f"{jump.dwell_s:.2g}"),
+            seen,
+            said.unit,
+            "moves: the commanded ones, signed, in machine coordinates; "
+            + (steps if seen else "no steps were seen in it"),
+        )
+    )
+    return (f"jump_{name}" if axis else None), said
+
+
+def _may_be_of(jump: JumpTest, signal: Signal, said: Guess) -> bool:
+    """Whether a jump test in which nothing is seen to move has the probe, and is called after no other axis."""
+    has = any((s.stream, s.name) == (signal.stream, signal.name) for s in jump.file.signals)
+    return jump.signal is None and has and axis_of(words(jump.file.path.stem)) in (None, (said.axis or "").lower())

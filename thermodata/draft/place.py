@@ -64,12 +64,17 @@ def place_of(text: str, quantity: str) -> Place:
     axis = turning[1] if turning else axis
     rule: Callable[[set[str], str | None], Place] | None = _RULES.get(quantity)
     found = rule(said, axis) if rule else Place(None)
-    if counter and found.at is not None and found.at.startswith("spindle"):
-        asked = found.question and found.question.replace(" spindle.", " counter_spindle.")
+    if counter and found.at is not None and found.at.partition(".")[0] == "spindle":
+        asked = found.question and asked_of(found.question, "counter")
         return replace(found, at=f"counter_{found.at}", question=asked)
     if found.at == "hall" and quantity == "temperature" and _HEIGHT.search(text):
         return Place("hall", question="at: hall.top, hall.bottom, or hall, at the height of the machine?")
     return found
+
+
+def asked_of(question: str, name: str) -> str:
+    """A question about the spindle, of the one that has a name: counter, milling."""
+    return question.replace(" spindle.", f" {name}_spindle.")
 
 
 def _turret(said: set[str], quantity: str) -> Place:

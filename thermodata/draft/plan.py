@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from thermodata.draft.axis import axis_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.guess import called, guess
@@ -16,8 +15,8 @@ from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
-from thermodata.draft.naming import channel_name, words
-from thermodata.draft.orientation import which_way, why_idle
+from thermodata.draft.naming import channel_name
+from thermodata.draft.orientation import calibration_of, which_way, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
@@ -172,7 +171,7 @@ def _channels(
         name = channel_name(_wished(called(signal), said), taken)
         calibration = None
         if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
-            calibration, said = _calibration(name, signal, said, jump, group, jumps, calibrations)
+            calibration, said = calibration_of(name, signal, said, jump, group, jumps, calibrations)
         elif said.quantity == "displacement" and said.at == "tcp":
             said = replace(said, sure=False, questions=(*said.questions, which_way(said)))
         own = {id(f) for f in files}
@@ -222,70 +221,6 @@ def _wished(signal: str, said: Guess) -> str:
             filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
         )
     return last
-
-
-def _calibration(
-    name: str,
-    signal: Signal,
-    said: Guess,
-    jump: JumpTest | None,
-    group: Group,
-    jumps: Sequence[JumpTest],
-    calibrations: list[DraftJump],
-) -> tuple[str | None, Guess]:
-    """The jump test of a probe in volts; without one, the question for it."""
-    key = (signal.stream, signal.name)
-    fitting = [j for j in jumps if j is jump or j.signal == key] or [
-        j
-        for j in jumps
-        if j.signal is None
-        and any((s.stream, s.name) == key for s in j.file.signals)
-        and axis_of(words(j.file.path.stem)) in (None, (said.axis or "").lower())
-    ]
-    jump = jump or (fitting[0] if fitting else None)
-    if jump is None:
-        return None, Guess(
-            said.quantity,
-            said.unit,
-            said.at,
-            said.axis,
-            False,
-            said.basis,
-            (*said.questions, "calibration? a jump test, or kind: scale with a gain in um/V"),
-        )
-    letter = axis_of(words(jump.file.path.stem))
-    axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
-    if said.axis is None and axis is not None:
-        said = Guess(
-            said.quantity,
-            said.unit,
-            said.at,
-            axis,
-            False,
-            said.basis,
-            (*(q for q in said.questions if q != "axis?"), f"axis: {axis} by {jump.file.path.name}?"),
-        )
-    seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
-    question = "moves: the commanded ones, signed, in machine coordinates"
-    question += (
-        f"; seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}"
-        if seen
-        else "; no steps were seen in it"
-    )
-    calibrations.append(
-        DraftJump(
-            f"jump_{name}",
-            group.source,
-            str(jump.file.path),
-            signal.name,
-            axis,
-            float(f"{jump.dwell_s:.2g}"),
-            seen,
-            said.unit,
-            question,
-        )
-    )
-    return (f"jump_{name}" if axis else None), said
 
 
 def _test(

@@ -45,20 +45,20 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class Repeats:
+class RepeatedTimes:
     """Rows at the time of the row before. rows: how many; period_s: how far rows are apart if they are even."""
 
     rows: int = 0
     period_s: float = 0.0
 
-    def beside(self, t_ns: Int1D) -> Repeats:
+    def beside(self, t_ns: Int1D) -> RepeatedTimes:
         """With those of another block of times, shape (n,)."""
         same = int(np.count_nonzero(np.diff(t_ns) == 0))
         if not same:
             return self
         stamps, times = np.unique(t_ns, return_counts=True)
         steps = np.diff(stamps) if stamps.size > 1 else np.zeros(1, np.int64)
-        return Repeats(self.rows + same, float(np.median(steps)) / float(np.median(times)) / 1e9 or self.period_s)
+        return RepeatedTimes(self.rows + same, float(np.median(steps)) / float(np.median(times)) / 1e9 or self.period_s)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,14 +75,14 @@ class Sample:
     losses: int = 0
     rows: int = 0
     failed: str = ""
-    repeats: Repeats = Repeats()
+    repeats: RepeatedTimes = RepeatedTimes()
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
     """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
     bytes."""
     watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
-    repeats = Repeats()
+    repeats = RepeatedTimes()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
     wanted = _courses(recording.signals)

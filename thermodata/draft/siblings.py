@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from thermodata.draft.naming import words
 from thermodata.draft.parts import DraftChannel
+from thermodata.draft.place import asked_of
 from thermodata.draft.vocabulary import places_in
 from thermodata.reader.text import split_unit
 
@@ -66,7 +67,7 @@ def _of_spindle(channel: DraftChannel, name: str) -> DraftChannel:
     at = channel.said.at or ""
     if at.partition(".")[0] != "spindle":
         return channel
-    asked = tuple(q.replace(" spindle.", f" {name}_spindle.") for q in channel.said.questions)
+    asked = tuple(asked_of(q, name) for q in channel.said.questions)
     return replace(channel, said=replace(channel.said, at=f"{name}_{at}", questions=asked))
 
 

@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from thermodata.draft.measuring import Named
 from thermodata.draft.raw_file import RawFile
 from thermodata.errors import UsageError
+from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import linear_conversion
 
 _WARMER_K = 3.0
 _FEWEST = 3  # tests, of which the coolest tells what the machine at rest reads
-_HEATED = ("spindle", "counter_spindle", "milling_spindle", "axis.", "table", "rotary", "turret")
+_HEATED = ("axis.", "table", "rotary", "turret")
 
 
 def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Named]) -> dict[str, str]:
@@ -52,6 +53,6 @@ def _above_air(files: Sequence[RawFile], named: Mapping[int, Named]) -> dict[str
             degrees = factor * seen.first + offset
             if at.startswith("hall"):
                 air.append(degrees)
-            elif at.startswith(_HEATED):
+            elif is_spindle(at) or at.startswith(_HEATED):
                 first[channel] = degrees
     return {channel: degrees - air[0] for channel, degrees in first.items()} if air else {}

@@ -112,12 +112,10 @@ def _fits(need: Need, info: Described, variables: Mapping[str, str]) -> dict[str
         return None
     if not need.places:
         return dict(variables)
-    if info.at is None:
-        # a machine tool log without places: the one speed in it is the spindle's
-        spindle = info.quantity == "rotational_speed" and any(p.split(".")[0].endswith("spindle") for p in need.places)
-        return dict(variables) if spindle else None
+    # a machine tool log without places: the one speed in it is the spindle's
+    at = info.at or ("spindle" if info.quantity == "rotational_speed" else None)
     for pattern in need.places:
-        hit = match(pattern, info.at, variables)
+        hit = match(pattern, at, variables)
         if hit is not None:
             return hit
     return None

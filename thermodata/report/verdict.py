@@ -254,8 +254,8 @@ def _unclaimed(found: Diagnosis) -> str:
 
 
 def _is_refused(one: Candidate) -> bool:
-    """Whether the locked tests spoke against it, by its own sentence."""
-    return f"{one.id} explains the open tests, but the locked ones do not bear it out" in one.why
+    """Whether it keeps every rule, is as probable as a claim asks, and the locked tests were asked: they refuse it."""
+    return bool(one.locked_tests_asked and one.rungs) and all(r.holds for r in one.rungs)
 
 
 def in_parts(found: Diagnosis) -> str:

@@ -130,6 +130,11 @@ def is_at_tool(place: str | None) -> bool:
     return place is not None and place.lower().partition(".")[0] in _AT_TOOL
 
 
+def is_spindle(place: str | None) -> bool:
+    """Whether a dotted place is a spindle or on one, whatever its name: spindle.motor, counter_spindle."""
+    return place is not None and place.lower().partition(".")[0].endswith("spindle")
+
+
 def is_casting(place: str | None) -> bool:
     """Whether a dotted place is on a body that makes no heat of its own: what is read there came from elsewhere."""
     return place is not None and place.lower().partition(".")[0] in (*_CASTINGS, *_ALSO_CASTINGS)

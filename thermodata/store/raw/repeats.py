@@ -16,6 +16,7 @@ from thermodata.store.raw.clock_faults import JITTER_NS
 
 CHUNK_ROWS = 500_000
 _MOST_OTHERS = 200  # stretches that are no copies: in a log of so many steps back nobody looks further
+_MOST_COPIES = 10_000  # nor is any log copied in so many pieces: each is held against all before it
 _MOST_VALUES = 4_000_000  # held at once [32 MB]
 _FIRST_LOOK = 16  # rows of a stretch, one of which has been there before if it is a copy
 Hashes = npt.NDArray[np.uint64]
@@ -88,6 +89,8 @@ def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *
             (mixed if new else cut).append((first, b))
             if first > a:
                 mixed.append((a, first))
+            if len(cut) + len(mixed) >= _MOST_COPIES:
+                break
             continue
         others += 1
         if others == _MOST_OTHERS:
