@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 
 from thermodata.diagnosis import answer as answering
+from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.detection import limits
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.known import known
 from thermodata.diagnosis.scored import ACTS
-from thermodata.diagnosis.selection import beside
 from thermodata.virtual.blind.trial import Trial, judge
 from thermodata.virtual.lathe.data import contribution
 from thermodata.virtual.lathe.right_names import mark

@@ -16,10 +16,12 @@ from scipy.linalg import block_diag, null_space
 from scipy.special import logsumexp
 from scipy.stats import kstest, multivariate_normal
 
+from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.directions import Weighted, log_evidence
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
+from thermodata.diagnosis.in_noise_of_best import likeliest_beside
 from thermodata.diagnosis.invariance import spread_of_gain
 from thermodata.diagnosis.known import Known, known, likeliest
 from thermodata.diagnosis.locked import _with, foretell
@@ -27,7 +29,6 @@ from thermodata.diagnosis.null import best_of_chance, p_value
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import _likeliest_beside, beside
 from thermodata.plugin import Bool1D, Float1D, Float2D, Gain, Param
 
 from .hand_made import Parts, problem
@@ -184,9 +185,9 @@ def ranked() -> Scored:
 def test_the_noise_beside_each_candidate_is_that_beside_it_alone() -> None:
     one = small()
     some = rank_in(one, [made(one), made(one, "T_b")], NOISE).ranked
-    for found, candidate in zip(_likeliest_beside(one, some, NOISE), some, strict=True):
+    for found, candidate in zip(likeliest_beside(one, some, NOISE), some, strict=True):
         assert astuple(found) == pytest.approx(astuple(likeliest(beside(one, [candidate]), NOISE)), rel=1e-9)
-    assert _likeliest_beside(one, [], NOISE) == []
+    assert likeliest_beside(one, [], NOISE) == []
 
 
 def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:

@@ -10,7 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.diagnosis import beside as besides
+from thermodata.diagnosis import context as contexts
+from thermodata.diagnosis import in_noise_of_best as noises
 from thermodata.diagnosis import selection as selecting
+from thermodata.diagnosis.beside import extended
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
@@ -18,7 +22,7 @@ from thermodata.diagnosis.preference import better_twin, gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection, extended, first_ranking, select
+from thermodata.diagnosis.selection import Selection, first_ranking, select
 from thermodata.plugin import Param
 
 from .hand_made import Parts, PlainEffect, of_tests, problem, scored
@@ -125,24 +129,33 @@ def test_what_was_not_scored_is_not_preferred() -> None:
 # ---- forward, and back
 
 
+def everywhere(monkeypatch: pytest.MonkeyPatch, name: str, made: Any) -> None:
+    """In each module that chooses."""
+    for module in (selecting, besides, noises, contexts):
+        if hasattr(module, name):
+            monkeypatch.setattr(module, name, made)
+
+
 class Worlds:
     """Evidence given by hand: `evidence` says that of a name beside the chosen names, 0 where nothing is said."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, evidence: Callable[[str, frozenset[str]], float]) -> None:
         self.evidence = evidence
         self.made: dict[int, Scored] = {}
-        monkeypatch.setattr(selecting, "beside", lambda problem, chosen: self._beside(problem, chosen))
-        monkeypatch.setattr(selecting, "rank", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
-        monkeypatch.setattr(selecting, "rank_in", lambda problem, pool, noise, **of: self._rank(problem, pool, **of))
-        monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: noise)
-        monkeypatch.setattr(
-            selecting,
-            "_likeliest_beside",
-            lambda problem, some, start: [selecting.likeliest(self._beside(problem, [s]), start) for s in some],
-        )
-        monkeypatch.setattr(selecting, "known", lambda problem, noise: self._known(problem))
-        monkeypatch.setattr(selecting, "moments", lambda known, columns: None)
-        monkeypatch.setattr(selecting, "score", lambda problem, known, one, *of: self._scored(problem, one))
+        by_hand: dict[str, Any] = {
+            "beside": self._beside,
+            "rank": lambda problem, pool, noise, **of: self._rank(problem, pool, **of),
+            "rank_in": lambda problem, pool, noise, **of: self._rank(problem, pool, **of),
+            "likeliest": lambda problem, noise: noise,
+            "likeliest_beside": lambda problem, some, start: [
+                selecting.likeliest(self._beside(problem, [s]), start) for s in some
+            ],
+            "known": lambda problem, noise: self._known(problem),
+            "moments": lambda known, columns: None,
+            "score": lambda problem, known, one, *of: self._scored(problem, one),
+        }
+        for name_, made in by_hand.items():
+            everywhere(monkeypatch, name_, made)
 
     def _beside(self, problem: Problem, chosen: Sequence[Scored]) -> Problem:
         known = filter(None, problem.response.split(","))
@@ -166,12 +179,17 @@ class Worlds:
         return replace(self.made[id(one)], columns=one, evidence=self.evidence(one.candidate.effect.name, known))
 
     def select(
-        self, names: Sequence[str], sound: Callable[[Scored], bool] = lambda s: True, among: str = "", **of: Any
+        self,
+        names: Sequence[str],
+        sound: Callable[[Scored], bool] = lambda s: True,
+        among: str = "",
+        channel: str = "T_{}",
+        **of: Any,
     ) -> Selection:
-        """among: the names that may be chosen, all by default."""
+        """among: the names that may be chosen, all by default. channel: of each, by its number."""
         pool = []
         for i, n in enumerate(names):
-            one = scored(n, channels=(f"T_{i}",), shape=np.eye(len(names))[i].tolist(), **of)
+            one = scored(n, channels=(channel.format(i),), shape=np.eye(len(names))[i].tolist(), **of)
             self.made[id(one.columns)] = one
             pool.append(one.columns)
         start = replace(of_tests(4), response="")
@@ -342,7 +360,7 @@ def test_a_lag_that_drove_out_the_name_that_is_preferred_to_it_gives_way_to_it(
         return replace(made, own_after=after**2 * made.rows) if name(made) == "named" else made
 
     monkeypatch.setattr(world, "_scored", as_left_out)
-    monkeypatch.setattr(selecting, "preferred", preferring)
+    everywhere(monkeypatch, "preferred", preferring)
 
     def sound(one: Scored) -> bool:
         return name(one) == "lag" or one.evidence > 80.0
@@ -467,7 +485,7 @@ def test_what_the_noise_hides_is_found_in_the_noise_beside_it(monkeypatch: pytes
     evidence = {"a": 40.0, "b": 30.0}
     clear = replace(NOISE, slow=0.01)
     world = Worlds(monkeypatch, lambda n, known: evidence[n] if not known else 0.0)
-    monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: clear if "b" in problem.response else NOISE)
+    everywhere(monkeypatch, "likeliest", lambda problem, noise: clear if "b" in problem.response else NOISE)
 
     def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, **of: Any) -> Ranked:
         evidence["b"] = 90.0 if noise is clear else 30.0
@@ -480,8 +498,8 @@ def test_what_the_noise_hides_is_found_in_the_noise_beside_it(monkeypatch: pytes
         made.space.noise = noise
         return made
 
-    monkeypatch.setattr(selecting, "rank_in", rank_in)
-    monkeypatch.setattr(selecting, "known", known)
+    everywhere(monkeypatch, "rank_in", rank_in)
+    everywhere(monkeypatch, "known", known)
     assert members(world.select("ab")) == ["b"]
 
 
@@ -492,7 +510,7 @@ def test_beside_what_is_far_behind_no_noise_is_estimated(
     """15 % of the first one's evidence."""
     world = Worlds(monkeypatch, lambda n, known: {"a": 40.0, "b": evidence}[n] if not known else 0.0)
     beside: list[str] = []
-    monkeypatch.setattr(selecting, "likeliest", lambda problem, noise: [noise, beside.append(problem.response)][0])
+    everywhere(monkeypatch, "likeliest", lambda problem, noise: [noise, beside.append(problem.response)][0])
     world.select("ab")
     assert ("b" in beside) is asked
 
@@ -502,7 +520,7 @@ def test_a_change_of_an_effect_is_tried_beside_a_lag_on_its_channels() -> None:
     within = SimpleNamespace(channels=lag.candidate.channels, within="term")
     changed = replace(change, candidate=within)  # type: ignore[arg-type]
     twin = scored("twin")
-    assert selecting._different([lag, twin, changed, changed]) == [lag, changed]
+    assert noises.different([lag, twin, changed, changed]) == [lag, changed]
 
 
 def test_what_two_explain_alike_is_the_likelier_ones(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -555,3 +573,62 @@ def test_one_stands_out_beside_the_model_alone_or_beside_the_members(
 
     assert selecting.any_stands_out(start, found.first, found, asked, may) is stands
     assert not selecting.any_stands_out(start, found.first, found, [], lambda one: True)
+
+
+# ---- what stands beside the chosen without a name
+
+
+def hidden(n: str, known: frozenset[str]) -> float:
+    """b is little where u is not known, and a is the surer for it."""
+    return {"a": 100.0 + 20.0 * ("u" in known), "u": 60.0, "b": 50.0 if "u" in known else 5.0}[n]
+
+
+def unnamed(scored: Scored) -> bool:
+    """A rule forbids u, and what is little."""
+    return name(scored) != "u" and scored.evidence > 5.0
+
+
+def test_what_may_not_be_named_stands_beside_what_it_hides(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = Worlds(monkeypatch, hidden).select("abu", unnamed)
+    assert (members(found), [name(s) for s in found.context]) == (["a", "b"], ["u"])
+    assert [m.scored.evidence for m in found.members] == [120.0, 50.0], "weighed beside it"
+    assert [m.scored.credit for m in found.members] == [120.0, 50.0]
+    assert [[name(s) for s in m.beside] for m in found.members] == [["a"], ["b"]]
+    assert [name(s) for s in found.dropped] == ["u"], "once, as it was judged last"
+
+
+@pytest.mark.parametrize(("change", "stands"), [(0.0, True), (-0.1, False)])
+def test_what_takes_from_the_chosen_is_a_rival(monkeypatch: pytest.MonkeyPatch, change: float, stands: bool) -> None:
+    world = Worlds(monkeypatch, lambda n, known: 60.0 if n == "u" else 100.0 + change * ("u" in known))
+    found = world.select("au", unnamed)
+    assert (members(found), [name(s) for s in found.context]) == (["a"], ["u"] if stands else [])
+
+
+def test_what_makes_a_chosen_one_unsound_is_a_rival(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = Worlds(monkeypatch, hidden).select("au", lambda s: unnamed(s) and s.evidence != 120.0)
+    assert (members(found), found.context) == (["a"], ())
+
+
+@pytest.mark.parametrize(("evidence", "stands"), [(10.1, True), (9.9, False)])
+def test_a_context_brings_ten(monkeypatch: pytest.MonkeyPatch, evidence: float, stands: bool) -> None:
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "u": evidence}[n])
+    assert bool(world.select("au", unnamed).context) is stands
+
+
+@pytest.mark.parametrize(("channel", "stands"), [("T_{}", True), ("T", False)])
+def test_another_mode_of_a_chosen_one_is_no_context(
+    monkeypatch: pytest.MonkeyPatch, channel: str, stands: bool
+) -> None:
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "u": 60.0}[n])
+    assert bool(world.select("au", unnamed, channel=channel).context) is stands
+
+
+def test_three_rivals_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """x, y and z take from a; u would not."""
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return 100.0 - bool({*"wxyz"} & known) if n == "a" else {"u": 20.0}.get(n, 30.0 + ord(n) / 10)
+
+    for rivals, stands in (("yz", True), ("xyz", False)):
+        found = Worlds(monkeypatch, evidence).select("au" + rivals, lambda s: name(s) == "a")
+        assert (members(found), bool(found.context)) == (["a"], stands)

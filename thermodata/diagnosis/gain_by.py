@@ -12,6 +12,7 @@ from typing import cast
 
 import numpy as np
 
+from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.candidates import UNNAMED, InTest
 from thermodata.diagnosis.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.discrepancy import Noise
@@ -19,7 +20,6 @@ from thermodata.diagnosis.known import known
 from thermodata.diagnosis.known_effects import owners
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import ACTS, Scored
-from thermodata.diagnosis.selection import beside
 from thermodata.errors import unknown_name
 from thermodata.modelling.bound import OF_TESTS, group_of
 from thermodata.modelling.candidate import gain_by_id, with_gain_by

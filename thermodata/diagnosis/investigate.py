@@ -10,6 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
 from thermodata.diagnosis.candidates import CandidateEffect, candidates
 from thermodata.diagnosis.clocks import timings
@@ -38,7 +39,7 @@ from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
 from thermodata.diagnosis.rules import Measure, failed_rules
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Member, Selection, any_stands_out, beside, first_ranking, select
+from thermodata.diagnosis.selection import Member, Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
@@ -216,7 +217,7 @@ def _seen(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) ->
 
 def _limits(fitted: FittedResponse, problem: Problem, selection: Selection, measure: Measure) -> tuple[Limit, ...]:
     """Beside what was selected, in the noise that is left."""
-    full = known(beside(problem, [m.alone for m in selection.members]), selection.noise)
+    full = known(beside(problem, [*(m.alone for m in selection.members), *selection.context]), selection.noise)
     pool = [s.columns for s in selection.first.ranked]
     return tuple(limits(full, pool, measure.spread, _owners(fitted, full)))
 

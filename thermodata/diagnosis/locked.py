@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis.beside import extended
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import columns, moments, weigh
 from thermodata.diagnosis.foretold import Foretold, Looked
@@ -21,7 +22,7 @@ from thermodata.diagnosis.probability import is_made_a_claim, may_be_confirmed
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import ACTS, Scored
-from thermodata.diagnosis.selection import Selection, extended
+from thermodata.diagnosis.selection import Selection
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 
@@ -42,7 +43,7 @@ class Lock:
         self.asked.setdefault(claim.scored.candidate.id)
         claimed = {id(c.alone.columns) for c in (claim, *others)}
         beside = [o.scored for o in others]
-        kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed)]
+        kept = [*beside, *(m.scored for m in found.members if id(m.alone.columns) not in claimed), *found.context]
         refining = [*beside, *(j.scored for j in told.refinements)]
         with threadpool_limits(1):
             beside_all = foretell(both, self.opened, found.noise, kept, [claim.scored])

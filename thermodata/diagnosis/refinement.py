@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.changed import ChangedEffect
 from thermodata.diagnosis.discrepancy import Noise
@@ -22,7 +23,6 @@ from thermodata.diagnosis.probability import probability, sharpness
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import beside
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 

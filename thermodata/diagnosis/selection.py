@@ -9,24 +9,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
+from thermodata.diagnosis.beside import beside, each_beside_others, weighed_beside, without
 from thermodata.diagnosis.candidates import CandidateEffect
+from thermodata.diagnosis.context import MOST, WORTH, with_context
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns, Weighed, columns, moments
-from thermodata.diagnosis.known import Known, known, likeliest, likeliest_of
+from thermodata.diagnosis.evidence import Columns, columns, moments
+from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
+from thermodata.diagnosis.known import known, likeliest
 from thermodata.diagnosis.preference import better_twin, gives_way, preferred
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.scored import Scored
-from thermodata.plugin import Int1D
 from thermodata.store.base.counting import counted
 
-MOST = 5  # effects that one diagnosis adds
 PASSES = 3
-WORTH = 10.0  # log evidence that a further effect must bring
-STANDS = 0.15  # of the first one's evidence: less, and no noise brings a candidate to the front
-TRIED = 5  # candidates beside which the noise is estimated
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +37,16 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """first: the ranking beside the model alone. members: in the order of their choice. dropped: what the evidence
-    chose and a rule forbade. noise: beside all members. left: RMS error of the model alone on left-out tests, in the
-    response's unit."""
+    """first: the ranking beside the model alone. members: in the order of their choice, weighed beside the context too.
+    dropped: what the evidence chose and a rule forbade, the context among it. noise: beside all members. left: RMS
+    error of the model alone on left-out tests, in the response's unit."""
 
     first: Ranked
     members: tuple[Member, ...]
     dropped: tuple[Scored, ...]
     noise: Noise
     left: float
+    context: tuple[Scored, ...] = ()
 
 
 def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
@@ -74,23 +71,28 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, 
         before = len(dropped)
         _forward(problem, among, chosen, dropped, last)
         noise = likeliest(beside(problem, chosen), noise)
-        current = _each_beside_others(problem, chosen, noise)
+        current = each_beside_others(problem, chosen, noise)
         while unsound := [i for i, s in enumerate(current) if not sound(s)]:
             worst = min(unsound, key=lambda i: current[i].evidence)
             dropped.append(current[worst])
             chosen.pop(worst)
             noise = likeliest(beside(problem, chosen), noise)
-            current = _each_beside_others(problem, chosen, noise)
+            current = each_beside_others(problem, chosen, noise)
         if len(dropped) == before:
             break
     before = len(chosen)
     noise = _second_chance(problem, chosen, dropped, noise, sound)
     if len(chosen) > before:
-        current = _each_beside_others(problem, chosen, noise)
-    credits = _credits(problem, current, noise)
-    current = [replace(s, credit=c) for s, c in zip(current, credits, strict=True)]
-    members = tuple(_member(problem, first, among, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
-    return Selection(first, members, tuple(dropped), noise, first.known.left_out)
+        current = each_beside_others(problem, chosen, noise)
+    whole = with_context(problem, chosen, current, noise, sound, among)
+    held, noise, chosen = beside(problem, whole.context), whole.noise, list(whole.chosen)
+    credits = _credits(held, whole.weighed, noise)
+    current = [replace(s, credit=c) for s, c in zip(whole.weighed, credits, strict=True)]
+    every = without([s.columns for s in first.ranked], whole.context)
+    members = tuple(_member(held, every, among, chosen, i, current[i], noise, sound) for i in range(len(chosen)))
+    named = [*chosen, *whole.context]
+    gone = (s for s in dropped if not any(s.columns is n.columns for n in named))
+    return Selection(first, members, (*whole.context, *gone), noise, first.known.left_out, whole.context)
 
 
 def any_stands_out(
@@ -147,88 +149,12 @@ def _second_chance(
         full = beside(base, [best])
         quieter = likeliest(full, noise)
         worth = known(full, quieter).log_evidence - known(base, quieter).log_evidence
-        if worth >= WORTH and all(sound(s) for s in _each_beside_others(problem, tried, quieter)):
+        if worth >= WORTH and all(sound(s) for s in each_beside_others(problem, tried, quieter)):
             chosen.append(best)
             dropped[:] = [s for s in dropped if s.columns is not best.columns]
             base, noise = full, quieter
             left = rank_in(base, [s.columns for s in left], noise).ranked
     return noise
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """All candidates, ranked in the noise that is left beside the best of them. worth: what this one adds to the log
-    evidence."""
-
-    known: Known
-    ranked: tuple[Scored, ...]
-    best: Columns
-    worth: float
-
-
-def in_noise_of_best(last: Ranked, tried: int) -> Found | None:
-    """What is missing makes the noise large, and in a large noise the right candidate hardly stands out: so beside each
-    of the first ones the noise is estimated anew."""
-    base = last.known
-    some = _different(last.ranked)[:tried]
-    some = [s for s in some if s.evidence >= STANDS * some[0].evidence]
-    found: tuple[float, Noise, Scored] | None = None
-    for one, noise in zip(some, _likeliest_beside(base.problem, some, base.space.noise), strict=True):
-        worth = known(beside(base.problem, [one]), noise).log_evidence - base.log_evidence
-        if found is None or worth > found[0]:
-            found = worth, noise, one
-    if found is None:
-        return None
-    worth, noise, one = found
-    again = rank_in(base.problem, [s.columns for s in last.ranked], noise, left_out=False)
-    return Found(again.known, again.ranked, one.columns, worth)
-
-
-def _likeliest_beside(problem: Problem, some: Sequence[Scored], start: Noise) -> list[Noise]:
-    """The noise beside each of them alone."""
-    shapes = [problem.blocks[0]]
-    for one in some:
-        problem = beside(problem, [one])
-        shapes.append(problem.blocks[0])
-    base, slack = (np.array([getattr(b, name).shape[1] for b in shapes]) for name in ("base", "slack"))
-
-    def columns(number: int) -> Int1D:
-        """Those of the problem, and of this candidate."""
-        own = [
-            start + np.r_[: ends[0], ends[number] : ends[number + 1]] for start, ends in ((0, base), (base[-1], slack))
-        ]
-        return np.concatenate(own)
-
-    return likeliest_of(problem, [columns(i) for i in range(len(some))], start) if some else []
-
-
-def _different(ranked: Sequence[Scored]) -> list[Scored]:
-    """The first on each set of channels, and the first that changes each effect of the model: a lag on its channels
-    says something else."""
-    found: dict[tuple[str | None, ...], Scored] = {}
-    for one in ranked:
-        found.setdefault((one.candidate.within, *one.candidate.channels), one)
-    return list(found.values())
-
-
-def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
-    """The same with chosen effects among what is known."""
-    for one in chosen:
-        problem = extended(problem, one.columns, one.weighed)
-    return problem
-
-
-def _each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:
-    """In the noise beside all: what is left once nothing is missing, which is what tells rivals apart."""
-    found = []
-    for one in chosen:
-        others = [c for c in chosen if c is not one]
-        found.append(_weighed_beside(rank_in(beside(problem, others), [one.columns], noise).ranked[0], others))
-    return found
-
-
-def _weighed_beside(one: Scored, others: Sequence[Scored]) -> Scored:
-    return replace(one, others=tuple(o.candidate.id for o in others))
 
 
 def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[float]:
@@ -237,7 +163,7 @@ def _credits(problem: Problem, members: Sequence[Scored], noise: Noise) -> list[
     left, found = list(members), {id(one): one.evidence for one in members}
     while len(left) > 1:
         left.remove(min(left, key=lambda s: found[id(s)]))
-        for one, again in zip(left, _each_beside_others(problem, left, noise), strict=True):
+        for one, again in zip(left, each_beside_others(problem, left, noise), strict=True):
             found[id(one)] = again.evidence
     return [found[id(one)] for one in members]
 
@@ -249,7 +175,7 @@ def _only(ranked: Ranked, some: Sequence[Columns]) -> Ranked:
 
 def _member(
     problem: Problem,
-    first: Ranked,
+    every: Sequence[Columns],
     among: Sequence[Columns],
     chosen: Sequence[Scored],
     number: int,
@@ -261,7 +187,7 @@ def _member(
     it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
     the name foretells left-out tests better; or for a twin that does so much better."""
     others = [c for i, c in enumerate(chosen) if i != number]
-    ranking = rank_in(beside(problem, others), without([s.columns for s in first.ranked], others), noise)
+    ranking = rank_in(beside(problem, others), without(every, others), noise)
     eligible = _only(ranking, among)
     best = preferred(eligible.ranked)
     if best is not None and gives_way(own, best, eligible) and sound(best):
@@ -275,29 +201,10 @@ def _member(
 def _in_place_of(own: Scored, other: Scored, beside: Sequence[Scored]) -> Scored:
     """What replaces another leaves it the credit for what likelier and less likely members explain alike."""
     gained = other.evidence - own.evidence
-    return replace(_weighed_beside(other, beside), credit=(own.credit or own.evidence) + gained)
-
-
-def without(pool: Sequence[Columns], chosen: Sequence[Scored]) -> list[Columns]:
-    return [c for c in pool if not any(c is s.columns for s in chosen)]
+    return replace(weighed_beside(other, beside), credit=(own.credit or own.evidence) + gained)
 
 
 def rank(problem: Problem, pool: Sequence[Columns], start: Noise | None, *, left_out: bool = True) -> Ranked:
     """By evidence. start: where the search of the noise begins. left_out: whether the first `SCORED` are asked for the
     tests that are left out; who chooses by evidence alone needs only what they look like."""
     return rank_in(problem, pool, likeliest(problem, start), left_out=left_out)
-
-
-def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
-    """The same with an effect among what is known: at its likeliest time constant, its neighbours at a price."""
-    point, coefficients = weighed.best[0], weighed.coefficients
-    gains, neighbours = made.gains, [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
-    blocks = []
-    for block, full in zip(problem.blocks, made.blocks, strict=True):
-        here = full[:, point]
-        own = here[:, :gains] * np.where(coefficients[:gains] == 0, 1.0, coefficients[:gains])
-        spare = [here[:, gains:].reshape(len(here), -1, gains) @ coefficients[:gains]]
-        if made.on_a_line:
-            spare += [(full[:, p, :gains] @ coefficients[:gains] - own.sum(axis=1))[:, None] for p in neighbours]
-        blocks.append(replace(block, base=np.hstack([block.base, own]), slack=np.hstack([block.slack, *spare])))
-    return replace(problem, blocks=tuple(blocks))

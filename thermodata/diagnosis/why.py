@@ -21,7 +21,8 @@ def why(
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests."""
     unit, count = investigation.problem.unit, int(s.acts.sum())
     others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
-    others = others if member is not None else list(s.others)
+    context = () if investigation.selection is None else investigation.selection.context
+    others = [*others, *(c.candidate.id for c in context)] if member is not None else list(s.others)
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     tests = investigation.measure.tests

@@ -1,0 +1,78 @@
+"""What the evidence asks for beside the chosen, though a rule forbids that it be named.
+
+Without it the chosen are weighed in the noise that it makes, and may not stand out. Where three are missing, one that
+breaks a rule (its gain differs between tests) hides two others that break none. So it stands beside them, unnamed, as
+long as all of them are the surer for it: what takes their evidence is a rival.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from thermodata.diagnosis.beside import beside, each_beside_others, without
+from thermodata.diagnosis.discrepancy import Noise
+from thermodata.diagnosis.evidence import Columns
+from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
+from thermodata.diagnosis.known import likeliest
+from thermodata.diagnosis.preference import preferred
+from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.ranking import rank_in
+from thermodata.diagnosis.scored import Scored
+
+WORTH = 10.0  # log evidence that a further effect must bring
+MOST = 5  # effects that one diagnosis adds, the context among them
+RIVALS = 3  # that would take evidence of the chosen, and the search ends
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """chosen: with what is sound beside all. weighed: the same, beside all others. context: beside all others, too.
+    noise: beside all."""
+
+    chosen: tuple[Scored, ...]
+    weighed: tuple[Scored, ...]
+    context: tuple[Scored, ...]
+    noise: Noise
+
+
+def with_context(
+    problem: Problem,
+    chosen: Sequence[Scored],
+    weighed: Sequence[Scored],
+    noise: Noise,
+    sound: Callable[[Scored], bool],
+    among: Sequence[Columns],
+) -> Beside:
+    """Adds one at a time, by evidence. weighed: the chosen, each beside the others, in the noise beside all. among:
+    what may be added; what reads a channel of the chosen is another mode of them and no context."""
+    chosen, weighed = list(chosen), list(weighed)
+    context: list[Scored] = []
+    beside_all: list[Scored] = []
+    rivals: list[Scored] = []
+    while len(chosen) + len(context) < MOST and len(rivals) < RIVALS:
+        read = {channel for one in chosen for channel in one.candidate.channels}
+        pool = [c for c in without(among, [*chosen, *context, *rivals]) if read.isdisjoint(c.candidate.channels)]
+        if not pool:
+            break
+        last = rank_in(beside(problem, [*chosen, *context]), pool, noise, left_out=False)
+        found = in_noise_of_best(last, TRIED)
+        best = None if found is None else preferred(found.ranked)
+        if found is None or best is None or found.worth < WORTH:
+            break
+        tried = [*chosen, *context, best]
+        quieter = likeliest(beside(problem, tried), noise)
+        again = each_beside_others(problem, tried, quieter)
+        surer = zip(again[: len(chosen)], weighed, strict=True)
+        if not all(sound(now) and now.evidence >= was.evidence for now, was in surer):
+            rivals.append(best)
+            continue
+        fine = [i < len(chosen) or sound(one) for i, one in enumerate(again)]
+        chosen, context = _parted(tried, fine)
+        weighed, beside_all = _parted(again, fine)
+        noise = quieter
+    return Beside(tuple(chosen), tuple(weighed), tuple(beside_all), noise)
+
+
+def _parted(some: Sequence[Scored], fine: Sequence[bool]) -> tuple[list[Scored], list[Scored]]:
+    return [s for s, f in zip(some, fine, strict=True) if f], [s for s, f in zip(some, fine, strict=True) if not f]
