@@ -239,7 +239,7 @@ def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int
         ({"beaten": True, "around": True}, "an effect beside it is sharper, and leaves what is slow, as the air is"),
         ({"passive": True}, "it reads a body that makes no heat, one beside the machine, or one whose place"),
         ({"kin": "part"}, "the model reads it already, together with others"),
-        ({"of_holder": True}, "it reads what holds the probes, which warms with all in the working space"),
+        ({"of_holder": True}, "it reads the tool, or what holds the probes, which warms with all in the working space"),
     ],
 )
 def test_why_it_is_less_probable_is_said(kind: dict[str, Any], words: str) -> None:

@@ -125,6 +125,20 @@ def test_a_body_whose_heated_part_has_a_sensor_has_no_name_and_is_passive(part: 
     assert "table_bearing:T_table" in {c.id for c in moved}, "no temperature tells it"
 
 
+def test_a_switch_beside_what_the_model_reads_is_no_mode_of_it() -> None:
+    """The door of the hall, beside an effect of the hall's air."""
+    channels = {
+        "T_hall": ChannelInfo("T_hall", "temperature", "degC", at="hall"),
+        "T_door": ChannelInfo("T_door", "temperature", "degC", at="hall.door"),
+        "door": ChannelInfo("door", "state", "1", at="hall.door"),
+    }
+    found = {c.id: c.kin for c in candidates({LAG.name: LAG}, channels, (has("frame", "T_hall"),), "dZ")}
+    assert found == {"lag:T_door": "same", "lag:door": "near"}
+    one = {LAG.name: replace(LAG, params=ONE_MODE)}
+    switched = candidates(one, channels, (has("static", "door", modes=0),), "dZ")
+    assert {c.id: c.kin for c in switched}["lag:door"] == "same", "another mode of the switch that is read"
+
+
 @pytest.mark.parametrize(("other", "passive"), [("T_bed", True), ("T_nut", False)])
 def test_a_difference_is_passive_where_it_reads_such_a_body(other: str, passive: bool) -> None:
     at = {"T_bed": "bed", "T_nut": "axis.x.nut", "T_oil": "hydraulics"}
@@ -331,15 +345,17 @@ def test_a_gain_without_a_lag_leaves_the_lag_to_be_asked_for_as_another_mode_of_
     assert (found["screw:T_nut"], found["lag:T_nut"]) == ("same", "same")
 
 
-def test_what_holds_the_probes_is_known() -> None:
+def test_what_holds_the_probes_and_the_tool_is_known() -> None:
     channels = {
         "T_bracket": ChannelInfo("T_bracket", "temperature", "degC", at="fixture"),
         "T_probe": ChannelInfo("T_probe", "temperature", "degC", at="probe.z"),
+        "T_tool": ChannelInfo("T_tool", "temperature", "degC", at="Tool.holder"),
         "clamped": ChannelInfo("clamped", "state", "1", at="fixture"),
+        "n_tool": ChannelInfo("n_tool", "rotational_speed", "rpm", at="tool"),
         "T_hall": ChannelInfo("T_hall", "temperature", "degC", at="hall"),
     }
     found = {c.id for c in candidates({LAG.name: LAG}, channels, (), "dZ") if c.of_holder}
-    assert found == {"lag:T_bracket", "lag:T_probe"}
+    assert found == {"lag:T_bracket", "lag:T_probe", "lag:T_tool"}
 
 
 def test_what_is_read_around_the_machine_alone_is_known() -> None:

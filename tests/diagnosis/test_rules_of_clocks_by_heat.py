@@ -9,6 +9,7 @@ import pytest
 
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.clocks_by_heat import as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.heat_balance import Disagreement, Pair
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -273,3 +274,9 @@ def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:
     assert (clock.source, clock.test) == ("log", "")
     assert clock.moved_s == pytest.approx(-58 * 60, abs=31)
     assert [c.family for c in found.candidates if c.claimed] == ["feed_x"]
+
+
+@pytest.mark.parametrize(("at", "told"), [("coolant", True), ("hall.door", False), (None, True)])
+def test_the_door_of_the_hall_commands_nothing(at: str | None, told: bool) -> None:
+    assert is_command(ChannelInfo("open", "state", "1", at=at)) is told
+    assert not is_command(ChannelInfo("open", "temperature", "degC", at=at))

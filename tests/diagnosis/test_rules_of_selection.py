@@ -578,6 +578,12 @@ def test_one_stands_out_beside_the_model_alone_or_beside_the_members(
 # ---- what stands beside the chosen without a name
 
 
+@pytest.fixture
+def sure(monkeypatch: pytest.MonkeyPatch) -> Callable[[float], None]:
+    """A claim asks so much evidence."""
+    return lambda least: monkeypatch.setattr(contexts, "probability", lambda s: float(s.evidence >= least))
+
+
 def hidden(n: str, known: frozenset[str]) -> float:
     """b is little where u is not known, and a is the surer for it."""
     return {"a": 100.0 + 20.0 * ("u" in known), "u": 60.0, "b": 50.0 if "u" in known else 5.0}[n]
@@ -588,47 +594,74 @@ def unnamed(scored: Scored) -> bool:
     return name(scored) != "u" and scored.evidence > 5.0
 
 
-def test_what_may_not_be_named_stands_beside_what_it_hides(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("least", "stands"), [(50.0, True), (110.0, True), (90.0, False)])
+def test_what_may_not_be_named_stands_beside_what_it_hides(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], least: float, stands: bool
+) -> None:
+    """Where more is sure for it: b, or a; where a is sure anyway and b is not, nothing is changed."""
+    sure(least)
     found = Worlds(monkeypatch, hidden).select("abu", unnamed)
+    if not stands:
+        assert (members(found), found.context, found.members[0].scored.evidence) == (["a"], (), 100.0)
+        return
     assert (members(found), [name(s) for s in found.context]) == (["a", "b"], ["u"])
     assert [m.scored.evidence for m in found.members] == [120.0, 50.0], "weighed beside it"
     assert [m.scored.credit for m in found.members] == [120.0, 50.0]
     assert [[name(s) for s in m.beside] for m in found.members] == [["a"], ["b"]]
     assert [name(s) for s in found.dropped] == ["u"], "once, as it was judged last"
+    assert all(len(m.alone.rows) for m in found.members), "left-out tests are asked of all"
 
 
-@pytest.mark.parametrize(("change", "stands"), [(0.0, True), (-0.1, False)])
-def test_what_takes_from_the_chosen_is_a_rival(monkeypatch: pytest.MonkeyPatch, change: float, stands: bool) -> None:
-    world = Worlds(monkeypatch, lambda n, known: 60.0 if n == "u" else 100.0 + change * ("u" in known))
-    found = world.select("au", unnamed)
-    assert (members(found), [name(s) for s in found.context]) == (["a"], ["u"] if stands else [])
+@pytest.mark.parametrize(("of_b", "stands"), [(60.0, True), (59.9, False)])
+def test_what_takes_from_a_chosen_one_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], of_b: float, stands: bool
+) -> None:
+    """However much another one gains by it."""
+    sure(110.0)
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        beside = {"a": 120.0, "b": of_b} if "u" in known else {"a": 100.0, "b": 60.0}
+        return {**beside, "u": 50.0}[n]
+
+    found = Worlds(monkeypatch, evidence).select("abu", unnamed)
+    assert (members(found), bool(found.context)) == (["a", "b"], stands)
 
 
-def test_what_makes_a_chosen_one_unsound_is_a_rival(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_makes_a_chosen_one_unsound_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None]
+) -> None:
+    sure(110.0)
     found = Worlds(monkeypatch, hidden).select("au", lambda s: unnamed(s) and s.evidence != 120.0)
     assert (members(found), found.context) == (["a"], ())
 
 
 @pytest.mark.parametrize(("evidence", "stands"), [(10.1, True), (9.9, False)])
-def test_a_context_brings_ten(monkeypatch: pytest.MonkeyPatch, evidence: float, stands: bool) -> None:
-    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "u": evidence}[n])
+def test_a_context_brings_ten(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], evidence: float, stands: bool
+) -> None:
+    sure(110.0)
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0 + 20.0 * ("u" in known), "u": evidence}[n])
     assert bool(world.select("au", unnamed).context) is stands
 
 
 @pytest.mark.parametrize(("channel", "stands"), [("T_{}", True), ("T", False)])
 def test_another_mode_of_a_chosen_one_is_no_context(
-    monkeypatch: pytest.MonkeyPatch, channel: str, stands: bool
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], channel: str, stands: bool
 ) -> None:
-    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "u": 60.0}[n])
-    assert bool(world.select("au", unnamed, channel=channel).context) is stands
+    sure(110.0)
+    assert bool(Worlds(monkeypatch, hidden).select("au", unnamed, channel=channel).context) is stands
 
 
-def test_three_rivals_end_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    """x, y and z take from a; u would not."""
+@pytest.mark.parametrize(("rivals", "stands"), [("yz", True), ("xyz", False)])
+def test_three_rivals_end_the_search(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], rivals: str, stands: bool
+) -> None:
+    """x, y and z take from a; u adds to it."""
+    sure(101.0)
 
     def evidence(n: str, known: frozenset[str]) -> float:
-        return 100.0 - bool({*"wxyz"} & known) if n == "a" else {"u": 20.0}.get(n, 30.0 + ord(n) / 10)
+        of_a = 100.0 - bool({*"xyz"} & known) + 2.0 * ("u" in known)
+        return {"a": of_a, "u": 20.0}.get(n, 30.0 + ord(n) / 10)
 
-    for rivals, stands in (("yz", True), ("xyz", False)):
-        found = Worlds(monkeypatch, evidence).select("au" + rivals, lambda s: name(s) == "a")
-        assert (members(found), bool(found.context)) == (["a"], stands)
+    found = Worlds(monkeypatch, evidence).select("au" + rivals, lambda s: name(s) == "a")
+    assert (members(found), bool(found.context)) == (["a"], stands)

@@ -169,7 +169,10 @@ MUTANTS = [
     diagnosis("refinement.py", 'kin == "part" and', "False and", "the air is claimed beside its gradient"),
     diagnosis("kin.py", "return names not in read and", "return False and", "the air is a mode of its gradient"),
     diagnosis(
-        "kin.py", '"part" if warm and _one', '"same" if warm and _one', "the air's lag is a mode of its gradient"
+        "kin.py",
+        '            return "part"\n',
+        '            return "same"\n',
+        "the air's lag is a mode of its gradient",
     ),
     diagnosis(
         "kin.py",

@@ -50,7 +50,8 @@ class CandidateEffect:
     kin: how near it is to what the model has already (`Kin`). unforetold: why left-out tests can't be asked of it; None
     where they can. unread: places of other parts that it may be (`diagnosis.unread`). around: whether it reads nothing
     but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
-    of_holder: whether it reads the temperature of what holds the probes, which warms with all in the working space."""
+    of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
+    working space."""
 
     effect: Effect
     binding: Mapping[str, str]

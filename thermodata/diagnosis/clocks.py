@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis.commanded import COMMANDS, POWERS
+from thermodata.diagnosis.commanded import POWERS, is_command
 from thermodata.diagnosis.known import FloatND
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
@@ -100,7 +100,7 @@ def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
 
 
 def commands_of(source: str, channels: Mapping[str, ChannelInfo]) -> list[tuple[str, ChannelInfo]]:
-    return [(n, c) for n, c in sorted(channels.items()) if c.source == source and c.quantity in COMMANDS]
+    return [(n, c) for n, c in sorted(channels.items()) if c.source == source and is_command(c)]
 
 
 def clock_is_off(timing: Timing, step_s: float) -> bool:

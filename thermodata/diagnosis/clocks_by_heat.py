@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from thermodata.diagnosis.commanded import COMMANDS
+from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.heat_balance import UNMOVED_S, Disagreement, Pair, pair_of
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -122,7 +122,7 @@ def compared(tests: Sequence[TestData], channels: Mapping[str, ChannelInfo], res
 
 
 def _commands(channels: Mapping[str, ChannelInfo]) -> dict[str, str]:
-    return {n: c.source for n, c in channels.items() if c.quantity in COMMANDS and c.source}
+    return {n: c.source for n, c in channels.items() if c.source and is_command(c)}
 
 
 def _of(sources: Mapping[str, str], source: str) -> list[str]:

@@ -15,6 +15,8 @@ import numpy as np
 
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Bool1D, Float1D, Int1D
+from thermodata.schema.places import is_around
+from thermodata.view.dataset import ChannelInfo
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
@@ -36,6 +38,11 @@ class _Course:
     change: Mapping[int, Float1D]
     rows: Mapping[int, Int1D]
     hole: Bool1D
+
+
+def is_command(channel: ChannelInfo) -> bool:
+    """Whether the machine is told to do something by it: who opens the door of the hall tells the machine nothing."""
+    return channel.quantity in COMMANDS and not is_around(channel.at)
 
 
 class Commands:

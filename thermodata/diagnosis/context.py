@@ -16,6 +16,7 @@ from thermodata.diagnosis.evidence import Columns
 from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
 from thermodata.diagnosis.known import likeliest
 from thermodata.diagnosis.preference import preferred
+from thermodata.diagnosis.probability import limit_of, probability
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.scored import Scored
@@ -44,8 +45,10 @@ def with_context(
     sound: Callable[[Scored], bool],
     among: Sequence[Columns],
 ) -> Beside:
-    """Adds one at a time, by evidence. weighed: the chosen, each beside the others, in the noise beside all. among:
-    what may be added; what reads a channel of the chosen is another mode of them and no context."""
+    """Adds one at a time, by evidence; none where nothing more can be claimed for it. weighed: the chosen, each beside
+    the others, in the noise beside all. among: what may be added; what reads a channel of the chosen is another mode of
+    them and no context."""
+    alone = Beside(tuple(chosen), tuple(weighed), (), noise)
     chosen, weighed = list(chosen), list(weighed)
     context: list[Scored] = []
     beside_all: list[Scored] = []
@@ -60,6 +63,7 @@ def with_context(
         best = None if found is None else preferred(found.ranked)
         if found is None or best is None or found.worth < WORTH:
             break
+        best = found.scored(best)
         tried = [*chosen, *context, best]
         quieter = likeliest(beside(problem, tried), noise)
         again = each_beside_others(problem, tried, quieter)
@@ -71,7 +75,13 @@ def with_context(
         chosen, context = _parted(tried, fine)
         weighed, beside_all = _parted(again, fine)
         noise = quieter
-    return Beside(tuple(chosen), tuple(weighed), tuple(beside_all), noise)
+    whole = Beside(tuple(chosen), tuple(weighed), tuple(beside_all), noise)
+    return whole if _sure(whole) > _sure(alone) else alone
+
+
+def _sure(found: Beside) -> int:
+    """How many are as probable as a claim asks."""
+    return sum(probability(s) >= limit_of(s) for s in found.weighed)
 
 
 def _parted(some: Sequence[Scored], fine: Sequence[bool]) -> tuple[list[Scored], list[Scored]]:

@@ -10,10 +10,10 @@ import numpy as np
 
 from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns
+from thermodata.diagnosis.evidence import Columns, moments
 from thermodata.diagnosis.known import Known, known, likeliest_of
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.ranking import Ranked, rank_in
+from thermodata.diagnosis.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Int1D
 
@@ -30,6 +30,12 @@ class Found:
     ranked: tuple[Scored, ...]
     best: Columns
     worth: float
+
+    def scored(self, one: Scored) -> Scored:
+        """One of those ranked, with what left-out tests say of it."""
+        if len(one.rows):
+            return one
+        return score(self.known.problem, self.known, one.columns, moments(self.known, one.columns), one.weighed)
 
 
 def in_noise_of_best(last: Ranked, tried: int) -> Found | None:

@@ -52,7 +52,11 @@ def kin_of(
     # a temperature is the state of one body; a speed makes heat, and force
     warm = all(channels[n].quantity == "temperature" for n in names)
     if family == GENERIC and near:
-        return "part" if warm and _one_of_several(names, [p.channels for p in model.own]) else "same"
+        if warm and _one_of_several(names, [p.channels for p in model.own]):
+            return "part"
+        # a door that somebody opens is no mode of the air behind it
+        switched = all(channels[n].quantity == "state" for n in names)
+        return "near" if switched and not names <= model.read else "same"
     acting = [(library[p.effect], p) for p in model.acting if p.effect in library]
     of_it = [p for own, p in acting if hasattr(effect, "cause") and _heat(own, p.family) == _heat(effect, family)]
     if of_it:

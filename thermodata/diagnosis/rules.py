@@ -199,8 +199,8 @@ def surely(scored: Scored) -> Rule:
     return Rule(
         "probability",
         "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
-        "beside something sharper, whether it reads a body that makes no heat, what holds the probes, or what the "
-        "model reads with others, whether another part may be it, "
+        "beside something sharper, whether it reads a body that makes no heat, the tool, what holds the probes, "
+        "or what the model reads with others, whether another part may be it, "
         "whether another axis misses it as well, and what the locked tests say",
         sure,
         limit,
@@ -220,7 +220,7 @@ def _in_short(scored: Scored) -> str:
     if scored.candidate.kin == "part":
         more.append("the model reads it already, together with others")
     if scored.candidate.of_holder:
-        more.append("it reads what holds the probes, which warms with all in the working space")
+        more.append("it reads the tool, or what holds the probes, which warms with all in the working space")
     if scored.candidate.unread:
         more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
     more += [also_missing(scored)] if scored.also_on else []

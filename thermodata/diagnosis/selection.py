@@ -13,12 +13,12 @@ from thermodata.diagnosis.beside import beside, each_beside_others, weighed_besi
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.context import MOST, WORTH, with_context
 from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns, columns, moments
+from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
 from thermodata.diagnosis.known import known, likeliest
 from thermodata.diagnosis.preference import better_twin, gives_way, preferred
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.ranking import Ranked, rank_in, score
+from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
 from thermodata.store.base.counting import counted
 
@@ -122,9 +122,7 @@ def _forward(
         best = None if found is None else preferred(found.ranked)
         if found is None or best is None or found.worth < WORTH:
             return
-        base = found.known
-        if not len(best.rows):
-            best = score(base.problem, base, best.columns, moments(base, best.columns), best.weighed)
+        base, best = found.known, found.scored(best)
         chosen.append(best)
         full, rest = beside(problem, chosen), without(pool, [*chosen, *dropped])
         noise = base.space.noise

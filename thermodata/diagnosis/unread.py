@@ -94,8 +94,9 @@ def warms_the_holder(channel: Described) -> bool:
 
 
 def is_holder(channel: Described) -> bool:
-    """Whether it is the temperature of what holds the probes."""
-    return channel.quantity == TEMPERATURE and part_of(channel.at) == Part(AIR, HOLDER)
+    """Whether it is the temperature of what holds the probes, or of the tool that the spindle holds."""
+    held = part_of(channel.at) == Part(AIR, HOLDER) or (channel.at or "").lower().partition(".")[0] == "tool"
+    return channel.quantity == TEMPERATURE and held
 
 
 def is_motion(quantity: str) -> bool:
