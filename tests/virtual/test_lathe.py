@@ -321,3 +321,12 @@ def test_the_written_campaign_comes_back_as_the_dataset_in_memory(
         assert n > 0.9 * len(test.t_s)
         for name in ("dX", "dZ", "TS_brg_f"):
             assert np.max(np.abs(test.values[name][:n] - other.values[name][:n])) < 0.5
+
+
+def test_an_axis_that_rests_in_all_open_tests_moves_no_machine_by_kilometres() -> None:
+    """A seed whose Z axis does: its screw was scaled by what it does there, which is nothing."""
+    world = make_world("idle", 200153)
+    role = {r.stretch.id: r.stretch.role for r in world.runs}
+    opened = max(v for test, v in world.rms_um["nut_z"].items() if role[test] != "locked")
+    assert opened < 1e-3
+    assert 5.0 / 3 < max(max(of.values()) for of in world.rms_um.values()) <= 3 * 12.0

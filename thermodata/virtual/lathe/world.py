@@ -27,6 +27,8 @@ WHITE_UM = 0.12
 DRIFT_UM_12H = 0.8  # a slow walk of the probes that nothing logs
 SPINDLE = "bearing_friction"
 DECOY = "C14"
+# times as large as in its best open test, and no cause is larger in a locked one
+MOST_LOCKED = 3.0
 # causes that one temperature drives, so that another one can go with it
 BY_ONE_TEMPERATURE = tuple(c for c in KNOWN if c not in ("ring_expansion", "coolant_film", "hall_layers"))
 
@@ -92,8 +94,11 @@ def make_world(
     base = _base(hidden, order, thin)
     scale = {}
     for c in (*base, *hidden):
-        best = max(float(np.std(CAUSES[c].shift(s.heat)[row])) for s in course if s.role != "locked")
-        scale[c] = float(target[c] * sign[c] * (kind.strength if c in hidden else 1.0) / max(best, 1e-9))
+        size = {s.id: float(np.std(CAUSES[c].shift(s.heat)[row])) for s in course}
+        best = max(size[s.id] for s in course if s.role != "locked")
+        # an axis that rests in all open tests would move a locked one by kilometres
+        best = max(best, max(size.values()) / MOST_LOCKED, 1e-9)
+        scale[c] = float(target[c] * sign[c] * (kind.strength if c in hidden else 1.0) / best)
     sensors = _logged(kind, hidden, base, luck, thin and by_speed)
     noise = np.random.default_rng([seed, 15_487_469])
     decoy_of = None
