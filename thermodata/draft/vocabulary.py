@@ -85,14 +85,17 @@ _PLACE_WORDS: dict[str, str] = {
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement cuscinett palier. "
     "paliers.",
-    "front": "front vorn vorder ^predni pred. predn. vpredu. 前 fr. frt~b nose. spindlenose nase. vl. avant. ant. "
-    "anteriore.",
-    "rear": "rear back. hinten hinter ^zadni zad. zadn. vzadu. 后 後 tail. rr. arriere. post. posteriore.",
-    "upper": "upper top. ^ober oben. obere ^horni nahore nahoru 上 up. haut. haute. alto. alta. superieur ^superiore",
-    "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. 下 low. dn. bas. basse. basso. bassa. inferieur "
-    "^inferiore",
-    "left": "left links. link. linke levy. leva. leve. levo. 左 l. sx. sinistr gauche.",
-    "right": "right rechts. recht. rechte pravy. prava. prave. pravo. 右 r. dx. destra. destro. droit. droite.",
+    "front": "front vorn vorder ^predni pred. predn. vpredu. zepredu. predek. vorderseite 前 fr. frt~b nose. "
+    "spindlenose nase. vl. avant. ant. anteriore.",
+    "rear": "rear back. hinten hinter ^zadni zad. zadn. vzadu. zezadu. zadek. ruckseite rueckseite 后 後 tail. rr. "
+    "arriere. post. posteriore.",
+    "upper": "upper top. ^ober oben. obere ^horni nahore nahoru shora. 上 up. haut. haute. alto. alta. superieur "
+    "^superiore",
+    "lower": "lower bottom bot. ^unter unten. ^spodni ^dolni dole. zdola. 下 low. dn. bas. basse. basso. bassa. "
+    "inferieur ^inferiore",
+    "left": "left links. link. linke levy. leva. leve. levo. vlevo. nalevo. 左 l. sx. sinistr gauche.",
+    "right": "right rechts. recht. rechte pravy. prava. prave. pravo. vpravo. napravo. 右 r. dx. destra. destro. "
+    "droit. droite.",
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
     "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors.",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
@@ -151,7 +154,7 @@ _PLACE_WORDS: dict[str, str] = {
     "env. prostred "
     "indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
-    "outside": "outdoor outside aussen. aussent ^venk[uo] 室外",
+    "outside": "outdoor outside aussen. aussent ^venk[uo] ^vnejs 室外",
     "air": "luft. lufttemp raumluft hallenluft air. vzduch 空气 室温 气温",
     "floor": "floor. boden. bodent hallenboden fussboden fundament foundation podlah ^zaklad 地面 地基 地板",
     "door": "door doors. tur. tuer. schutztur tor. hallentor hallentur hallentuer dvere dveri vrata vrat. gate. 门 門",
