@@ -150,6 +150,24 @@ def test_a_displacement_held_while_the_spindle_stands_is_one_event_in_every_test
     assert ingest(store, path).changed is False
 
 
+def test_a_probe_that_stands_at_an_end_that_other_tests_show_is_saturated(store: Store, tmp_path: Path) -> None:
+    """It leaves its range for a part of one day, and soon and for good on the next one."""
+    logs = [day(n) for n in (1, 2, 3, 4)]
+    limit = 12.345678
+    for k, faster in ((0, 1.0), (1, 6.0), (2, 0.5), (3, 0.5)):
+        main = logs[k][0]["main"]
+        main["dZ"] = np.minimum(main["dZ"] * faster + (0.02 * np.arange(N) if k == 1 else 0.0), limit)
+    at = [[int(i) for i in np.flatnonzero(log["main"]["dZ"] == limit)] for log, _ in logs[:2]]
+    assert len(at[0]) > 20
+    assert len(at[1]) > 0.6 * N
+    path = lab(tmp_path, logs)
+    ingest(store, path)
+    assert flagged(store, "dZ", Flag.SATURATED) == {"day1": at[0], "day2": at[1]}
+    assert flagged(store, "dZ", Flag.HELD | Flag.STUCK) == {}
+    assert {e[3].partition(",")[0] for e in events(store, "saturated")} == {"upper limit 12.3457"}
+    assert ingest(store, path).changed is False
+
+
 RULE = """
 overrule:
   - {flag: offset, channel: T_1, tests: [day4], because: the chiller was set to 50 degC that day}

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality_limit import clipped, impossible, sentinels
+from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible, sentinels
+from thermodata.calibration.quality_range import Limits
 from thermodata.calibration.quality_step import offset_steps, stood_before
 from thermodata.calibration.quality_time import TimeFlags, time_flags
 from thermodata.calibration.quality_value import (
@@ -50,8 +51,8 @@ MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
     (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
-    where it is known. elsewhere: how it reads in other tests, where this one does not tell. held: it is written on
-    change: that it stands still says nothing."""
+    where it is known. elsewhere: how it reads in other tests, where this one does not tell. limits: the ends of
+    its range that other tests show. held: it is written on change: that it stands still says nothing."""
 
     values: Array
     quantity: str
@@ -59,6 +60,7 @@ class ColumnInput:
     range: tuple[float, float] | None = None
     at: str | None = None
     elsewhere: RunStats | None = None
+    limits: Limits = (None, None)
     held: bool = False
 
 
@@ -183,12 +185,18 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
             mark(Flag.OUT_OF_RANGE, beyond, f"no {column.quantity.replace('_', ' ')} can be that")
     if stats is not None:
         y = np.asarray(x, dtype=np.float64)
+        declared = bool((flags & np.uint16(Flag.SATURATED)).any())
+        for limit, side in zip(column.limits, ("lower", "upper"), strict=True):
+            at = (y == limit) & ~told if limit is not None else told[:0]
+            if at.any():
+                mark(Flag.SATURATED, at, f"{side} limit {limit:.6g}, as in other tests: {SAY_RANGE}")
         code = sentinels(y, stats) & ~told
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
-        elif not (flags & np.uint16(Flag.SATURATED)).any():
+        elif not declared:
             for hit, _, why in clipped(y, stats, column.quantity, rests_below=RESTS_BELOW.get(column.quantity)):
-                mark(Flag.SATURATED, hit, why)
+                if not told[hit].any():
+                    mark(Flag.SATURATED, hit, why)
     for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED) if flags.any() else ():
         given = ((flags & np.uint16(flag)) != 0) & ~told
         if given.any():

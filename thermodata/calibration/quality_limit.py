@@ -40,6 +40,7 @@ _SENTINELS = np.array(
 _HUGE = 1e30
 _HOT, _LEAP_K = 250.0, 100.0  # a broken Pt100 reads 850 degC from one sample to the next
 _PILES_UP = 2.0  # times as many samples at the end of a range as on the reading next to it
+SAY_RANGE = "the end of a range? say it in 'sensor: {range: ...}'"
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
 
@@ -135,8 +136,7 @@ def clipped(
         yield (
             at,
             limit,
-            f"{side} limit {limit:.6g}, {len(starts)} times exactly: the end of a range? say it in "
-            "'sensor: {range: ...}'",
+            f"{side} limit {limit:.6g}, {len(starts)} times exactly: {SAY_RANGE}",
         )
 
 

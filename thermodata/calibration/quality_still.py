@@ -18,7 +18,8 @@ _COARSER = 3.0  # than usual: it was logged otherwise
 @dataclass(frozen=True, slots=True)
 class Reading:
     """How a channel read in a test, as in `RunStats`. moving: differences that it rests on. stood_s: the longest
-    stretch of exactly one value [s]."""
+    stretch of exactly one value [s]. low, high: its extremes, None where it has no value; low_n, high_n: samples that
+    stand there."""
 
     step: float
     finest: float
@@ -26,6 +27,15 @@ class Reading:
     alternates: float
     moving: int
     stood_s: float
+    low: float | None = None
+    low_n: int = 0
+    high: float | None = None
+    high_n: int = 0
+
+    @property
+    def has_moved(self) -> bool:
+        """Whether it took more than one value."""
+        return self.low != self.high
 
     @property
     def is_fine(self) -> bool:

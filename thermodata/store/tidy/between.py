@@ -4,8 +4,8 @@ back, and the streams that it touches are made again."""
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +13,7 @@ import numpy as np
 from thermodata.calibration.quality_between import POINTS, Course, Levels, offsets_between_tests
 from thermodata.calibration.quality_dead import dead_throughout
 from thermodata.calibration.quality_foreign import foreign_part
+from thermodata.calibration.quality_range import Limits, ends_of_ranges
 from thermodata.calibration.quality_still import Reading, read_elsewhere
 from thermodata.calibration.quality_value import run_stats
 from thermodata.plugin import Array, Float1D
@@ -36,13 +37,15 @@ class Verdict:
 
     offsets: channel -> (by how much its sensor is off [K], since when [s] or None: throughout). foreign: (from, to) [s]
     of another recording, and why. readings: channel -> how it reads in other tests (step, finest, chance, alternates).
-    dead: channels that stand still throughout.
+    dead: channels that stand still throughout. limits: channel -> lower and upper end of its
+    range, where it comes there.
     """
 
     offsets: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
     foreign: tuple[float | None, float | None, str] | None = None
     readings: Mapping[str, tuple[float, float, float, float]] = field(default_factory=dict)
     dead: tuple[str, ...] = ()
+    limits: Mapping[str, Limits] = field(default_factory=dict)
 
     def of(self, channels: Iterable[str]) -> Verdict:
         """What concerns these channels."""
@@ -52,11 +55,12 @@ class Verdict:
             self.foreign,
             {c: r for c, r in self.readings.items() if c in names},
             tuple(c for c in self.dead if c in names),
+            {c: ends for c, ends in self.limits.items() if c in names},
         )
 
     def to_json(self) -> dict[str, Any]:
         """Plain data; empty where there is nothing to say."""
-        if not (self.offsets or self.foreign or self.readings or self.dead):
+        if not (self.offsets or self.foreign or self.readings or self.dead or self.limits):
             return {}
         return json.loads(json.dumps({k: v for k, v in asdict(self).items() if v}))  # type: ignore[no-any-return]
 
@@ -136,7 +140,8 @@ def _rounded(x: Float1D) -> list[float | None]:
 def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
     """How a channel reads, from the chunk in which it moves most; and its longest stretch of one value in any."""
     # what stands is wanted here: a verdict that flags it must come out the same once it is flagged
-    x = np.where((column.flags & np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK))) == 0, column.values, np.nan)
+    judged = np.uint16(INVALID & ~(Flag.HELD | Flag.STUCK | Flag.SATURATED))
+    x = np.where((column.flags & judged) == 0, column.values, np.nan)
     stats = run_stats(x)
     d = np.diff(x)
     moving = int(np.count_nonzero(d[np.isfinite(d)]))
@@ -144,10 +149,39 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
         (float(t_s[a + n - 1] - t_s[a]) for a, n in zip(stats.starts.tolist(), stats.lengths.tolist(), strict=True)),
         default=0.0,
     )
-    stood = max(stood, known.stood_s if known else 0.0)
-    if known is not None and known.moving >= moving:
-        return Reading(known.step, known.finest, known.chance, known.alternates, known.moving, stood)
-    return Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood)
+    new = Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x))
+    if known is None:
+        return new
+    low, low_n = _further(min, (known.low, known.low_n), (new.low, new.low_n))
+    high, high_n = _further(max, (known.high, known.high_n), (new.high, new.high_n))
+    return replace(
+        known if known.moving >= moving else new,
+        stood_s=max(stood, known.stood_s),
+        low=low,
+        low_n=low_n,
+        high=high,
+        high_n=high_n,
+    )
+
+
+def _extremes(x: Float1D) -> tuple[float | None, int, float | None, int]:
+    """Lowest value of x and how many samples stand there, and the same of the highest."""
+    known = x[np.isfinite(x)]
+    if not len(known):
+        return None, 0, None, 0
+    low, high = float(known.min()), float(known.max())
+    return low, int(np.count_nonzero(known == low)), high, int(np.count_nonzero(known == high))
+
+
+def _further(
+    which: Callable[[float, float], float], a: tuple[float | None, int], b: tuple[float | None, int]
+) -> tuple[float | None, int]:
+    """The further one of two extremes, each with its number of samples; of the same, all of them."""
+    if a[0] is None or b[0] is None:
+        return b if a[0] is None else a
+    if a[0] == b[0]:
+        return a[0], a[1] + b[1]
+    return a if which(a[0], b[0]) == a[0] else b
 
 
 def levels_of(
@@ -198,13 +232,22 @@ def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str,
     seen = {(x.test, c): r for x, known in tests for c, r in known.items()}
     for (test, channel), r in read_elsewhere(seen).items():
         readings.setdefault(test, {})[channel] = r.step, r.finest, r.chance, r.alternates
+    limits: dict[str, dict[str, Limits]] = {}
+    for (test, channel), ends in ends_of_ranges(seen).items():
+        limits.setdefault(test, {})[channel] = ends
     dead = dead_throughout([x for x, _ in tests])
     found: dict[str, Verdict] = {}
     for levels, _ in tests:
         part = foreign_part(levels)
         foreign = None if part is None else (_finite(part[0]), _finite(part[1]), part[2])
         still = tuple(sorted(channel for test, channel in dead if test == levels.test))
-        verdict = Verdict(offsets.get(levels.test, {}), foreign, readings.get(levels.test, {}), still)
+        verdict = Verdict(
+            offsets.get(levels.test, {}),
+            foreign,
+            readings.get(levels.test, {}),
+            still,
+            limits.get(levels.test, {}),
+        )
         if verdict != Verdict():
             found[levels.test] = verdict
     return found

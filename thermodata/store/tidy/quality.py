@@ -93,7 +93,10 @@ class Flagged:
         wanted = min(windows.WINDOW_ROWS, windows.WINDOW_VALUES // max(1, len(bounds)))
         size = max(1, wanted // rows) * rows
         margin = min(windows.MARGIN_ROWS, size // 2)
-        joined = Joined(elsewhere={n: r.stats() for b in bounds if (r := self.verdict.reading(n := b.name))})
+        joined = Joined(
+            elsewhere={n: r.stats() for b in bounds if (r := self.verdict.reading(n := b.name))},
+            limits=self.verdict.limits,
+        )
 
         def load(a: int) -> tuple[Chunk, dict[str, Column], dict[str, Column]]:
             chunk = self._chunk(max(self.start, a - margin), min(self.stop, a + size + margin), bounds)

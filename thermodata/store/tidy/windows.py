@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.calibration.quality import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality_range import Limits
 from thermodata.calibration.quality_value import RunStats
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
@@ -40,10 +41,12 @@ class _Carried:
 @dataclass(slots=True)
 class Joined:
     """Takes the windows of a stream in order. events: of the windows so far, in order of time. elsewhere: channel ->
-    how it reads in other tests, where this one does not tell."""
+    how it reads in other tests, where this one does not tell. limits: channel -> the ends of its range that other tests
+    show."""
 
     events: list[QualityEvent] = field(default_factory=list)
     elsewhere: Mapping[str, RunStats] = field(default_factory=dict)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
     _carried: dict[str, _Carried] = field(default_factory=dict)
     _open: dict[tuple[str | None, str], int] = field(default_factory=dict)
     _count: dict[tuple[str | None, str], int] = field(default_factory=dict)
@@ -63,6 +66,7 @@ class Joined:
                     flags=c.flags,
                     at=c.bound.channel.at,
                     elsewhere=self.elsewhere.get(n),
+                    limits=self.limits.get(n, (None, None)),
                     held=c.bound.is_held,
                 )
                 for n, c in columns.items()

@@ -1,0 +1,50 @@
+"""The end of a range that nobody declared shows in several tests: all come to it, and none goes beyond."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from thermodata.calibration.quality_range import ends_of_ranges
+from thermodata.calibration.quality_still import Reading
+
+FINE = Reading(0.2, 0.005, 0.01, 0.66, moving=5000, stood_s=600.0, low=-20.3, low_n=1, high=142.067, high_n=2000)
+LONG = replace(FINE, moving=110, low=-8.1, high_n=1468)
+SOUND = replace(FINE, low=-30.9, high=55.1, high_n=1)
+
+
+def test_the_end_of_a_range_is_told_of_the_tests_that_come_to_it() -> None:
+    found = ends_of_ranges({("day1", "dZ"): FINE, ("day2", "dZ"): LONG, ("day3", "dZ"): SOUND, ("day1", "dX"): SOUND})
+    assert found == {("day1", "dZ"): (None, 142.067), ("day2", "dZ"): (None, 142.067)}
+
+
+def test_the_lower_end_and_a_test_that_touches_it_once() -> None:
+    low = replace(FINE, low=-140.5, low_n=40, high=3.2, high_n=1)
+    found = ends_of_ranges({("day1", "dZ"): low, ("day2", "dZ"): low, ("day3", "dZ"): replace(low, low_n=1)})
+    assert found == {(f"day{k}", "dZ"): (-140.5, None) for k in (1, 2, 3)}
+
+
+@pytest.mark.parametrize(
+    "others",
+    [
+        [SOUND],  # one test alone may as well have been held
+        [replace(LONG, high_n=9)],
+        [replace(LONG, high=142.068)],  # goes beyond
+        [LONG, replace(SOUND, high=143.0)],
+        [replace(LONG, low=142.067)],  # stands throughout
+    ],
+)
+def test_what_one_test_alone_shows_or_one_contradicts_is_no_end(others: list[Reading]) -> None:
+    assert ends_of_ranges({(f"day{k}", "dZ"): r for k, r in enumerate([FINE, *others])}) == {}
+
+
+@pytest.mark.parametrize("change", [{"finest": 0.2}, {"alternates": 0.1}, {"chance": 0.3}])
+def test_a_coarse_or_smooth_reading_comes_to_an_extreme_as_a_matter_of_course(change: dict[str, float]) -> None:
+    coarse = replace(FINE, **change)
+    assert ends_of_ranges({("day1", "dZ"): coarse, ("day2", "dZ"): coarse}) == {}
+
+
+def test_a_rest_at_zero_is_no_end() -> None:
+    rests = replace(FINE, low=0.0, low_n=3000, high=8.0, high_n=1)
+    assert ends_of_ranges({("day1", "dZ"): rests, ("day2", "dZ"): rests}) == {}
