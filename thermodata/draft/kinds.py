@@ -10,10 +10,12 @@ from datetime import UTC, datetime
 import numpy as np
 
 from thermodata.draft.axis import axis_of
+from thermodata.draft.cuts import feeds_with_spindle, is_loaded
 from thermodata.draft.guess import guess_of
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.said_by_names import Said, said_by
+from thermodata.draft.sample import Course
 from thermodata.draft.vocabulary import says
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D
@@ -23,23 +25,34 @@ from thermodata.schema.quantity import canonical, linear_conversion
 _KINDS: tuple[tuple[str, str], ...] = (
     (
         "etve",
+        "reposo. parado. repos. riposo. fermo. repouso. spoczynek postoj. stilstand. stillastaende "
         "etve. idle. ambient ^amb. klid. klidov ruhe. umgebung okoli stillstand standstill leerlauf~aus 环境 "
         "静止 待机 evt.",
     ),
-    ("spectrum", "spectrum spektrum spec. spektr 谱 转速谱 drehzahlspektrum stufenprogramm"),
-    ("cutting", "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣"),
+    ("spectrum", "spectrum spektrum spec. spektr espectro spectre. spettro 谱 转速谱 drehzahlspektrum stufenprogramm"),
+    (
+        "cutting",
+        "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado usinag "
+        "coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning skarande "
+        "fresning talasli frezeleme resanie",
+    ),
     ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
     (
         "linear_axis",
-        "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. 进给 直线 丝杠 screw. kgt.",
+        "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. ^avanc ^avanz matning "
+        "aanzet ilerleme 进给 直线 丝杠 screw. kgt.",
     ),
     (
         "spindle",
         "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
         "预热 const. "
-        "heat. heating heating. heizen n.",
+        "heat. heating heating. heizen n. husillo broche. mandrino wrzecion",
     ),
-    ("mixed", "mixed. mix. day. tag. ^den. dny. shift. schicht smena. kombin combin production produktion 混合 综合"),
+    (
+        "mixed",
+        "mixed. mix. mixto mixte. misto. gemischt blandad day. tag. ^den. dny. shift. schicht smena. "
+        "kombin combin production produktion 混合 综合",
+    ),
 )
 _ROLES: tuple[tuple[str, str], ...] = (
     ("locked", "locked secret geheim blind. zamcen"),
@@ -49,7 +62,16 @@ _ROLES: tuple[tuple[str, str], ...] = (
 # a test of these is none of the environment, also where nobody logs their switches
 _FLUIDS = (
     "fluid. fluids. fluide. fluides. fluidi. ^kuhl ^kuehl kss. coolant. cooling. ^pump. pumps. ^pumpe pompa. pompe. "
-    "^hydraul ^idraul emuls ^refriger arrosage. ^lubri ^schmier ^chlaz ^chlad ^cerpadl kapalin 冷却 液压"
+    "^hydraul ^idraul emuls ^refriger arrosage. ^lubri ^schmier ^chlaz ^chlad ^cerpadl kapalin 冷却 液压 taladrina "
+    "^enfria "
+    "chiller chillers ^refroid ^raffredd chlodz koelvloei koeling kylvatska kylare skarvatsk sogut fluido~de~corte "
+    "liquide~de~coupe fluide~de~coupe fluido~da~taglio fluido~di~taglio liquido~de~corte cutting~fluid"
+)
+# what lets other air to the machine: somebody did it on purpose
+_DRAUGHTS = (
+    "tor. hallentor gate. door. doors. open~door open~gate tur. tuer. abluft zuluft exhaust. draught draughts "
+    "zugluft luftzug durchzug portail. courant~d~air porton. puerta. corriente~de~aire portone corrente~d~aria portao. "
+    "vrata. pruvan brama. przeciag tochtlucht blow. blower"
 )
 _AGREE = {
     "spindle": {"spindle", "spectrum"},
@@ -89,7 +111,8 @@ class Kind:
 @dataclass(slots=True)
 class _Moved:
     """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or
-    a position was logged at all."""
+    a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded: that takes its
+    power; None where that was not logged."""
 
     speeds: tuple[float, ...] = ()
     axes: set[str] = field(default_factory=set)
@@ -97,6 +120,8 @@ class _Moved:
     switched: bool = False
     seen: bool = False
     whole: bool = True
+    with_spindle: bool = False
+    loaded: bool | None = None
 
 
 def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
@@ -105,6 +130,8 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     folders = [part for f in files for part in reversed(f.path.parts[:-1])]
     said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
     by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
+    if by_name == "cutting" and says(_FLUIDS, text) and not (moved.speeds or moved.axes):
+        by_name = None  # 'cutting fluid': what the fluid does, without a cut
     if by_name == "rotary_axis" and _LINEAR.search(text) and not says(_TURNS, text):
         by_name = "linear_axis"  # 'tisch_Z': the table travels
     conditions, comments, doubts = _conditions(said, moved, files)
@@ -120,6 +147,9 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     if by_name is None and by_data == "etve" and says(_FLUIDS, text):
         kind, comment = "other", ""
         question = "kind: the name speaks of pumps or fluids, whose switches are not logged; nothing else moves: etve?"
+    elif by_name is None and by_data == "etve" and says(_DRAUGHTS, text):
+        kind, comment = "other", ""
+        question = "kind: the name speaks of a door or a draught; nothing moves: etve?"
     if kind == "linear_axis" and "axis" not in conditions:
         letter = axis_of(text) or (next(iter(moved.axes)) if len(moved.axes) == 1 else None)
         if letter:
@@ -133,12 +163,17 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
 
 
 def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[str, str, str | None]:
-    if by_name and by_data:
+    if by_name and by_data and by_data != "other":
         if by_data in _AGREE.get(by_name, {by_name}):
             kind = "spectrum" if (by_name, by_data) == ("spindle", "spectrum") else by_name
             return kind, "sure: name and data", None
         return by_name, "", f"kind: the name says {by_name}, the data {by_data} ({_told(moved)})"
-    if by_data:
+    if by_data == "mixed" and moved.with_spindle and moved.loaded is None:
+        asked = "mixed, or cutting? the axes feed only while the spindle turns, whose power is not logged"
+        return by_data, "", f"kind: {asked} ({_told(moved)})"
+    if by_data == "other" and not by_name:
+        return by_data, "", f"kind: other? {_told(moved)}"
+    if by_data and by_data != "other":
         return by_data, f"guess: data only, {_told(moved)}", None
     if by_name:
         return by_name, "guess: name only", None
@@ -155,7 +190,8 @@ def _told(moved: _Moved) -> str:
             + " rpm"
         )
     if moved.axes:
-        said.append(f"{'/'.join(sorted(moved.axes)).upper()} moves")
+        cuts = " while the spindle turns under load" if moved.with_spindle and moved.loaded else ""
+        said.append(f"{'/'.join(sorted(moved.axes)).upper()} moves{cuts}")
     if moved.rotary:
         said.append("the table turns")
     return ", ".join(said) or ("switches change, nothing moves" if moved.switched else "nothing moves")
@@ -165,7 +201,7 @@ def _by_data(moved: _Moved) -> str | None:
     if not moved.seen:
         return None
     if moved.speeds and moved.axes:
-        return "mixed"
+        return "cutting" if moved.with_spindle and moved.loaded and not moved.rotary else "mixed"
     if moved.speeds:
         return "spectrum" if len(moved.speeds) >= 3 else "spindle"
     if moved.axes and moved.rotary:
@@ -174,14 +210,17 @@ def _by_data(moved: _Moved) -> str | None:
         return "linear_axis" if len(moved.axes) == 1 else "mixed"
     if moved.rotary:
         return "rotary_axis"
-    if moved.switched or not moved.whole:
+    if not moved.whole:
         return None
+    if moved.switched:
+        return "other"
     return "etve"
 
 
 def _moved(files: Sequence[RawFile]) -> _Moved:
     found = _Moved(whole=all(f.sample.whole for f in files))
     for file in files:
+        work = _Work()
         for signal in file.signals:
             key = (signal.stream, signal.name)
             seen, course = file.sample.values.get(key), file.sample.courses.get(key)
@@ -197,7 +236,33 @@ def _moved(files: Sequence[RawFile]) -> _Moved:
                 factor * (seen.high - seen.low),
                 None if course is None else factor * course.values,
             )
+            if course is not None and course.t_ns.size:
+                work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
+        work.tell(found)
     return found
+
+
+@dataclass(slots=True)
+class _Work:
+    """Of a file, the courses of the spindle's speed and power, and of the feeds."""
+
+    speed: Course | None = None
+    power: Course | None = None
+    feeds: list[Course] = field(default_factory=list)
+
+    def add(self, quantity: str | None, at: str, course: Course) -> None:
+        if quantity == "feed":
+            self.feeds.append(course)
+        elif quantity == "rotational_speed" and at == "spindle":
+            self.speed = course
+        elif quantity == "power" and at == "spindle":
+            self.power = course
+
+    def tell(self, found: _Moved) -> None:
+        if self.speed is None or not self.feeds:
+            return
+        found.with_spindle = feeds_with_spindle(self.speed, self.feeds)
+        found.loaded = None if self.power is None else is_loaded(self.speed, self.power)
 
 
 def _factor(quantity: str | None, unit: str | None) -> float:

@@ -21,6 +21,7 @@ SMALL = 4_000_000  # bytes; smaller files are read whole
 _PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
 _KEPT_ROWS = 3000  # of a signal whose course tells what a test is
 _COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
+_COURSE_IF_ROOM = ("power",)
 _MOST_COURSES = 40
 
 
@@ -126,11 +127,12 @@ def short(error: Exception) -> str:
 def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
     found: list[tuple[str, str]] = []
+    others: list[tuple[str, str]] = []
     for signal in signals:
         said: Guess = guess_of(signal)
-        if said.quantity in _COURSE and signal.dtype != "str":
-            found.append((signal.stream, signal.name))
-    return set(found[:_MOST_COURSES])
+        if said.quantity in (*_COURSE, *_COURSE_IF_ROOM) and signal.dtype != "str":
+            (found if said.quantity in _COURSE else others).append((signal.stream, signal.name))
+    return set((found + others)[:_MOST_COURSES])
 
 
 def _take(

@@ -1,0 +1,137 @@
+"""What kind of test a recording is: by its name in many languages, and by what worked in it, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from thermodata.draft.cuts import feeds_with_spindle, is_loaded
+from thermodata.draft.kinds import kind_of
+from thermodata.draft.sample import Course
+from thermodata.plugin import Float1D
+from thermodata.schema.load import load_campaign
+
+Say = Callable[..., Any]
+N = 600
+T_NS = np.arange(N, dtype=np.int64) * 10**10
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("01_mecanizado", "cutting"),
+        ("usinage_3", "cutting"),
+        ("essai coupe", "cutting"),
+        ("07_Zerspanung", "cutting"),
+        ("lavorazione2", "cutting"),
+        ("usinagem", "cutting"),
+        ("obróbka_1", "cutting"),
+        ("verspanen", "cutting"),
+        ("02_husillo", "spindle"),
+        ("broche 2", "spindle"),
+        ("04_avanceZ", "linear_axis"),
+        ("03_reposo", "etve"),
+        ("repos", "etve"),
+        ("07_mixto", "mixed"),
+        ("espectro", "spectrum"),
+        ("cutting fluid", "other"),
+    ],
+)
+def test_a_kind_is_told_by_the_name_in_many_languages(name: str, kind: str) -> None:
+    assert kind_of(name, []).kind == kind
+
+
+def worked(alone: bool) -> tuple[Float1D, Float1D]:
+    """(speed [rpm], feed [m/min]): the spindle turns in every other sixth of the time at two speeds; the axis feeds
+    then, or also while the spindle stands."""
+    sixth = np.arange(N) * 6 // N
+    turns = sixth % 2 == 1
+    speed = np.where(turns, np.where(sixth < 3, 2000.0, 8000.0), 0.0)
+    return speed, np.where(turns | (alone & (sixth == 2)), 3.0, 0.0)
+
+
+def unloaded(speed: Float1D) -> Float1D:
+    return np.asarray(0.1 + 0.5 * speed / 8000 + np.random.default_rng(1).normal(0, 0.004, N), dtype=np.float64)
+
+
+def loaded(speed: Float1D) -> Float1D:
+    return np.asarray(unloaded(speed) + np.where(speed == 2000.0, 6.0, 0.0) + np.where(speed == 8000.0, 1.0, 0.0))
+
+
+@pytest.mark.parametrize(("power", "under_load"), [(unloaded, False), (loaded, True)])
+def test_a_power_that_the_speed_does_not_explain_is_a_load(
+    power: Callable[[Float1D], Float1D], under_load: bool
+) -> None:
+    speed, _ = worked(False)
+    assert is_loaded(Course(T_NS, speed), Course(T_NS, power(speed))) is under_load
+
+
+def test_a_spindle_whose_grease_warms_is_not_under_load() -> None:
+    speed, _ = worked(False)
+    warms = 0.6 + 0.4 * np.exp(-np.arange(N) / 100)
+    assert not is_loaded(Course(T_NS, speed), Course(T_NS, unloaded(speed) * warms))
+
+
+def test_a_power_that_varies_at_one_speed_is_a_load() -> None:
+    speed, _ = worked(False)
+    power = unloaded(speed) + np.where((speed == 8000.0) & (np.arange(N) % 20 < 10), 1.0, 0.0)
+    assert is_loaded(Course(T_NS, speed), Course(T_NS[::2], power[::2]))
+
+
+def test_an_axis_that_feeds_while_the_spindle_stands_does_not_cut() -> None:
+    for alone in (False, True):
+        speed, feed = worked(alone)
+        assert feeds_with_spindle(Course(T_NS, speed), [Course(T_NS, feed)]) is not alone
+    assert not feeds_with_spindle(Course(T_NS, speed), [Course(T_NS, 0 * feed)])
+
+
+@pytest.mark.parametrize(
+    ("alone", "power", "kind", "asked"),
+    [
+        (False, loaded, "cutting", False),
+        (False, unloaded, "mixed", False),
+        (True, loaded, "mixed", False),
+        (False, None, "mixed", True),  # nobody knows whether it was under load
+    ],
+)
+def test_a_spindle_under_load_while_the_axes_feed_is_cutting(
+    tmp_path: Path, say: Say, alone: bool, power: Callable[[Float1D], Float1D] | None, kind: str, asked: bool
+) -> None:
+    speed, feed = worked(alone)
+    kw = np.zeros(N) if power is None else power(speed)
+    head = "Time [s];Spindle speed [rpm];Feed X [m/min];Spindle bearing front [°C]"
+    rows = [
+        f"{10 * i};{speed[i]:.0f};{feed[i]:.2f};{20 + 0.01 * i:.2f}" + (f";{kw[i]:.3f}" if power else "")
+        for i in range(N)
+    ]
+    text = "\n".join([head + (";Spindle power [kW]" if power else ""), *rows])
+    (tmp_path / "t1.csv").write_text(text + "\n", "utf-8")
+    assert say("init", tmp_path).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert found.kind == kind
+    assert ("kind: mixed, or cutting?" in (tmp_path / "campaign.yaml").read_text("utf-8")) is asked
+
+
+@pytest.mark.parametrize(
+    ("test", "switch", "said"),
+    [
+        ("t1", True, "kind: other? switches change, nothing moves"),
+        ("04_Tor", False, "kind: the name speaks of a door or a draught"),
+        ("05_enfriadora", False, "kind: the name speaks of pumps or fluids"),
+        ("reposo", False, ""),
+    ],
+)
+def test_a_test_that_is_more_than_its_environment_is_asked(
+    tmp_path: Path, say: Say, test: str, switch: bool, said: str
+) -> None:
+    rows = [f"{10 * i};0;{20 + 0.01 * i:.2f};{int(switch and 20 < i < 80)}" for i in range(120)]
+    head = "Time [s];Spindle speed [rpm];Spindle bearing front [°C];Coolant on"
+    (tmp_path / f"{test}.csv").write_text("\n".join([head, *rows]) + "\n", "utf-8")
+    assert say("init", tmp_path).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert found.kind == ("other" if said else "etve")
+    assert said in (tmp_path / "campaign.yaml").read_text("utf-8")
