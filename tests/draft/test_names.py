@@ -62,6 +62,59 @@ def test_words_of_a_language_stand_by_the_keys_of_the_vocabulary(words: Mapping[
 
 
 @pytest.mark.parametrize(
+    ("name", "unit", "quantity"),
+    [
+        ("feed_x_m_min", "m/min", "feed"),
+        ("feed_x_m_min", None, "feed"),
+        ("coolant_flow_l_min", "l/min", "flow"),
+        ("spindle_speed_1_min", "1/min", "rotational_speed"),
+    ],
+)
+def test_the_minute_of_a_rate_is_no_smallest_value(name: str, unit: str | None, quantity: str) -> None:
+    found = guess(name, unit)
+    assert found.quantity == quantity
+    assert "a limit, or a reading?" not in found.questions
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("feed_x_min", "m/min"),
+        ("feed_x_max", "m/min"),
+        ("flow min", "l/min"),
+        ("T_bearing_min", "°C"),
+        ("T_1_min", "°C"),
+    ],
+)
+def test_a_smallest_value_is_asked(name: str, unit: str) -> None:
+    assert "a limit, or a reading?" in guess(name, unit).questions
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "Probe bracket",
+        "probe_bracket_degC",
+        "/temperatures.probe_holder",
+        "Sensorhalter",
+        "Messtasterhalter",
+        "Soporte sondas",
+        "Support de palpeur",
+        "Supporto sonda",
+        "Suporte sonda",
+    ],
+)
+def test_what_holds_the_probes_is_a_place(name: str) -> None:
+    found = guess(name, "°C")
+    assert (found.at, found.questions) == ("fixture", ())
+
+
+def test_a_probe_alone_may_be_the_place_or_the_sensor() -> None:
+    assert any("only the sensor?" in q for q in guess("Probe 3", "°C").questions)
+    assert guess("Tool holder", "°C").at != "fixture"
+
+
+@pytest.mark.parametrize(
     ("name", "at"),
     [
         ("chiller_out", "chiller.supply"),

@@ -42,6 +42,7 @@ _ASK_STATUS = (
 )
 _SMALL_MM = 5.0  # an axis travels further than a tool is displaced
 _SHARES = ("load", "humidity")
+_RATES = ("feed", "flow", "rotational_speed")
 _MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 _PLAUSIBLE = {
     "temperature": (-40.0, 200.0),
@@ -106,6 +107,8 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return replace(found, sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None or found.quantity == "label":
         return found
+    if found.quantity in _RATES:
+        own = words(units.without_rate(_last(bare), known))
     return _small(_place(_unit(found, unit, written, values), own, text), own, values)
 
 

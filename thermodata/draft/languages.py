@@ -184,7 +184,8 @@ FRENCH = {
     "saddle": "chariot trainard",
     "tool": "outil.",
     "workpiece": "piece.",
-    "fixture": "montage~d montage~pi bridage montage.",
+    "fixture": "montage~d montage~pi bridage montage. support~palpeur support~palpeurs support~capteur "
+    "support~capteurs support~de~palpeur support~de~palpeurs support~de~capteur support~de~capteurs",
     "probe": "palpeur",
     "coolant": "arrosage lubrifiant~de~coupe liquide~de~coupe fluide~de~coupe",
     "chiller": "groupe~froid refroidisseur groupe~froid. eau~glacee eau~glycolee eau. ^eau~ gf.",
@@ -258,7 +259,8 @@ ITALIAN = {
     "crossbeam": "traversa",
     "tool": "utensile",
     "workpiece": "pezzo",
-    "fixture": "attrezzatura staffaggio",
+    "fixture": "attrezzatura staffaggio supporto~sonda supporto~sonde supporto~tastatore supporto~tastatori "
+    "supporto~sensori",
     "probe": "tastatore",
     "coolant": "refrigerante. lubrorefrigerante emulsione",
     "chiller": "refrigeratore frigo. gruppo~frigo acqua",
@@ -327,7 +329,8 @@ SPANISH = {
     "crossbeam": "puente. travesano",
     "tool": "herramienta",
     "workpiece": "pieza",
-    "fixture": "utillaje",
+    "fixture": "utillaje soporte~sonda soporte~sondas soporte~palpador soporte~palpadores soporte~sensores "
+    "soporte~de~sonda soporte~de~sondas soporte~de~palpador soporte~de~palpadores soporte~de~sensores",
     "probe": "palpador",
     "coolant": "refrigerante. taladrina",
     "chiller": "enfriador agua~refriger enfriadora",
@@ -386,7 +389,8 @@ PORTUGUESE = {
     "headstock": "cabecote",
     "tool": "ferramenta",
     "workpiece": "peca.",
-    "fixture": "dispositivo~de~fixacao",
+    "fixture": "dispositivo~de~fixacao suporte~sonda suporte~sondas suporte~apalpador suporte~apalpadores "
+    "suporte~de~sonda suporte~de~sondas suporte~de~apalpador suporte~de~apalpadores",
     "probe": "apalpador",
     "coolant": "fluido~de~corte refrigeracao liquido~de~corte",
     "chiller": "resfriador unidade~de~refrigeracao agua~gelada",
@@ -450,7 +454,7 @@ POLISH = {
     "table": "stolu. stolik",
     "headstock": "wrzeciennik",
     "ram": "suwak",
-    "saddle": "sanie. suport",
+    "saddle": "sanie. suport. suportu. suporcie.",
     "crossbeam": "belka. belki.",
     "tool": "narzedzi",
     "workpiece": "przedmiot~obr detal. ^przedmiot",
@@ -591,7 +595,7 @@ TURKISH = {
     "headstock": "fener~kutusu mil~basligi is~mili~kafasi kafa.",
     "tool": "takim. takimi.",
     "workpiece": "is~parcasi parca.",
-    "fixture": "fikstur baglama",
+    "fixture": "fikstur baglama prob~tutucu sensor~tutucu",
     "coolant": "sogutma~sivisi kesme~sivisi bor~yag",
     "chiller": "sogutucu. chiller sogutma~suyu",
     "supply": "giris. besleme. giden. gidis.",
@@ -718,7 +722,7 @@ SWEDISH = {
     "crossbeam": "tvarbalk",
     "tool": "verktyg",
     "workpiece": "arbetsstycke detalj. ^detaljt",
-    "fixture": "fixtur",
+    "fixture": "fixtur givarhallare",
     "coolant": "kylvatska skarvatska skarvatske",
     "chiller": "kylare. kylaggregat kylvatten",
     "supply": "framledning inlopp tillopp",
@@ -752,6 +756,7 @@ DUTCH = {
     "middle": "midden.",
     "column": "kolom",
     "outside": "buiten. buitentemp buitenlucht",
+    "fixture": "sensorhouder tasterhouder",
 }
 
 # Czech and German stand with English in the vocabulary; what they lack stands in its words

@@ -66,6 +66,15 @@ def from_name(name: str) -> str | None:
     return match[1].replace("_", "/").replace("pct", "%") if match else None
 
 
+def without_rate(name: str, unit: str | None) -> str:
+    """A name without the unit at its end, where that is `unit` and a rate: 'feed_x_m_min' -> 'feed_x', whose 'min' is a
+    minute and no smallest value."""
+    written = from_name(name)
+    if written is None or "/" not in written or unit is None or normal_unit(written) != normal_unit(unit):
+        return name
+    return _IN_NAME.sub("", name.strip()) or name
+
+
 def quantities_of(unit: str) -> tuple[str, ...]:
     """Quantities that can have this unit, the likeliest first; () where none can.
 

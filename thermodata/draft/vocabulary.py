@@ -120,7 +120,9 @@ _PLACE_WORDS: dict[str, str] = {
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
     "tool": "tool. werkzeug nastroj 刀具 刀柄 toolholder",
     "workpiece": "workpiece werkstuck werkstueck obrobek obrobku 工件 part~temp wkp.",
-    "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter",
+    "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter tasterhalter "
+    "probe~bracket probes~bracket probe~holder probes~holder probe~mount probe~nest probe~support probe~stand "
+    "sensor~bracket sensor~holder sensor~mount bracket~of~probe bracket~of~probes bracket~probe bracket~probes",
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
