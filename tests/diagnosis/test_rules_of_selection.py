@@ -586,7 +586,7 @@ def sure(monkeypatch: pytest.MonkeyPatch) -> Callable[[float], None]:
 
 def hidden(n: str, known: frozenset[str]) -> float:
     """b is little where u is not known, and a is the surer for it."""
-    return {"a": 100.0 + 20.0 * ("u" in known), "u": 60.0, "b": 50.0 if "u" in known else 5.0}[n]
+    return {"a": 100.0 + 20.0 * ("u" in known), "u": 40.0, "b": 50.0 if "u" in known else 5.0}[n]
 
 
 def unnamed(scored: Scored) -> bool:
@@ -610,6 +610,19 @@ def test_what_may_not_be_named_stands_beside_what_it_hides(
     assert [[name(s) for s in m.beside] for m in found.members] == [["a"], ["b"]]
     assert [name(s) for s in found.dropped] == ["u"], "once, as it was judged last"
     assert all(len(m.alone.rows) for m in found.members), "left-out tests are asked of all"
+
+
+@pytest.mark.parametrize(("of_u", "stands"), [(49.9, True), (50.1, False)])
+def test_nothing_is_named_for_what_is_more_evident_and_has_no_name(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], of_u: float, stands: bool
+) -> None:
+    sure(50.0)
+
+    def evidence(n: str, known: frozenset[str]) -> float:
+        return {"a": 100.0, "u": of_u, "b": 50.0 if "u" in known else 5.0}[n]
+
+    found = Worlds(monkeypatch, evidence).select("abu", unnamed)
+    assert (members(found), bool(found.context)) == ((["a", "b"], True) if stands else (["a"], False))
 
 
 @pytest.mark.parametrize(("of_b", "stands"), [(60.0, True), (59.9, False)])

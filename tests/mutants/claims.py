@@ -399,6 +399,8 @@ MUTANTS = [
     ),
     diagnosis("context.py", "MOST = 5 ", "MOST = 9 ", "as many effects as noise has shapes"),
     diagnosis("selection.py", "PASSES = 3", "PASSES = 1", "what a proxy stood in the way of stays unseen"),
+    diagnosis("context.py", "return more and max(", "return True or max(", "what can't be named tells twins apart"),
+    diagnosis("context.py", "default=0.0) < min(gained)", "default=0.0) < 1e9", "the lesser of two is named"),
     diagnosis("context.py", "RIVALS = 3", "RIVALS = 9", "every candidate is tried beside the chosen"),
     diagnosis("context.py", "sound(now) and now.evidence >= was.evidence", "sound(now)", "a rival is no context"),
     diagnosis("context.py", "sound(now) and now.evidence", "now.evidence", "a context forbids the claim"),

@@ -76,12 +76,19 @@ def with_context(
         weighed, beside_all = _parted(again, fine)
         noise = quieter
     whole = Beside(tuple(chosen), tuple(weighed), tuple(beside_all), noise)
-    return whole if _sure(whole) > _sure(alone) else alone
+    return whole if _names_more(whole, alone) else alone
 
 
-def _sure(found: Beside) -> int:
-    """How many are as probable as a claim asks."""
-    return sum(probability(s) >= limit_of(s) for s in found.weighed)
+def _names_more(whole: Beside, alone: Beside) -> bool:
+    """Whether more can be claimed, and none of it for what is more evident itself and has no name."""
+    before = {id(s.columns) for s in alone.weighed if _is_sure(s)}
+    gained = [s.evidence for s in whole.weighed if _is_sure(s) and id(s.columns) not in before]
+    more = sum(map(_is_sure, whole.weighed)) > len(before)
+    return more and max((s.evidence for s in whole.context), default=0.0) < min(gained)
+
+
+def _is_sure(one: Scored) -> bool:
+    return probability(one) >= limit_of(one)
 
 
 def _parted(some: Sequence[Scored], fine: Sequence[bool]) -> tuple[list[Scored], list[Scored]]:
