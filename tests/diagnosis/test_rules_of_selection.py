@@ -184,6 +184,7 @@ class Worlds:
         sound: Callable[[Scored], bool] = lambda s: True,
         among: str = "",
         channel: str = "T_{}",
+        good: float = 0.0,
         **of: Any,
     ) -> Selection:
         """among: the names that may be chosen, all by default. channel: of each, by its number."""
@@ -194,7 +195,7 @@ class Worlds:
             pool.append(one.columns)
         start = replace(of_tests(4), response="")
         some = [c for c in pool if not among or c.candidate.effect.name in among]
-        return select(start, self._rank(start, pool), sound, among=some)
+        return select(start, self._rank(start, pool), sound, among=some, good=good)
 
 
 def members(found: Selection) -> list[str | None]:
@@ -610,6 +611,15 @@ def test_what_may_not_be_named_stands_beside_what_it_hides(
     assert [[name(s) for s in m.beside] for m in found.members] == [["a"], ["b"]]
     assert [name(s) for s in found.dropped] == ["u"], "once, as it was judged last"
     assert all(len(m.alone.rows) for m in found.members), "left-out tests are asked of all"
+
+
+@pytest.mark.parametrize(("good", "stands"), [(0.99, True), (1.0, False)])
+def test_a_good_model_hides_nothing(
+    monkeypatch: pytest.MonkeyPatch, sure: Callable[[float], None], good: float, stands: bool
+) -> None:
+    """It leaves 1 of left-out tests."""
+    sure(50.0)
+    assert bool(Worlds(monkeypatch, hidden).select("abu", unnamed, good=good).context) is stands
 
 
 @pytest.mark.parametrize(("of_u", "stands"), [(49.9, True), (50.1, False)])

@@ -401,6 +401,7 @@ MUTANTS = [
     diagnosis("selection.py", "PASSES = 3", "PASSES = 1", "what a proxy stood in the way of stays unseen"),
     diagnosis("context.py", "return more and max(", "return True or max(", "what can't be named tells twins apart"),
     diagnosis("context.py", "default=0.0) < min(gained)", "default=0.0) < 1e9", "the lesser of two is named"),
+    diagnosis("selection.py", "if first.known.left_out > good:", "if True:", "a good model hides causes"),
     diagnosis("context.py", "RIVALS = 3", "RIVALS = 9", "every candidate is tried beside the chosen"),
     diagnosis("context.py", "sound(now) and now.evidence >= was.evidence", "sound(now)", "a rival is no context"),
     diagnosis("context.py", "sound(now) and now.evidence", "now.evidence", "a context forbids the claim"),

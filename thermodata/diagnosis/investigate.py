@@ -178,7 +178,10 @@ def _judged(
     measure = Measure(spread, problem.noise, chance, problem.in_parts)
 
     def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement, bool]:
-        found = select(problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among)
+        good = measure.good(refined=False)
+        found = select(
+            problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among, good=good
+        )
         refines = Refinement(fitted, problem, found.noise)
         told = judge(problem, found, measure, refines)
         if witness is None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.beside import beside, each_beside_others, weighed_beside, without
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.context import MOST, WORTH, with_context
+from thermodata.diagnosis.context import MOST, WORTH, Beside, with_context
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
@@ -57,10 +57,13 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
     return rank(problem, pool, None) if pool else None
 
 
-def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, among: Sequence[Columns]) -> Selection:
+def select(
+    problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, among: Sequence[Columns], good: float = 0.0
+) -> Selection:
     """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
     it stood in the way of; at last what was dropped beside others that went later is asked again. sound: whether a
-    candidate keeps the rules of a claim. among: what may be chosen, of all that was ranked."""
+    candidate keeps the rules of a claim. among: what may be chosen, of all that was ranked. good: an error of the model
+    on left-out tests that hides nothing."""
     noise = first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
@@ -84,7 +87,9 @@ def select(problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, 
     noise = _second_chance(problem, chosen, dropped, noise, sound)
     if len(chosen) > before:
         current = each_beside_others(problem, chosen, noise)
-    whole = with_context(problem, chosen, current, noise, sound, among)
+    whole = Beside(tuple(chosen), tuple(current), (), noise)
+    if first.known.left_out > good:
+        whole = with_context(problem, chosen, current, noise, sound, among)
     held, noise, chosen = beside(problem, whole.context), whole.noise, list(whole.chosen)
     credits = _credits(held, whole.weighed, noise)
     current = [replace(s, credit=c) for s, c in zip(whole.weighed, credits, strict=True)]
