@@ -140,7 +140,7 @@ class TestJudged:
             self.asked = [c.id for c in candidates]
             return None if members is None else first
 
-        def select(problem: Problem, given: Ranked, sound: Any, *, among: Sequence[Columns]) -> Selection:
+        def select(problem: Problem, given: Ranked, sound: Any, *, among: Sequence[Columns], **of: Any) -> Selection:
             assert given is first
             self.sound = sound
             self.among.append([c.candidate.effect.name for c in among])
