@@ -12,9 +12,8 @@ from thermodata.plugin import Bool1D, Float1D
 _TURNS_RPM, _FEEDS_M_MIN = 20.0, 0.05
 _WITH_SPINDLE = 0.95  # of the time in which an axis feeds
 _WORKS = 0.05  # of the rows, or nothing can be said
-_LOADED = (
-    2.0  # times the power that it takes at the same speed, or at a higher one: grease that warms takes a third off
-)
+# times the power that it takes at the same speed, or at a higher one: grease that warms takes a third off
+_LOADED = 2.0
 _SEEN = 0.1  # of the largest power, or it is the noise of a drive that rests
 _LEAST_ROWS, _SAME_SPEED = 20, 0.02
 
