@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.calibration.quality_range import ends_of_ranges
 from thermodata.calibration.quality_still import Reading
+from thermodata.schema.flag import Flag
 
 FINE = Reading(0.2, 0.005, 0.01, 0.66, moving=5000, stood_s=600.0, low=-20.3, low_n=1, high=142.067, high_n=2000)
 LONG = replace(FINE, moving=110, low=-8.1, high_n=1468)
@@ -48,3 +51,18 @@ def test_a_coarse_or_smooth_reading_comes_to_an_extreme_as_a_matter_of_course(ch
 def test_a_rest_at_zero_is_no_end() -> None:
     rests = replace(FINE, low=0.0, low_n=3000, high=8.0, high_n=1)
     assert ends_of_ranges({("day1", "dZ"): rests, ("day2", "dZ"): rests}) == {}
+
+
+def test_what_is_flagged_at_an_end_that_other_tests_show() -> None:
+    """Most of a test at its upper end is saturated, not held; a logger's code stays a code, though it is the lowest."""
+    rng = np.random.default_rng(3)
+    x = np.round(140.0 + rng.normal(0.0, 3.0, 400), 3)
+    x[20:380], x[390:] = 142.067, -9999.0
+    x[:20] = np.minimum(x[:20], 142.0)
+    t_ns = np.arange(len(x), dtype=np.int64) * 10**9
+    column = ColumnInput(x, "displacement", np.zeros(len(x), np.uint16), at="tcp", limits=(-9999.0, 142.067))
+    flags, _ = flag_stream(t_ns, {"dZ": column})
+    saturated, no_value = (((flags["dZ"] & np.uint16(f)) != 0) for f in (Flag.SATURATED, Flag.OUT_OF_RANGE))
+    assert saturated.tolist() == (x == 142.067).tolist()
+    assert no_value[390:].all()
+    assert not no_value[:390].any()

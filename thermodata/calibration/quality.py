@@ -186,17 +186,19 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
     if stats is not None:
         y = np.asarray(x, dtype=np.float64)
         declared = bool((flags & np.uint16(Flag.SATURATED)).any())
-        for limit, side in zip(column.limits, ("lower", "upper"), strict=True):
-            at = (y == limit) & ~told if limit is not None else told[:0]
-            if at.any():
-                mark(Flag.SATURATED, at, f"{side} limit {limit:.6g}, as in other tests: {SAY_RANGE}")
         code = sentinels(y, stats) & ~told
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
-        elif not declared:
+        at_end = np.zeros(len(y), dtype=bool)
+        for limit, side in zip(column.limits, ("lower", "upper"), strict=True):
+            here = (y == limit) & ~told
+            at_end |= here
+            if here.any():
+                mark(Flag.SATURATED, here, f"{side} limit {limit:.6g}, as in other tests: {SAY_RANGE}")
+        if not code.any() and not declared:
             for hit, _, why in clipped(y, stats, column.quantity, rests_below=RESTS_BELOW.get(column.quantity)):
-                if not told[hit].any():
-                    mark(Flag.SATURATED, hit, why)
+                if (hit & ~at_end).any():
+                    mark(Flag.SATURATED, hit & ~at_end, why)
     for flag in (Flag.OUT_OF_RANGE, Flag.SATURATED) if flags.any() else ():
         given = ((flags & np.uint16(flag)) != 0) & ~told
         if given.any():
