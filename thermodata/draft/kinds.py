@@ -7,20 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
-import numpy as np
-
 from thermodata.draft.axis import axis_of
-from thermodata.draft.cuts import feeds_with_spindle, is_loaded
-from thermodata.draft.guess import guess_of
+from thermodata.draft.moved import Moved, moved_in
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.said_by_names import Said, said_by
-from thermodata.draft.sample import Course
 from thermodata.draft.vocabulary import says
-from thermodata.errors import UsageError
-from thermodata.plugin import Float1D
-from thermodata.schema.places import is_spindle
-from thermodata.schema.quantity import canonical, linear_conversion
 
 _KINDS: tuple[tuple[str, str], ...] = (
     (
@@ -85,9 +77,6 @@ _AGREE = {
 
 
 # what a pump shows by where it runs and where it rests
-_DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
-_PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
-_SWITCHED = 0.8  # of its largest reading: it was off as well as on
 
 _LINEAR = re.compile(r"(?<!\S)[xyz]\d*(?!\S)")
 _TURNS = "rotary drehtisch rundtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"
@@ -108,25 +97,9 @@ class Kind:
     start: str | None = None
 
 
-@dataclass(slots=True)
-class _Moved:
-    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or
-    a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded: that takes its
-    power; None where that was not logged."""
-
-    speeds: tuple[float, ...] = ()
-    axes: set[str] = field(default_factory=set)
-    rotary: bool = False
-    switched: bool = False
-    seen: bool = False
-    whole: bool = True
-    with_spindle: bool = False
-    loaded: bool | None = None
-
-
 def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     """The kind of a test, and its conditions. files: all its recordings, of all sources."""
-    text, moved = words(test), _moved(files)
+    text, moved = words(test), moved_in(files)
     folders = [part for f in files for part in reversed(f.path.parts[:-1])]
     said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
     by_name = next((kind for kind, listed in _KINDS if says(listed, text)), None)
@@ -162,42 +135,25 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 
 
-def _decided(by_name: str | None, by_data: str | None, moved: _Moved) -> tuple[str, str, str | None]:
+def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[str, str, str | None]:
     if by_name and by_data and by_data != "other":
         if by_data in _AGREE.get(by_name, {by_name}):
             kind = "spectrum" if (by_name, by_data) == ("spindle", "spectrum") else by_name
             return kind, "sure: name and data", None
-        return by_name, "", f"kind: the name says {by_name}, the data {by_data} ({_told(moved)})"
+        return by_name, "", f"kind: the name says {by_name}, the data {by_data} ({moved})"
     if by_data == "mixed" and moved.with_spindle and moved.loaded is None:
         asked = "mixed, or cutting? the axes feed only while the spindle turns, whose power is not logged"
-        return by_data, "", f"kind: {asked} ({_told(moved)})"
+        return by_data, "", f"kind: {asked} ({moved})"
     if by_data == "other" and not by_name:
-        return by_data, "", f"kind: other? {_told(moved)}"
+        return by_data, "", f"kind: other? {moved}"
     if by_data and by_data != "other":
-        return by_data, f"guess: data only, {_told(moved)}", None
+        return by_data, f"guess: data only, {moved}", None
     if by_name:
         return by_name, "guess: name only", None
     return "other", "", "kind? e.g. spindle, linear_axis, etve, cutting"
 
 
-def _told(moved: _Moved) -> str:
-    said = []
-    if moved.speeds:
-        said.append(
-            "spindle at "
-            + ", ".join(f"{s:g}" for s in moved.speeds[:4])
-            + (f" and {len(moved.speeds) - 4} more" if len(moved.speeds) > 4 else "")
-            + " rpm"
-        )
-    if moved.axes:
-        cuts = " while the spindle turns under load" if moved.with_spindle and moved.loaded else ""
-        said.append(f"{'/'.join(sorted(moved.axes)).upper()} moves{cuts}")
-    if moved.rotary:
-        said.append("the table turns")
-    return ", ".join(said) or ("switches change, nothing moves" if moved.switched else "nothing moves")
-
-
-def _by_data(moved: _Moved) -> str | None:
+def _by_data(moved: Moved) -> str | None:
     if not moved.seen:
         return None
     if moved.speeds and moved.axes:
@@ -217,105 +173,7 @@ def _by_data(moved: _Moved) -> str | None:
     return "etve"
 
 
-def _moved(files: Sequence[RawFile]) -> _Moved:
-    found = _Moved(whole=all(f.sample.whole for f in files))
-    for file in files:
-        work = _Work()
-        for signal in file.signals:
-            key = (signal.stream, signal.name)
-            seen, course = file.sample.values.get(key), file.sample.courses.get(key)
-            if seen is None:
-                continue
-            said = guess_of(signal, seen)
-            factor = _factor(said.quantity, said.unit)
-            _add(
-                found,
-                said.quantity,
-                said.at or "",
-                factor * max(abs(seen.low), abs(seen.high)),
-                factor * (seen.high - seen.low),
-                None if course is None else factor * course.values,
-            )
-            if course is not None and course.t_ns.size:
-                work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
-        work.tell(found)
-    return found
-
-
-@dataclass(slots=True)
-class _Work:
-    """Of a file, the courses of the spindle's speed and power, and of the feeds."""
-
-    speed: Course | None = None
-    power: Course | None = None
-    feeds: list[Course] = field(default_factory=list)
-
-    def add(self, quantity: str | None, at: str, course: Course) -> None:
-        if quantity == "feed":
-            self.feeds.append(course)
-        elif quantity == "rotational_speed" and at == "spindle":
-            self.speed = course
-        elif quantity == "power" and at == "spindle":
-            self.power = course
-
-    def tell(self, found: _Moved) -> None:
-        if self.speed is None or not self.feeds:
-            return
-        found.with_spindle = feeds_with_spindle(self.speed, self.feeds)
-        found.loaded = None if self.power is None else is_loaded(self.speed, self.power)
-
-
-def _factor(quantity: str | None, unit: str | None) -> float:
-    """From a signal's unit to that of its quantity, rpm, m/min or mm; 1 where it is not known or does not convert."""
-    if quantity not in ("rotational_speed", "feed", "position") or unit is None:
-        return 1.0
-    try:
-        return linear_conversion(unit, canonical(quantity))[0]
-    except UsageError:
-        return 1.0
-
-
-def _add(found: _Moved, quantity: str | None, at: str, largest: float, span: float, course: Float1D | None) -> None:
-    """largest, span, course: in rpm, m/min or mm where the signal's unit is known."""
-    axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
-    if quantity == "rotational_speed":
-        found.seen = True
-        if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
-            found.rotary = True
-        elif largest > 20 and is_spindle(at) and course is not None:
-            found.speeds = max(found.speeds, _plateaus(course), key=len)
-        elif largest > 1 and at.startswith(("table", "rotary")):
-            found.rotary = True
-    elif quantity == "feed" and axis:
-        found.seen = True
-        if largest > 0.05:
-            found.axes.add(axis)
-    elif quantity == "position" and axis:
-        found.seen = True
-        if span > 5:
-            found.axes.add(axis)
-    elif quantity == "state":
-        found.switched |= span > 0 and not at.startswith("hall")
-    elif quantity in _DRIVEN and at.startswith(_PUMPED):
-        found.switched |= span > _SWITCHED * largest
-
-
-def _plateaus(speed: Float1D) -> tuple[float, ...]:
-    """The speeds at which it stayed, in the order of the first time each; to 2 %."""
-    x = np.abs(speed[np.isfinite(speed)])
-    x = x[x > 20]
-    found: list[float] = []
-    if x.size < 5:
-        return ()
-    order, counts = np.unique(np.round(np.log(x) / 0.02).astype(np.int64), return_counts=True)
-    for cell in order[counts >= max(3, 0.02 * x.size)]:
-        level = float(np.median(x[np.abs(np.log(x) / 0.02 - cell) <= 1.5]))
-        if not any(abs(level - f) < 0.04 * f for f in found):
-            found.append(level)
-    return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
-
-
-def _conditions(said: Said, moved: _Moved, files: Sequence[RawFile]) -> tuple[dict[str, str], list[str], list[str]]:
+def _conditions(said: Said, moved: Moved, files: Sequence[RawFile]) -> tuple[dict[str, str], list[str], list[str]]:
     """(conditions, how sure each is, what to ask), the names held against what the recordings show."""
     found, questions, comments = dict(said.conditions), list(said.questions), []
     told = {k for k in found if k not in said.guessed}

@@ -1,0 +1,153 @@
+"""What a test's recordings show: what turned, what moved, and what was switched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from thermodata.draft.cuts import feeds_with_spindle, is_loaded
+from thermodata.draft.guess import guess_of
+from thermodata.draft.raw_file import RawFile
+from thermodata.draft.sample import Course
+from thermodata.errors import UsageError
+from thermodata.plugin import Float1D
+from thermodata.schema.places import is_spindle
+from thermodata.schema.quantity import canonical, linear_conversion
+
+_DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
+_PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
+_SWITCHED = 0.8  # of its largest reading: it was off as well as on
+
+
+@dataclass(slots=True)
+class Moved:
+    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or
+    a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded: that takes its
+    power; None where that was not logged."""
+
+    speeds: tuple[float, ...] = ()
+    axes: set[str] = field(default_factory=set)
+    rotary: bool = False
+    switched: bool = False
+    seen: bool = False
+    whole: bool = True
+    with_spindle: bool = False
+    loaded: bool | None = None
+
+    def __str__(self) -> str:
+        """'spindle at 3000, 6000 rpm, X moves'; 'nothing moves'."""
+        said = []
+        if self.speeds:
+            said.append(
+                "spindle at "
+                + ", ".join(f"{s:g}" for s in self.speeds[:4])
+                + (f" and {len(self.speeds) - 4} more" if len(self.speeds) > 4 else "")
+                + " rpm"
+            )
+        if self.axes:
+            cuts = " while the spindle turns under load" if self.with_spindle and self.loaded else ""
+            said.append(f"{'/'.join(sorted(self.axes)).upper()} moves{cuts}")
+        if self.rotary:
+            said.append("the table turns")
+        return ", ".join(said) or ("switches change, nothing moves" if self.switched else "nothing moves")
+
+
+def moved_in(files: Sequence[RawFile]) -> Moved:
+    """All recordings of a test, of all sources."""
+    found = Moved(whole=all(f.sample.whole for f in files))
+    for file in files:
+        work = _Work()
+        for signal in file.signals:
+            key = (signal.stream, signal.name)
+            seen, course = file.sample.values.get(key), file.sample.courses.get(key)
+            if seen is None:
+                continue
+            said = guess_of(signal, seen)
+            factor = _factor(said.quantity, said.unit)
+            _add(
+                found,
+                said.quantity,
+                said.at or "",
+                factor * max(abs(seen.low), abs(seen.high)),
+                factor * (seen.high - seen.low),
+                None if course is None else factor * course.values,
+            )
+            if course is not None and course.t_ns.size:
+                work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
+        work.tell(found)
+    return found
+
+
+@dataclass(slots=True)
+class _Work:
+    """Of a file, the courses of the spindle's speed and power, and of the feeds."""
+
+    speed: Course | None = None
+    power: Course | None = None
+    feeds: list[Course] = field(default_factory=list)
+
+    def add(self, quantity: str | None, at: str, course: Course) -> None:
+        if quantity == "feed":
+            self.feeds.append(course)
+        elif quantity == "rotational_speed" and at == "spindle":
+            self.speed = course
+        elif quantity == "power" and at == "spindle":
+            self.power = course
+
+    def tell(self, found: Moved) -> None:
+        if self.speed is None or not self.feeds:
+            return
+        found.with_spindle = feeds_with_spindle(self.speed, self.feeds)
+        found.loaded = None if self.power is None else is_loaded(self.speed, self.power)
+
+
+def _factor(quantity: str | None, unit: str | None) -> float:
+    """From a signal's unit to that of its quantity, rpm, m/min or mm; 1 where it is not known or does not convert."""
+    if quantity not in ("rotational_speed", "feed", "position") or unit is None:
+        return 1.0
+    try:
+        return linear_conversion(unit, canonical(quantity))[0]
+    except UsageError:
+        return 1.0
+
+
+def _add(found: Moved, quantity: str | None, at: str, largest: float, span: float, course: Float1D | None) -> None:
+    """largest, span, course: in rpm, m/min or mm where the signal's unit is known."""
+    axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
+    if quantity == "rotational_speed":
+        found.seen = True
+        if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
+            found.rotary = True
+        elif largest > 20 and is_spindle(at) and course is not None:
+            found.speeds = max(found.speeds, _plateaus(course), key=len)
+        elif largest > 1 and at.startswith(("table", "rotary")):
+            found.rotary = True
+    elif quantity == "feed" and axis:
+        found.seen = True
+        if largest > 0.05:
+            found.axes.add(axis)
+    elif quantity == "position" and axis:
+        found.seen = True
+        if span > 5:
+            found.axes.add(axis)
+    elif quantity == "state":
+        found.switched |= span > 0 and not at.startswith("hall")
+    elif quantity in _DRIVEN and at.startswith(_PUMPED):
+        found.switched |= span > _SWITCHED * largest
+
+
+def _plateaus(speed: Float1D) -> tuple[float, ...]:
+    """The speeds at which it stayed, in the order of the first time each; to 2 %."""
+    x = np.abs(speed[np.isfinite(speed)])
+    x = x[x > 20]
+    found: list[float] = []
+    if x.size < 5:
+        return ()
+    order, counts = np.unique(np.round(np.log(x) / 0.02).astype(np.int64), return_counts=True)
+    for cell in order[counts >= max(3, 0.02 * x.size)]:
+        level = float(np.median(x[np.abs(np.log(x) / 0.02 - cell) <= 1.5]))
+        if not any(abs(level - f) < 0.04 * f for f in found):
+            found.append(level)
+    return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
