@@ -172,7 +172,7 @@ MUTANTS = [
     diagnosis("kin.py", 'return "near" if switched and not', 'return "near" if not', "a warm bearing is another's"),
     diagnosis("kin.py", "if switched and not names <= model.read", "if switched", "a switch is no mode of itself"),
     diagnosis("commanded.py", " and not is_around(channel.at)", "", "who opens the door sets the clock"),
-    diagnosis("unread.py", 'partition(".")[0] == "tool"', 'partition(".")[0] == ""', "the shaft's heat is the tool's"),
+    diagnosis("unread.py", ' or holds("tool", channel.at)', "", "the shaft's heat is the tool's"),
     diagnosis(
         "kin.py",
         '"heat" if other else',

@@ -27,29 +27,22 @@ RIVALS = 3  # that would take evidence of the chosen, and the search ends
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class Together:
     """chosen: with what is sound beside all. weighed: the same, beside all others. context: beside all others, too.
     noise: beside all."""
 
     chosen: tuple[Scored, ...]
     weighed: tuple[Scored, ...]
-    context: tuple[Scored, ...]
     noise: Noise
+    context: tuple[Scored, ...] = ()
 
 
 def with_context(
-    problem: Problem,
-    chosen: Sequence[Scored],
-    weighed: Sequence[Scored],
-    noise: Noise,
-    sound: Callable[[Scored], bool],
-    among: Sequence[Columns],
-) -> Beside:
-    """Adds one at a time, by evidence; none where nothing more can be claimed for it. weighed: the chosen, each beside
-    the others, in the noise beside all. among: what may be added; what reads a channel of the chosen is another mode of
-    them and no context."""
-    alone = Beside(tuple(chosen), tuple(weighed), (), noise)
-    chosen, weighed = list(chosen), list(weighed)
+    problem: Problem, alone: Together, sound: Callable[[Scored], bool], among: Sequence[Columns]
+) -> Together:
+    """Adds one at a time, by evidence; none where nothing more can be claimed for it. alone: without any. among: what
+    may be added; what reads a channel of the chosen is another mode of them and no context."""
+    chosen, weighed, noise = list(alone.chosen), list(alone.weighed), alone.noise
     context: list[Scored] = []
     beside_all: list[Scored] = []
     rivals: list[Scored] = []
@@ -75,11 +68,11 @@ def with_context(
         chosen, context = _parted(tried, fine)
         weighed, beside_all = _parted(again, fine)
         noise = quieter
-    whole = Beside(tuple(chosen), tuple(weighed), tuple(beside_all), noise)
+    whole = Together(tuple(chosen), tuple(weighed), noise, tuple(beside_all))
     return whole if _names_more(whole, alone) else alone
 
 
-def _names_more(whole: Beside, alone: Beside) -> bool:
+def _names_more(whole: Together, alone: Together) -> bool:
     """Whether more can be claimed, and none of it for what is more evident itself and has no name."""
     before = {id(s.columns) for s in alone.weighed if _is_sure(s)}
     gained = [s.evidence for s in whole.weighed if _is_sure(s) and id(s.columns) not in before]

@@ -220,7 +220,7 @@ def _seen(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) ->
 
 def _limits(fitted: FittedResponse, problem: Problem, selection: Selection, measure: Measure) -> tuple[Limit, ...]:
     """Beside what was selected, in the noise that is left."""
-    full = known(beside(problem, [*(m.alone for m in selection.members), *selection.context]), selection.noise)
+    full = known(beside(problem, selection.together), selection.noise)
     pool = [s.columns for s in selection.first.ranked]
     return tuple(limits(full, pool, measure.spread, _owners(fitted, full)))
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.beside import beside, each_beside_others, weighed_beside, without
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.context import MOST, WORTH, Beside, with_context
+from thermodata.diagnosis.context import MOST, WORTH, Together, with_context
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
@@ -47,6 +47,11 @@ class Selection:
     noise: Noise
     left: float
     context: tuple[Scored, ...] = ()
+
+    @property
+    def together(self) -> tuple[Scored, ...]:
+        """All that the noise is estimated beside: the members, as they were chosen, and the context."""
+        return (*(m.alone for m in self.members), *self.context)
 
 
 def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ranked | None:
@@ -87,9 +92,9 @@ def select(
     noise = _second_chance(problem, chosen, dropped, noise, sound)
     if len(chosen) > before:
         current = each_beside_others(problem, chosen, noise)
-    whole = Beside(tuple(chosen), tuple(current), (), noise)
+    whole = Together(tuple(chosen), tuple(current), noise)
     if first.known.left_out > good:
-        whole = with_context(problem, chosen, current, noise, sound, among)
+        whole = with_context(problem, whole, sound, among)
     held, noise, chosen = beside(problem, whole.context), whole.noise, list(whole.chosen)
     credits = _credits(held, whole.weighed, noise)
     current = [replace(s, credit=c) for s, c in zip(whole.weighed, credits, strict=True)]
@@ -111,8 +116,8 @@ def any_stands_out(
     that the best of them leaves. first: all, beside the model alone."""
     if not some:
         return False
-    full = beside(problem, [m.alone for m in selection.members])
-    beside_all = rank_in(full, without(some, [m.alone for m in selection.members]), selection.noise, left_out=False)
+    full = beside(problem, selection.together)
+    beside_all = rank_in(full, without(some, selection.together), selection.noise, left_out=False)
     found = (in_noise_of_best(ranked, TRIED) for ranked in (_only(first, some), beside_all))
     return any(may(s) for one in found if one is not None for s in one.ranked)
 

@@ -95,7 +95,7 @@ def warms_the_holder(channel: Described) -> bool:
 
 def is_holder(channel: Described) -> bool:
     """Whether it is the temperature of what holds the probes, or of the tool that the spindle holds."""
-    held = part_of(channel.at) == Part(AIR, HOLDER) or (channel.at or "").lower().partition(".")[0] == "tool"
+    held = part_of(channel.at) == Part(AIR, HOLDER) or holds("tool", channel.at)
     return channel.quantity == TEMPERATURE and held
 
 
