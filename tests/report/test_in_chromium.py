@@ -135,6 +135,17 @@ def test_everything_that_acts_has_a_name_and_is_reached_by_tab(opened: Open) -> 
     assert any("BUTTON" in r for r in reached)
 
 
+def test_a_chart_that_was_never_in_sight_is_drawn_where_the_keyboard_comes_to_it(opened: Open) -> None:
+    tab = opened()
+    tab.js(
+        "window.far = document.createElement('div'); far.dataset.chart = document.querySelector('[data-chart]')"
+        ".dataset.chart; far.style.marginTop = '9000px'; document.body.append(far); ThermoChart.scan(far.parentNode)"
+    )
+    assert not tab.js("far.classList.contains('tc')")
+    tab.js("far.focus({preventScroll: true})")
+    assert tab.js("far.classList.contains('tc') && document.activeElement === far && !!far.getAttribute('aria-label')")
+
+
 def saved(chromium: Chromium, tmp_path: Path, text: str, **look: object) -> Page:
     path = tmp_path / "one.html"
     path.write_text(text, encoding="utf-8")

@@ -1,6 +1,6 @@
 // Finds the charts of a page: an element with data-chart="ID" (and data-height, in px) draws the JSON of the script
 // element with that id.
-// They are drawn when they come near the window (a campaign has dozens), all of them before printing, and `scan` takes up
+// They are drawn when they come near the window or get the focus (a campaign has dozens), all of them before printing, and `scan` takes up
 // those that came into the page later. data-wheel and data-drag are the options of chart.js.
 (function () {
   "use strict";
@@ -32,6 +32,8 @@
     root.querySelectorAll("[data-chart]").forEach(box => {
       if (drawn.has(box) || waiting.has(box)) return;
       if (box.dataset.height) box.style.minHeight = box.dataset.height + "px";
+      box.tabIndex = 0;                                                  // the keyboard may be there before the window
+      box.addEventListener("focus", () => { if (waiting.has(box)) draw(box); }, {once: true});
       waiting.add(box); near.observe(box);
     });
     drawn.forEach((chart, box) => { if (!box.isConnected) { chart.destroy(); drawn.delete(box); } });
