@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.calibration.static import evaluate_scale
 from thermodata.draft.fill_in import filled_in, questions
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.load import parse_campaign
@@ -99,3 +100,37 @@ def test_the_axis_of_a_probe_and_a_warm_start_are_answered() -> None:
     assert (again["tests.1.start_state"].value, again["tests.1.start_state"].open) == ("warm", False)
     with pytest.raises(SpecError):
         filled_in(text, {"channels.ch1.axis": "Q"})
+
+
+def test_the_sign_of_a_displacement_is_one_answer_and_becomes_a_calibration() -> None:
+    asked_way = "# ? which way does it count? its sign is unknown until ... (name)"
+    channels = [
+        f"  Along: {{source: nc, signal: dz, quantity: displacement, unit: mm, axis: Z, at: tcp}}   {asked_way}",
+        f"  Across: {{source: nc, signal: dy, quantity: displacement, unit: um, at: tcp}}   {asked_way}",
+    ]
+    text = TEXT.replace("  dZ: {", "\n".join(channels) + "\n  dZ: {")
+    asked = {q.name: q for q in questions(text)}
+    assert asked["channels.Along.sign"].choices == ("+Z, gap", "+Z, approach", "-Z, gap", "-Z, approach")
+    assert len(asked["channels.Across.sign"].choices) == 12
+    assert "channels.dZ.sign" not in asked
+    after = filled_in(text, {"channels.Along.sign": "-Z, gap", "channels.Across.sign": "+Y, approach"})
+    campaign = parse_campaign(after)
+    assert campaign.channels["Along"].calibration == "sign_z"
+    assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain == -1.0
+    assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain_unit == "mm/mm"
+    assert evaluate_scale("sign_y", campaign.calibrations["sign_y"]).gain == -1.0
+    again = {q.name: q for q in questions(after)}
+    assert (again["channels.Along.sign"].value, again["channels.Along.sign"].open) == ("-Z, gap", False)
+    turned = parse_campaign(filled_in(after, {"channels.Along.sign": "+Z, gap"}))
+    assert evaluate_scale("sign_z", turned.calibrations["sign_z"]).gain == 1.0
+    assert set(turned.calibrations) == {"jump_Z", "sign_z", "sign_y"}
+    with pytest.raises(UsageError, match="way that a displacement counts"):
+        filled_in(text, {"channels.Along.sign": "+X, gap"})
+
+
+def test_a_sign_needs_no_calibrations_before_it() -> None:
+    without = "\n".join(x for x in TEXT.splitlines() if "alibration" not in x and "jump_Z" not in x) + "\n"
+    line = "  Along: {source: nc, signal: dz, quantity: displacement, unit: um, axis: Z, at: tcp}"
+    text = without.replace("channels:\n", f"channels:\n{line}   # ? which way does it count?\n")
+    campaign = parse_campaign(filled_in(text, {"channels.Along.sign": "-Z, approach"}))
+    assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain == 1.0

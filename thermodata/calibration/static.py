@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from thermodata.calibration.facing import facing_axis, geometric_sign
-from thermodata.calibration.result import CalibrationResult, Sign, check
+from thermodata.calibration.result import CalibrationResult, Check, Sign, check
 from thermodata.errors import CalibrationError, UsageError
 from thermodata.schema.campaign import LinearCalibration, ScaleCalibration
 from thermodata.schema.quantity import delta_factor, split_value
+
+SAME_LENGTH = 2.0  # a lever of a gauge may stretch a length by so much, or shrink it
 
 
 def ratio_units(unit: str, name: str) -> tuple[str, str]:
@@ -76,7 +78,8 @@ def evaluate_scale(name: str, spec: ScaleCalibration) -> CalibrationResult:
                 known,
                 "give 'facing' (the way the probe looks), or make a jump test: until then the channel can "
                 "be modelled, not compared in sign",
-            )
+            ),
+            *_lengths(spec, abs(gain), unit_out, unit_in),
         ],
     )
 
@@ -105,6 +108,18 @@ def evaluate_linear(name: str, spec: LinearCalibration, unit: str | None = None)
         offset=offset,
         detail={"unit_in": unit_in, "unit_out": unit_out, "offset_unit": unit_out or written},
     )
+
+
+def _lengths(spec: ScaleCalibration, gain: float, unit_out: str, unit_in: str) -> list[Check]:
+    """Whether what reads a length stays near that length: '1 um/mm' makes a thousandth of it."""
+    try:
+        size = gain * delta_factor(unit_out, "um") / delta_factor(unit_in, "um")
+    except UsageError:
+        return []  # volts, or whatever else the sensor gives
+    if not size:
+        return []
+    advice = f"'{spec.gain}' takes 1 {unit_in} for {gain:g} {unit_out}: write 1 {unit_in}/{unit_in} to keep it"
+    return [check("length_kept", size, SAME_LENGTH, 1 / SAME_LENGTH <= size <= SAME_LENGTH, advice)]
 
 
 def _offset(name: str, offset: str | float | int, unit: str) -> float:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from thermodata.draft.unread import GUESSED, WHAT, come_to_life, quantity_and_unit, unread
+from thermodata.draft.which_way import ASKED, calibration_for, facing_and_way, its_name, way_of, ways
 from thermodata.draft.write import scalar
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Role, TestKind
@@ -16,7 +17,7 @@ from thermodata.schema.lines import Document, Place, parse_document
 from thermodata.schema.load import parse_campaign
 from thermodata.schema.places import PLACES
 
-Kind = Literal["place", "axis", "what", "role", "kind", "start", "zone", "moves", "text"]
+Kind = Literal["place", "axis", "what", "way", "role", "kind", "start", "zone", "moves", "text"]
 ROLES: tuple[str, ...] = get_args(Role)
 KINDS: tuple[str, ...] = get_args(TestKind)
 AXES = ("X", "Y", "Z", "A", "B", "C")
@@ -59,6 +60,7 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
     lines = text.splitlines()
     known = {_name(place, key): (place, key) for place, key in _asked(document, lines)}
     left_out = unread(lines)
+    new: dict[str, str] = {}
     for name, answer in answers.items():
         channel = name.removeprefix(_UNREAD)
         if name not in known and not (name.startswith(_UNREAD) and channel in left_out):
@@ -74,14 +76,17 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
             continue
         place, key = known[name]
         at = document.line[place] - 1
-        if key == "quantity":
-            if answer != _value(document, place, key):
-                lines[at] = _said(lines[at], answer, place).replace("# ? ", "# answered: ", 1)
+        if answer == _value(document, place, key):
             continue
-        if answer != _value(document, place, key):
-            # what is answered is no question any more
-            lines[at] = set_in_line(lines[at], key, _written(key, answer), place).replace("# ? ", "# answered: ", 1)
-    filled = "\n".join(lines) + "\n"
+        if key == "quantity":
+            lines[at] = _said(lines[at], answer, place)
+        elif key == "sign":
+            new |= _turned(lines, document, place, answer, new)
+        else:
+            lines[at] = set_in_line(lines[at], key, _written(key, answer), place)
+        # what is answered is no question any more
+        lines[at] = lines[at].replace("# ? ", "# answered: ", 1)
+    filled = "\n".join(_with_calibrations(lines, document, new)) + "\n"
     parse_campaign(filled, "campaign.yaml")
     return filled
 
@@ -89,6 +94,33 @@ def filled_in(text: str, answers: Mapping[str, str]) -> str:
 def _said(line: str, answer: str, place: Place) -> str:
     quantity, unit = quantity_and_unit(answer, str(place[-1]))
     return set_in_line(set_in_line(line, "quantity", quantity, place), "unit", scalar(unit), place)
+
+
+def _turned(lines: list[str], document: Document, place: Place, answer: str, new: Mapping[str, str]) -> dict[str, str]:
+    """The sign of a channel in its calibration's line; {name: mapping} of a calibration that has no line yet."""
+    channel, known = document.data["channels"][place[1]], _mapping(document.data, "calibrations")
+    facing, way = facing_and_way(answer, _name(place, "sign"), channel.get("axis"))
+    stands = str(channel.get("calibration", ""))
+    if stands in known:
+        at = document.line["calibrations", stands] - 1
+        for key, value in (("axis", facing[1:]), ("facing", facing), ("increases_with", way)):
+            lines[at] = set_in_line(lines[at], key, value, ("calibrations", stands))
+        return {}
+    at, name = document.line[place] - 1, its_name(str(place[1]), facing, {**known, **new})
+    lines[at] = set_in_line(lines[at], "calibration", name, place)
+    return {name: calibration_for(channel, facing, way)}
+
+
+def _with_calibrations(lines: list[str], document: Document, new: Mapping[str, str]) -> list[str]:
+    """The lines with further calibrations after the head of that section; before the tests where there is none."""
+    if not new:
+        return lines
+    added = [f"  {name}: {body}" for name, body in new.items()]
+    if isinstance(document.data.get("calibrations"), dict):
+        at = document.line["calibrations",]
+        return [*lines[:at], *added, *lines[at:]]
+    at = next(i for i, line in enumerate(lines) if re.match(r"channels\s*:", line))
+    return [*lines[:at], "calibrations:", *added, *lines[at:]]
 
 
 def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
@@ -103,6 +135,8 @@ def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
             yield ("channels", name), "quantity"
         if isinstance(channel, dict) and "axis?" in lines[document.line["channels", name] - 1].partition("#")[2]:
             yield ("channels", name), "axis"
+        if isinstance(channel, dict) and ASKED in lines[document.line["channels", name] - 1].partition("#")[2]:
+            yield ("channels", name), "sign"
         if isinstance(channel, dict) and channel.get("quantity") in _PLACED:
             yield ("channels", name), "at"
     for name, calibration in _mapping(data, "calibrations").items():
@@ -133,11 +167,13 @@ def _question(lines: list[str], document: Document, place: Place, key: str) -> Q
         "role": "role",
         "kind": "kind",
         "axis": "axis",
+        "sign": "way",
         "start_state": "start",
         "timezone": "zone",
         "moves": "moves",
     }.get(key, "text")  # type: ignore[assignment]
-    choices = _CHOICES.get(kind, ())
+    choices = ways(document.data["channels"][place[1]].get("axis")) if kind == "way" else _CHOICES.get(kind, ())
+    hint = hint if kind != "way" else ""  # what the draft says there is how to write it by hand
     about = str(document.data["tests"][place[1]].get("id", place[1])) if place[0] == "tests" else str(place[-1])
     opened = value in ("", "unknown") or (key == "role" and value == "none")
     return Question(_name(place, key), about, key, kind, "" if value == "unknown" else value, hint, choices, opened)
@@ -153,6 +189,8 @@ def _value(document: Document, place: Place, key: str) -> str:
         found = found[part]
     if key == "quantity":
         return f"{found['quantity']} [{found.get('unit', '')}]"
+    if key == "sign":
+        return way_of(found, _mapping(document.data, "calibrations"))
     if isinstance(found, dict):
         found = found.get(key, "")
     return ", ".join(map(str, found)) if isinstance(found, list) else str(found)

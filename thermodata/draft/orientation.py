@@ -12,6 +12,7 @@ from thermodata.draft.naming import words
 from thermodata.draft.parts import DraftJump
 from thermodata.draft.quantity import Guess
 from thermodata.draft.sources import Group
+from thermodata.draft.which_way import ASKED
 from thermodata.plugin import Signal
 
 
@@ -20,8 +21,8 @@ def which_way(said: Guess) -> str:
     axis, unit = said.axis or "Z", said.unit if said.unit and said.unit.isalpha() else "um"
     name = f"sign_{axis.lower()}"
     return (
-        f"which way does it count? its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
-        f"scale, axis: {axis}, gain: 1 um/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
+        f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
+        f"scale, axis: {axis}, gain: 1 {unit}/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
         f"+{axis} or -{axis}, where the probe looks; increases_with: gap or approach"
     )
 

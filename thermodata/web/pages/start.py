@@ -14,6 +14,7 @@ from thermodata.draft.baseline import responses_of
 from thermodata.draft.fill_in import Question, filled_in, questions
 from thermodata.draft.make import first_model, modelled, write_answered
 from thermodata.draft.unread import WHAT
+from thermodata.draft.which_way import ways
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.campaign import Channel
 from thermodata.schema.load import parse_campaign
@@ -35,9 +36,10 @@ GROUPS = (
     ),
     (
         "Where the sensors are",
-        ("axis", "place"),
+        ("axis", "way", "place"),
         "An effect is tried only where a sensor sits at its place. Leave empty what nobody knows: it drives nothing. "
-        "The axis of a displacement says which screw moves it.",
+        "The axis of a displacement says which screw moves it, and the way that its probe looks gives its sign: where "
+        "the target on the tool side goes away along +Z, a probe that looks along +Z sees its gap grow.",
     ),
     (
         "The tests",
@@ -46,7 +48,7 @@ GROUPS = (
         "has looked at is kept for the last word (locked). One that began before the machine had cooled starts warm.",
     ),
 )
-# role, or start of a test -> what it means
+# role, start of a test, or way of a probe -> what it means
 WORDS = {
     "calibration": "calibration: fitted",
     "verification": "verification: checked",
@@ -54,6 +56,7 @@ WORDS = {
     "none": "none: kept only",
     "balance": "balance: it was at rest",
     "warm": "warm: it had not cooled",
+    **{way: f"looks along {way.replace(', ', ', reads more with the ')}" for way in ways(None)},
 }
 _MOST_MODELS = 5
 # of the machine, for the schematic: the first parts of places that are drawn

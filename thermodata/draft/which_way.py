@@ -1,0 +1,49 @@
+"""The sign of a displacement that no calibration turns: '-Z, gap' as one answer, for a probe that looks along -Z and
+reads more as the gap grows. It becomes a calibration of its own, which the channel names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from thermodata.errors import UsageError
+
+ASKED = "which way does it count?"
+_WAYS = ("gap", "approach")
+_AXES = ("X", "Y", "Z")
+
+
+def ways(axis: object) -> tuple[str, ...]:
+    """What can be answered for a displacement of this axis; of one whose axis nobody knows, of any."""
+    axes = (str(axis),) if axis in _AXES else _AXES
+    return tuple(f"{sign}{a}, {way}" for a in axes for sign in "+-" for way in _WAYS)
+
+
+def way_of(channel: Mapping[str, Any], calibrations: Mapping[str, Any]) -> str:
+    """What stands there already: '' where nothing does."""
+    found = calibrations.get(str(channel.get("calibration")))
+    if not isinstance(found, dict) or found.get("kind") != "scale":
+        return ""
+    return f"{found.get('facing', '?')}, {found.get('increases_with', '?')}"
+
+
+def facing_and_way(answer: str, where: str, axis: object) -> tuple[str, str]:
+    """('-Z', 'gap') of '-Z, gap'. UsageError for another form, or for another axis than the channel's."""
+    if answer not in ways(axis):
+        raise UsageError(
+            "the way that a displacement counts", where=where, expected=" or ".join(ways(axis)), got=answer
+        )
+    facing, _, way = answer.partition(", ")
+    return facing, way
+
+
+def calibration_for(channel: Mapping[str, Any], facing: str, way: str) -> str:
+    """The calibration as a flow mapping: the reading as it is, turned."""
+    unit = str(channel.get("unit") or "um")
+    return f"{{kind: scale, axis: {facing[1:]}, gain: 1 {unit}/{unit}, facing: {facing}, increases_with: {way}}}"
+
+
+def its_name(name: str, facing: str, calibrations: Mapping[str, Any]) -> str:
+    """A free name: 'sign_z', as the draft proposes it, or with the channel's own where that one is taken."""
+    wished = f"sign_{facing[1:].lower()}"
+    return wished if wished not in calibrations else f"sign_{name}"
