@@ -20,7 +20,7 @@ import store_fakes  # noqa: E402
 import whole  # noqa: E402
 
 from thermodata.store import Store  # noqa: E402
-from thermodata.store.ingest import raw_layer  # noqa: E402
+from thermodata.store.ingest import campaign_files  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
 from thermodata.store.keep.lifecycle import gc  # noqa: E402
 
@@ -56,7 +56,7 @@ def lab(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
         campaign = store_fakes.write_campaign(folder / "lab")
         Store(folder / "before/store", create=True)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
+            patch.setattr(campaign_files, "find_reader", lambda name: store_fakes.NpzReader())
             ingest(Store(folder / "after/store", create=True), campaign)
 
     return once("lab", make)
@@ -64,7 +64,7 @@ def lab(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
 
 @pytest.fixture(autouse=True)
 def fakes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
+    monkeypatch.setattr(campaign_files, "find_reader", lambda name: store_fakes.NpzReader())
 
 
 def fresh(source: Path, tmp_path: Path, n: object) -> Path:

@@ -17,7 +17,7 @@ import numpy as np
 
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest import raw_layer
+from thermodata.store.ingest import campaign_files
 from thermodata.store.ingest.run import ingest
 
 
@@ -47,7 +47,7 @@ def main() -> None:
     parser.add_argument("--rows", type=int, default=100)
     given = parser.parse_args()
     reader = WideReader(given.channels, given.rows)
-    raw_layer.find_reader = lambda name: reader  # type: ignore[assignment]
+    campaign_files.find_reader = lambda name: reader  # type: ignore[assignment]
     place = Path(tempfile.mkdtemp(prefix="wide-"))
     (place / "x.dat").write_bytes(b"x")
     step = given.channels // 10

@@ -17,10 +17,10 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     """The store finds the reader of these tests, as it would find an installed one."""
     import store_fakes
 
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
     from thermodata.store.trace import reread
 
-    for module in (raw_layer, reread):
+    for module in (campaign_files, reread):
         monkeypatch.setattr(module, "find_reader", lambda name: store_fakes.NpzReader())
     store_fakes.NpzReader.reads = 0
 
@@ -30,14 +30,14 @@ def _made(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
     """An empty store, and a campaign with the store that holds it; each test gets copies."""
     import store_fakes
 
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
     from thermodata.store.ingest.run import ingest
 
     def make(folder: Path) -> None:
         Store(folder / "empty", create=True)
         campaign = store_fakes.write_campaign(folder / "lab")
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(raw_layer, "find_reader", lambda name: store_fakes.NpzReader())
+            patch.setattr(campaign_files, "find_reader", lambda name: store_fakes.NpzReader())
             ingest(Store(folder / "filled", create=True), campaign)
 
     return once("store", make)

@@ -14,9 +14,9 @@ from thermodata.store.ingest.run import IngestSummary, ingest
 
 @pytest.fixture(autouse=True)
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
-    monkeypatch.setattr(raw_layer, "find_reader", registry.reader)
+    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
 
 
 def write(folder: Path, speeds: dict[str, str], step_s: int = 60, missing_in: str = "", cut: int = 16) -> Path:

@@ -31,9 +31,9 @@ TESTS = 6
 @pytest.fixture(autouse=True)
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """The installed readers, which another process finds too."""
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
-    monkeypatch.setattr(raw_layer, "find_reader", registry.reader)
+    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
 
 
 @pytest.fixture
@@ -84,7 +84,7 @@ def test_an_ingest_looks_the_version_of_a_reader_up_once_whatever_the_number_of_
 def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import raw_layer, run, unchanged
+    from thermodata.store.ingest import campaign_files, run, unchanged
 
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
     first = ingest(store, lab)
@@ -95,7 +95,7 @@ def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
     def never(*_: Any, **__: Any) -> Any:
         raise AssertionError("the short way does not come here")
 
-    for module, name in ((raw_layer, "settled"), (unchanged, "settled"), (run, "bind"), (run, "read_inventory")):
+    for module, name in ((campaign_files, "settled"), (unchanged, "settled"), (run, "bind"), (run, "read_inventory")):
         monkeypatch.setattr(module, name, never)
     assert said(ingest(store, lab)) == said(kept) == as_again(first)
     assert store.generation == generation
@@ -114,14 +114,14 @@ def test_the_short_way_is_taken_after_the_first_ingest_too(
 def test_after_an_edit_only_what_was_edited_is_hashed_again(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import raw_layer, unchanged
+    from thermodata.store.ingest import campaign_files, unchanged
 
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
     ingest(store, lab)
     edit(lab, store)
     hashed: list[str] = []
-    right = raw_layer.settled
-    monkeypatch.setattr(raw_layer, "settled", lambda path: hashed.append(path.name) or right(path))
+    right = campaign_files.settled
+    monkeypatch.setattr(campaign_files, "settled", lambda path: hashed.append(path.name) or right(path))
     assert ingest(store, lab).read == 1
     assert hashed == ["t3_a.csv"]
 
@@ -224,9 +224,9 @@ def test_files_read_side_by_side_are_the_same_store(
     monkeypatch.setenv("THERMODATA_WORKERS", "2")
     asked: list[str] = []
     right = worker.Task
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files, raw_layer
 
-    monkeypatch.setattr(raw_layer, "Task", lambda *words: asked.append(words[2]) or right(*words))
+    monkeypatch.setattr(campaign_files, "Task", lambda *words: asked.append(words[2]) or right(*words))
     monkeypatch.setattr(raw_layer, "read_raw", None)  # the ingest itself reads none
     other = Store(tmp_path / "other", create=True)
     together = ingest(other, lab)

@@ -404,12 +404,12 @@ def test_a_unit_in_brackets_may_be_left_out_and_is_the_unit(store: Store, campai
 def test_a_reader_that_is_not_there_is_refused_before_the_store_changes(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
     def missing(name: str) -> Any:
         raise UsageError(f"no reader '{name}'", hint="did you mean 'npz'?")
 
-    monkeypatch.setattr(raw_layer, "find_reader", missing)
+    monkeypatch.setattr(campaign_files, "find_reader", missing)
     before = filled.generation
     edit(campaign, "id: one,", "id: one, notes: again,")
     with pytest.raises(UsageError, match=r"sources\.daq\.reader"):

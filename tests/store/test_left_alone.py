@@ -28,9 +28,9 @@ CHANNELS = ("front", "rear", "nut", "motor", "hall")
 
 @pytest.fixture(autouse=True)
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata.store.ingest import raw_layer, unchanged
+    from thermodata.store.ingest import campaign_files, unchanged
 
-    monkeypatch.setattr(raw_layer, "find_reader", registry.reader)
+    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
     monkeypatch.setattr(run, "datetime", Today)
 
@@ -386,11 +386,11 @@ def test_whatever_else_differs_all_tests_are_looked_at(
 def test_another_version_of_the_reader_or_of_this_program_is_seen_with_an_edit(
     store: Store, lab: Path, looked: Looked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
     ingest(store, lab)
     longer(lab.parent / "raw")
-    monkeypatch.setattr(raw_layer, "__version__", "999.0")
+    monkeypatch.setattr(campaign_files, "__version__", "999.0")
     assert len(looked(store, lab)[0]) == TESTS
     write_log(lab.parent / "raw" / "t0_a.csv", 0, rows=70)
     monkeypatch.setattr(type(registry.reader("table")), "version", "999.0", raising=False)

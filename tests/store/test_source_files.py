@@ -44,9 +44,9 @@ class LineReader:
 @pytest.fixture
 def lines(campaign: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A campaign of one text file, test 'one'."""
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
-    monkeypatch.setattr(raw_layer, "find_reader", lambda name: LineReader())
+    monkeypatch.setattr(campaign_files, "find_reader", lambda name: LineReader())
     monkeypatch.setattr(LineReader, "meddle", None)
     text = campaign.read_text().replace("raw/{test}_*.npz", "raw/{test}.txt")
     campaign.write_text(

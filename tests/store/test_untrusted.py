@@ -53,9 +53,9 @@ class GivenReader:
 @pytest.fixture
 def given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """given(signals: name -> values, t_ns, channels: channel -> signal) -> summary and store."""
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
-    monkeypatch.setattr(raw_layer, "find_reader", lambda name: GivenReader())
+    monkeypatch.setattr(campaign_files, "find_reader", lambda name: GivenReader())
 
     def ingested(
         values: dict[str, Any], t_ns: Any, channels: dict[str, str], test: str = "one"

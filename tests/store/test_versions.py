@@ -121,16 +121,16 @@ def test_a_copy_beside_the_file_counts_once(store: Store, campaign: Path) -> Non
 def test_a_file_that_cannot_be_read_any_more_keeps_what_was_read(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import raw_layer
+    from thermodata.store.ingest import campaign_files
 
-    right = raw_layer.settled
+    right = campaign_files.settled
 
     def denied(path: Path) -> Any:
         if path.name == "one_a.npz":
             raise PermissionError(13, "Permission denied", str(path))
         return right(path)
 
-    monkeypatch.setattr(raw_layer, "settled", denied)
+    monkeypatch.setattr(campaign_files, "settled", denied)
     summary = ingest(filled, campaign)
     assert [(x["file"], "denied" in x["reason"]) for x in summary.losses] == [("raw/one_a.npz", True)]
     assert (summary.changed, len(values(filled))) == (False, 1200)

@@ -15,6 +15,7 @@ from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.beside_each_other import odd_clocks
+from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
 from thermodata.store.ingest.file_versions import keep_earlier
@@ -101,20 +102,21 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = load_campaign(path) if given is None else given
-    raw_layer = RawIngest(store.path, path.absolute().parent, campaign, Inventory(), watch)
-    raw_layer.survey()
-    here = raw_layer.seen(path.absolute())
+    files = CampaignFiles(store.path, path.absolute().parent, campaign, watch)
+    files.survey()
+    here = files.seen(path.absolute())
     kept = noted(here)
-    files = known_files(here, kept)
-    differs = differing(here, kept, store.mark(), files) if given is None else None
+    hashed = known_files(here, kept)
+    differs = differing(here, kept, store.mark(), hashed) if given is None else None
     if differs is not None and not differs:
         return replace(IngestSummary(**summary_of(kept)), seconds=time.monotonic() - began)
-    raw_layer.hashed(files)
-    files_of_tests = raw_layer.files_of_tests()
+    files.hashed(hashed)
+    files_of_tests = files.of_tests()
     lines = of_tests(here, kept, [t.id for t in campaign.tests]) if differs is not None and not every_test else {}
-    left = left_alone(lines, raw_layer.tests_with(differs or ()))
+    left = left_alone(lines, files.tests_with(differs or ()))
     with store.marked_reader() as (con, mark):
-        inventory = raw_layer.inventory = _inventory(con, store, raw_layer, left, mark == kept.get("mark"))
+        inventory = _inventory(con, store, files, left, mark == kept.get("mark"))
+    raw_layer = RawIngest(files, inventory)
     raw_layer.read_ahead()
     jumps = raw_layer.jump_files()
     results, problems = evaluate(store.path, campaign, jumps)
@@ -162,7 +164,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         losses=with_lines(losses, path),
         notes=list(
             dict.fromkeys(
-                same_content(files_of_tests, raw_layer.hashes())
+                same_content(files_of_tests, files.hashes())
                 + odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})
                 + unanswered(campaign)
                 + said
@@ -188,23 +190,23 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
             summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
     if not raw_layer.passing and given is None:
         of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
-        keep(here, mark, raw_layer.hashes(), parts, again.to_json(), of_each)
+        keep(here, mark, files.hashes(), parts, again.to_json(), of_each)
     summary.seconds = time.monotonic() - began
     return summary
 
 
 def _inventory(
-    con: duckdb.DuckDBPyConnection, store: Store, raw_layer: RawIngest, left: LeftAlone, noted_now: bool
+    con: duckdb.DuckDBPyConnection, store: Store, files: CampaignFiles, left: LeftAlone, noted_now: bool
 ) -> Inventory:
     """What the store holds of the tests that are looked at. noted_now: whether no commit came since the note."""
-    campaign = raw_layer.campaign
+    campaign = files.campaign
     if not left.tests:
         return read_inventory(con, store.path, campaign.id)
     if not noted_now:
         raise OtherwiseError("another commit")
     looked_at = {t.id for t in campaign.tests if t.id not in left.tests}
-    raw_layer.narrow(looked_at)
-    return read_inventory(con, store.path, campaign.id, looked_at, raw_layer.keys())
+    files.narrow(looked_at)
+    return read_inventory(con, store.path, campaign.id, looked_at, files.keys())
 
 
 def _notes_of_tests(
