@@ -104,8 +104,9 @@ class CandidateEffect:
         return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
 
     def in_test(self, test: TestData) -> InTest:
-        """What it does in a test; zero where the test lacks a channel."""
-        if not has_drivers(test, self.binding):
+        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there."""
+        failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
+        if failed or not has_drivers(test, self.binding):
             return lambda p: np.zeros((len(test.t_s), len(self.effect.gains)))
         led = with_lead(make_drivers(test, self.effect, self.binding))
         return lambda p: columns(self.effect, led, p)
@@ -133,7 +134,8 @@ def candidates(
     # a plain function is no other effect than what it stands for
     acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
-    # a sensor that failed goes with anything that happened when it did
+    # a sensor that failed goes with anything that happened when it did; one that failed in a test or two of many drives
+    # nothing there (`CandidateEffect.in_test`)
     usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}

@@ -112,7 +112,8 @@ class Logs:
 
 def compared(tests: Sequence[TestData], channels: Mapping[str, ChannelInfo], response: str, step_s: float) -> Logs:
     """Each source of temperatures with each other source of commands."""
-    warm = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and c.faulty is None and c.source}
+    failed = {n for t in tests for n, c in t.channels.items() if c.faulty is not None}
+    warm = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and n not in failed and c.source}
     commands, pairs = _commands(channels), []
     for by in sorted(set(commands.values())):
         for warmed in sorted(set(warm.values()) - {by}):

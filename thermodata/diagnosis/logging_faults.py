@@ -195,7 +195,7 @@ def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise:
 
 
 def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
-    """Channels whose sensor is judged faulty in a test: they are asked as no driver of a candidate, in any test."""
+    """Channels whose sensor is judged faulty in a test: they drive no candidate there; where that is in many, in none."""
     return [
         Artefact(
             kind="sensor",
@@ -203,13 +203,19 @@ def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
             test=test.test,
             at_s=None,
             size_um=None,
-            why=f"'{name}' is flagged '{info.faulty}', so it is no driver of a candidate: see thermodata quality, and "
+            why=f"'{name}' is flagged '{info.faulty}', so it {_drives_no(name, data)}: see thermodata quality, and "
             "overrule the flag in the campaign file where the reading is sound",
         )
         for test in data.tests
         for name, info in test.channels.items()
         if info.faulty is not None and name != response and info.quantity not in NOT_DRIVERS
     ]
+
+
+def _drives_no(name: str, data: Dataset) -> str:
+    if data.channels[name].faulty is not None:
+        return "is no driver of a candidate"
+    return "drives no candidate in this test, and does in those in which it is sound"
 
 
 def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float) -> list[Artefact]:

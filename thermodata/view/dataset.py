@@ -16,7 +16,7 @@ class ChannelInfo:
     """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'.
 
     lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
-    in this test (of a dataset: in any); None where it is sound.
+    in this test (of a dataset: in so many that it is no witness in any); None where it is sound.
     """
 
     name: str

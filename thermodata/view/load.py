@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 MAX_BINS = 20_000_000
+# a sensor that failed in so small a share of its tests, and is sound in so many, is a witness in the others
+MOST_FAILED, LEAST_SOUND = 0.25, 3
 
 
 def load_dataset(
@@ -57,13 +59,22 @@ def load_dataset(
             for row in describe_tests(con, wanted)
             if (row["campaign"], row["test"]) in binned
         )
-    union: dict[str, ChannelInfo] = {}
+    return Dataset(float(step_s), tests, union_of(tests), _version([(c, versions[c]) for c in wanted]))
+
+
+def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
+    """The channels of some tests, by name. A sensor that failed in one test of many is sound in the others."""
+    each: dict[str, list[ChannelInfo]] = {}
     for test in tests:
         for name, info in test.channels.items():
-            known = union.setdefault(name, info)
-            if info.faulty is not None and known.faulty is None:
-                union[name] = replace(known, faulty=info.faulty)
-    return Dataset(float(step_s), tests, union, _version([(c, versions[c]) for c in wanted]))
+            each.setdefault(name, []).append(info)
+    union = {}
+    for name, infos in each.items():
+        failed = [info.faulty for info in infos if info.faulty is not None]
+        sound = len(infos) - len(failed)
+        mostly = sound >= LEAST_SOUND and len(failed) <= MOST_FAILED * len(infos)
+        union[name] = replace(infos[0], faulty=None if mostly or not failed else failed[0])
+    return union
 
 
 def _opened(store: Store | str | Path) -> Store:
