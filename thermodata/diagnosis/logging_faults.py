@@ -195,7 +195,7 @@ def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise:
 
 
 def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
-    """Channels whose sensor is judged faulty in a test: they drive no candidate there; where that is in many, in none."""
+    """Channels whose sensor is judged faulty in a test: they drive no candidate there; of many tests, in none."""
     return [
         Artefact(
             kind="sensor",
