@@ -17,6 +17,7 @@ from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
 from thermodata.draft.orientation import calibration_of, which_way, why_idle
+from thermodata.draft.other_units import unit_question
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
@@ -187,6 +188,7 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
     values = None
     units: Counter[str | None] = Counter()
+    seen = {f.path.name: f.sample.values.get((signal.stream, signal.name)) for f in files}
     for f in files:
         values = joined(values, f.sample.values.get((signal.stream, signal.name)))
         units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
@@ -203,6 +205,9 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
             said.basis,
             (*said.questions, f"unit: the files disagree: {names}; each file's own is taken"),
         ), None
+    asked = unit_question(said.quantity, seen) if None in units else None
+    if asked is not None:
+        said = replace(said, sure=False, questions=(*said.questions, asked))
     return said, None
 
 
