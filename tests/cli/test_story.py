@@ -295,6 +295,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "noise_over_s",
         "chance",
         "rmse_um",
+        "fitted_rmse_um",
         "locked_rmse_um",
         "explainable",
         "weak_spots",

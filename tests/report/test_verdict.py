@@ -300,6 +300,19 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))
 
 
+@pytest.mark.parametrize(("fitted", "told_of"), [(0.29, False), (0.31, True), (None, False)])
+def test_an_error_that_the_model_has_only_as_it_is_fitted_is_told(fitted: float | None, told_of: bool) -> None:
+    text = verdict_sentence(found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=fitted))
+    assert ("as it is fitted the model leaves 0.310 um on the open tests" in text) is told_of
+
+
+@pytest.mark.parametrize(("share", "likely"), [(0.049, False), (0.051, True)])
+def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None:
+    text = verdict_sentence(found("unknown", [one("screw", probability=share)], rmse_um=1.4, response_um=5.1))
+    assert ("suffices to name no cause; the likeliest that was logged is screw (T)" in text) is likely
+    assert ("on left-out tests (1.40 um of the response's 5.10) that nothing logged is likely" in text) is not likely
+
+
 @pytest.mark.parametrize(
     ("right", "said"),
     [

@@ -26,6 +26,7 @@ from thermodata.diagnosis.sound import sound
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
@@ -101,7 +102,7 @@ def answer(
         judgement = contradicted(judgement, known, response, locked)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
-    beside = {"locked_rmse_um": known, "put_right": asked_of.told}
+    beside = {"locked_rmse_um": known, "put_right": asked_of.told, "fitted_rmse_um": _as_fitted(response, tests)}
     return Answer(found.model_copy(update=beside), tuple(locked) if looked_at else (), tuple(looked_at))
 
 
@@ -169,6 +170,13 @@ def _diagnosis(
         else [_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
         chance=ladder.chance(investigation.measure),
     )
+
+
+def _as_fitted(response: FittedResponse, tests: Sequence[TestData]) -> float | None:
+    """RMS residual over what counts of all open tests."""
+    parts = [response.residual(t)[response.mask(t)] for t in tests if response.can_predict(t)]
+    whole = np.concatenate([*parts, np.empty(0)])
+    return float(np.sqrt(np.mean(whole**2))) if len(whole) else None
 
 
 def _limit(one: Limit, terms: Sequence[str], spread: float) -> DetectionLimit:

@@ -234,7 +234,9 @@ class Diagnosis(Result):
         cannot tell
     noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
-    rmse_um: error on left-out tests without any candidate
+    rmse_um: error on left-out tests without any candidate, where the effects of the model may act otherwise than by
+        their one lag
+    fitted_rmse_um: error of the model as it is fitted, on the open tests from their first samples on
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
         none were
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
@@ -255,6 +257,7 @@ class Diagnosis(Result):
     noise_um: float | None
     noise_over_s: float | None = None
     rmse_um: float | None
+    fitted_rmse_um: float | None = None
     locked_rmse_um: float | None = None
     explainable: float | None
     weak_spots: list[WeakSpot]
