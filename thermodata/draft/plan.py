@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,10 +16,11 @@ from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
-from thermodata.draft.orientation import calibration_of, which_way, why_idle
+from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
+from thermodata.draft.same_probe import names_in_tests, own_name, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
@@ -42,13 +43,14 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
+    of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
     taken: set[str] = set()
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
     notes: list[str] = []
     for g in groups:
-        made, left = _channels(g, [j for j in jumps if j.file in g.calibrations], taken, calibrations)
+        made, left = _channels(g, of_probes[g.source], in_tests, taken, calibrations)
         made = beside_each_other(made)
         channels += made
         notes += left
@@ -78,7 +80,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
-    left_out += tuple((p, why_idle(p, jumps, calibrations)) for p in idle)
+    known = [j for of_source in of_probes.values() for j in of_source]
+    left_out += tuple((p, why_idle(p, known, calibrations)) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -148,9 +151,15 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _channels(
-    group: Group, jumps: Sequence[JumpTest], taken: set[str], calibrations: list[DraftJump]
+    group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], taken: set[str], calibrations: list[DraftJump]
 ) -> tuple[list[DraftChannel], list[str]]:
-    found = group.signals
+    """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
+    which a jump test may have under another head."""
+    found = [
+        (signal, files)
+        for signal, files in group.signals
+        if own_name(signal.name) not in in_tests or any(f in group.files for f in files)
+    ]
     more = len(found) - _MOST_SIGNALS
     notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
     twice = {
@@ -170,10 +179,11 @@ def _channels(
         named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
         name = channel_name(_wished(called(signal), said), taken)
         calibration = None
-        if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
-            calibration, said = calibration_of(name, signal, said, jump, group, jumps, calibrations)
-        elif said.quantity == "displacement" and said.at == "tcp":
-            said = replace(said, sure=False, questions=(*said.questions, which_way(said)))
+        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(signal, files)
+        if said.quantity == "displacement" and in_volts:
+            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
+            calibration, said = sign_of(name, signal, said, jump, calibrations)
         own = {id(f) for f in files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
