@@ -32,6 +32,13 @@ def test_the_sign_of_a_displacement_in_micrometres_is_asked(tmp_path: Path) -> N
     assert "axis: Z, gain: 1 um/um, facing: ?, increases_with: ?" in asked
 
 
+def test_no_axis_is_offered_to_a_displacement_whose_name_has_none(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "Taster [um]", [i / 10 for i in range(100)])
+    made = draft_files(tmp_path / "lab").draft
+    (asked,) = [q for c in made.channels for q in c.said.questions if "which way" in q]
+    assert "'calibration: sign' stands here, and sign: {kind: scale, axis: ?," in asked
+
+
 @pytest.mark.parametrize(
     ("calibration", "told"),
     [

@@ -21,12 +21,13 @@ _SHOWN_STEPS = 12
 
 def which_way(said: Guess) -> str:
     """The question for the sign of a displacement that no calibration turns to the machine's axes."""
-    axis, unit = said.axis or "Z", said.unit if said.unit and said.unit.isalpha() else "um"
-    name = f"sign_{axis.lower()}"
+    unit = said.unit if said.unit and said.unit.isalpha() else "um"
+    axis, name = said.axis or "?", f"sign_{said.axis.lower()}" if said.axis else "sign"
+    looks = f"+{axis} or -{axis}" if said.axis else "+X, -X, +Y, -Y, +Z or -Z"
     return (
         f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
         f"scale, axis: {axis}, gain: 1 {unit}/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
-        f"+{axis} or -{axis}, where the probe looks; increases_with: gap or approach"
+        f"{looks}, where the probe looks; increases_with: gap or approach"
     )
 
 
