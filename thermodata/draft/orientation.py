@@ -9,9 +9,9 @@ from statistics import median
 from thermodata.draft.axis import axis_of
 from thermodata.draft.jumps import JumpTest
 from thermodata.draft.naming import words
+from thermodata.draft.one_signal import OneSignal
 from thermodata.draft.parts import DraftJump
 from thermodata.draft.quantity import Guess
-from thermodata.draft.raw_file import RawFile
 from thermodata.draft.units import converts
 from thermodata.draft.which_way import ASKED
 from thermodata.plugin import Signal
@@ -31,10 +31,9 @@ def which_way(said: Guess) -> str:
     )
 
 
-def reads_a_length(signal: Signal, files: Sequence[RawFile]) -> bool:
+def reads_a_length(one: OneSignal) -> bool:
     """Whether a displacement needs no gain: in every file that has it, its unit is one of lengths."""
-    key = (signal.stream, signal.name)
-    units = {s.unit for f in files for s in f.signals if (s.stream, s.name) == key}
+    units = {(one.of(f) or one.signal).unit for f in one.files}
     return all(unit is not None and converts(unit, "displacement") for unit in units)
 
 

@@ -16,6 +16,7 @@ from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
+from thermodata.draft.one_signal import OneSignal, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
@@ -28,7 +29,6 @@ from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_c
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import joined
 from thermodata.draft.warm import warm_starts
-from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
@@ -137,9 +137,10 @@ def _keyed(
     """The channels by (stream, signal) of the files, whatever the campaign file calls them."""
     plain = {signal.split(":", 1)[-1] if stream else signal: value for (stream, signal), value in named.items()}
     return {
-        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{s.name}")) or plain[s.name]
-        for s, _ in group.signals
-        if s.name in plain
+        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{one.written}")) or plain[one.written]
+        for one in joined_over_units(group.signals)
+        for s in one.spellings
+        if one.written in plain
     }
 
 
@@ -156,9 +157,9 @@ def _channels(
     """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
     which a jump test may have under another head."""
     found = [
-        (signal, files)
-        for signal, files in group.signals
-        if own_name(signal.name) not in in_tests or any(f in group.files for f in files)
+        one
+        for one in joined_over_units(group.signals)
+        if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
     ]
     more = len(found) - _MOST_SIGNALS
     notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
@@ -166,25 +167,27 @@ def _channels(
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
     made, seen = [], set()
-    streams = {s.stream for s, _ in found}
-    for signal, files in found[:_MOST_SIGNALS]:
+    streams = {one.signal.stream for one in found}
+    for one in found[:_MOST_SIGNALS]:
+        signal = one.signal
         if signal.name in seen and signal.name not in twice:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
-        said, note = _said(signal, files)
-        key = (signal.stream, signal.name)
-        jump = next((j for j in jumps if j.signal == key or (signal.name not in twice and j.is_of(*key))), None)
+        said, note = _said(one)
+        keys = [(s.stream, s.name) for s in one.spellings]
+        twin = signal.name in twice
+        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
-        named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
+        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
         name = channel_name(_wished(called(signal), said), taken)
         calibration = None
-        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(signal, files)
+        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
         if said.quantity == "displacement" and in_volts:
             calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
         elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
             calibration, said = sign_of(name, signal, said, jump, calibrations)
-        own = {id(f) for f in files}
+        own = {id(f) for f in one.files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         lacking = tuple(t for t in group.tests if t not in having) if only else ()
@@ -193,13 +196,14 @@ def _channels(
     return made, notes
 
 
-def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
+def _said(one: OneSignal) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
-    values = None
+    values, signal = None, one.signal
     units: Counter[str | None] = Counter()
-    for f in files:
-        values = joined(values, f.sample.values.get((signal.stream, signal.name)))
-        units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
+    for f in one.files:
+        own = one.of(f) or signal
+        values = joined(values, f.sample.values.get((own.stream, own.name)))
+        units[own.unit] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from thermodata.draft.guess import guess_of
 from thermodata.draft.jumps import JumpTest
 from thermodata.draft.naming import words
+from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.sources import Group
 from thermodata.reader.text import split_unit
 
@@ -54,8 +55,10 @@ def _called_alike(jump: JumpTest, groups: Sequence[Group]) -> list[tuple[str, tu
         return []
     wanted = own_name(jump.signal[1])
     return [
-        (g.source, (s.stream, s.name))
+        (g.source, (one.signal.stream, one.signal.name))
         for g in groups
-        for s, files in g.signals
-        if own_name(s.name) == wanted and guess_of(s).quantity in PROBES and any(f in g.files for f in files)
+        for one in joined_over_units(g.signals)
+        if own_name(one.signal.name) == wanted
+        and guess_of(one.signal).quantity in PROBES
+        and any(f in g.files for f in one.files)
     ]
