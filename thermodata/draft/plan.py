@@ -80,6 +80,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
+    read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
     known = [j for of_source in of_probes.values() for j in of_source]
     left_out += tuple((p, why_idle(p, known, calibrations)) for p in idle)
     like = [f for f in found.logs if f.like]
@@ -112,6 +113,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         found.damaged,
         tuple(notes),
         tuple(x for x in found.failed if table is None or x[0] != table.file),
+        tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
 
 
