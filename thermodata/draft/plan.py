@@ -18,6 +18,7 @@ from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
 from thermodata.draft.one_signal import OneSignal, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
+from thermodata.draft.own_scale import scale_note
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
@@ -194,6 +195,7 @@ def _channels(
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         lacking = tuple(t for t in group.tests if t not in having) if only else ()
         stream = signal.stream if len(streams) > 1 else None
+        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     return made, notes
 
