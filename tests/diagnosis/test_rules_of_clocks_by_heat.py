@@ -154,6 +154,22 @@ def test_of_those_that_tell_elsewhere_a_share_tells_in_the_test() -> None:
     assert (half.telling, half.tell) == (1, 0.5)
 
 
+def test_what_no_other_test_foretells_tells_no_clock() -> None:
+    """In one test halls and castings rise and fall with the feed of two hours before, by chance: in the others they
+    do not, and the bearing, which does, is not late."""
+    tests = logged()
+    slow = later(lag(tests[1].values["v"], 2400, STEP_S), 120)
+    values = {**tests[1].values, "T_hall": 20 + 3 * slow}
+    channels = {**CHANNELS, "T_bed": replace(CHANNELS["T_hall"], name="T_bed")}
+    for k, test in enumerate(tests):
+        of = {**(values if k == 1 else test.values)}
+        of["T_bed"] = of["T_hall"] + 0.1
+        tests[k] = replace(test, values=of, valid={**test.valid, "T_bed": test.valid["T_hall"]})
+    found = [d for d in compared(tests, channels, "dZ", STEP_S).in_one() if d.test == "t1"]
+    assert [d.telling for d in found] == [2], "bearing and nut"
+    assert not [d for d in found if d.plain]
+
+
 @pytest.mark.parametrize(
     ("home", "right", "late", "source", "shift"),
     [
@@ -274,6 +290,12 @@ def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:
     assert (clock.source, clock.test) == ("log", "")
     assert clock.moved_s == pytest.approx(-58 * 60, abs=31)
     assert [c.family for c in found.candidates if c.claimed] == ["feed_x"]
+    # what the campaign file says of its clock stays
+    declared = {n: replace(c, clock_declared=c.source == "log") for n, c in channels.items()}
+    kept = Dataset(data.step_s, tuple(replace(t, channels=declared) for t in tests), declared)
+    found = answer(fit_model(spec, kept, uncertainty=False), kept, effects(), "m").diagnosis
+    assert found.put_right is None
+    assert "clock_offset" not in [a.kind for a in found.artefacts]
 
 
 @pytest.mark.parametrize(("at", "told"), [("coolant", True), ("hall.door", False), (None, True)])

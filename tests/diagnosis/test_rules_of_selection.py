@@ -18,7 +18,7 @@ from thermodata.diagnosis.beside import extended
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.preference import better_twin, gives_way, preferred
+from thermodata.diagnosis.preference import better_twin, gives_way, preferred, what_warms_it
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
@@ -418,6 +418,31 @@ def test_a_twin_that_foretells_left_out_tests_much_better_is_taken(changed: dict
     assert (better_twin(own, (own, twin)) is twin) is gives
     best = scored("guide", channels=("T_c",), evidence=98.0, after=0.05)
     assert better_twin(own, (own, twin, best)) is best
+
+
+@pytest.mark.parametrize(
+    ("own", "other", "gives"),
+    [
+        ({}, {}, True),
+        ({"of_holder": False, "passive": True}, {}, True),
+        ({"of_holder": False}, {}, False),  # it makes heat itself
+        ({}, {"evidence": 99.9}, False),
+        ({}, {"shape": (0.91, (1 - 0.91**2) ** 0.5)}, True),
+        ({}, {"shape": (0.89, (1 - 0.89**2) ** 0.5)}, False),
+        ({}, {"family": "generic"}, False),
+        ({}, {"kin": "same"}, False),
+        ({}, {"of_holder": True}, False),
+        ({}, {"passive": True}, False),
+        ({}, {"around": True}, False),  # the air warms all
+    ],
+)
+def test_what_warms_a_holder_is_taken_for_it(own: dict[str, Any], other: dict[str, Any], gives: bool) -> None:
+    """What holds the probes is warm for the cut beside it."""
+    holder = scored(**{"name": "lag", "family": "generic", "evidence": 100.0, "of_holder": True, **own})
+    cut = scored(**{"name": "cut", "family": "cutting", "channels": ("P",), "evidence": 100.1, **other})
+    better = scored("better", family="cutting", channels=("F",), evidence=120.0)
+    assert (what_warms_it(holder, (holder, cut)) is cut) is gives
+    assert not gives or what_warms_it(holder, (better, cut, holder)) is better
 
 
 # ---- rankings

@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from thermodata.draft.guess import guess
 from thermodata.draft.languages import LANGUAGES
+from thermodata.draft.values import values_of
 from thermodata.draft.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
 from thermodata.reader.text.header import split_unit
 
@@ -370,3 +372,29 @@ def test_a_counter_is_a_number_and_a_counter_spindle_none() -> None:
     assert guess("part counter", None).why_not
     found = guess("counter_spindle_load", None)
     assert (found.quantity, found.at) == ("load", "counter_spindle")
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "unit"),
+    [
+        ("spindle_speed_krpm", "rotational_speed", "krpm"),
+        ("giri_mandrino_rps", "rotational_speed", "rps"),
+        ("T_air_degF", "temperature", "degF"),
+        ("spindle_load_permille", "load", "permille"),
+        ("spindle_load_%", "load", "%"),
+        ("feed_x_ipm", "feed", "ipm"),
+        ("dX_inch", "displacement", "inch"),
+    ],
+)
+def test_a_unit_at_the_end_of_a_name_is_its_own(name: str, quantity: str, unit: str) -> None:
+    found = guess(name, None)
+    assert (found.quantity, found.unit) == (quantity, unit)
+
+
+def test_an_f_at_the_end_is_asked_where_the_values_may_be_fahrenheit() -> None:
+    def asked(low: float, high: float) -> bool:
+        values = values_of(np.linspace(low, high, 50))
+        return any("degF" in q for q in guess("T_front_bearing_F", None, "float64", values).questions)
+
+    assert asked(71.0, 89.0)
+    assert not asked(21.0, 38.0), "of the front"

@@ -98,20 +98,21 @@ class Pair:
 
     def in_all(self) -> Disagreement | None:
         """In tests left out. None where nothing tells."""
-        return self._disagreement(self._shares())
+        shares = self._shares()
+        return self._disagreement(shares, shares.max(axis=1) >= TELLS)
 
     def in_one(self, i: int) -> Disagreement | None:
         """In one test, with commands that act as they do in the others unmoved. None where nothing tells."""
-        shares = self._shares(i)
-        found = self._disagreement(shares)
+        shares, usual = self._shares(i), self._told_elsewhere(i) >= TELLS
+        # what the commands foretell in no other test goes with them by chance here: a hall, at some shift of two hours
+        telling = (shares.max(axis=1) >= TELLS) & usual
+        found = self._disagreement(shares, telling)
         if found is None:
             return None
-        telling = shares.max(axis=1) >= TELLS
         left, at = 1 - self._by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
         rest = float(self._at_rest(i)[telling][:, at].mean())
         own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
-        usual = self._told_elsewhere(i) >= TELLS
-        tell = float(telling[usual].mean()) if usual.any() else 0.0
+        tell = float(telling[usual].mean())
         return replace(
             found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest, tell=tell
         )
@@ -166,8 +167,9 @@ class Pair:
         said = np.einsum("nsj,nsjk,nsk->ns", gains, self.gram[i], gains)
         return np.asarray(self.energy[i] - 2 * along + said)
 
-    def _disagreement(self, shares: Float2D) -> Disagreement | None:
-        telling = shares[shares.max(axis=1) >= TELLS]
+    def _disagreement(self, shares: Float2D, tell: Bool1D) -> Disagreement | None:
+        """tell: which channels say something, shape (channels,)."""
+        telling = shares[tell]
         if not len(telling):
             return None
         mean = telling.mean(axis=0)

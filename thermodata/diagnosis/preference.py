@@ -84,6 +84,27 @@ def better_twin(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
     return min(twins, key=lambda s: s.error_of_all, default=None)
 
 
+def what_warms_it(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
+    """Beside what is read at a tool, at what holds the probes, or at a body that makes no heat: the likeliest that acts
+    alike, has a name and makes heat, with no less evidence and no less probability. What is warm for it tells of it."""
+    if not (own.candidate.of_holder or own.candidate.passive):
+        return None
+    return next(
+        (
+            s
+            for s in ranked
+            if len(s.shape)
+            and s.candidate.family not in UNNAMED
+            and s.candidate.kin is None
+            and not (s.candidate.within or s.candidate.of_holder or s.candidate.passive or s.candidate.around)
+            and s.evidence >= own.evidence
+            and abs(float(own.shape @ s.shape)) > TWIN
+            and probability(s) >= probability(own)
+        ),
+        None,
+    )
+
+
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
     better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)

@@ -16,7 +16,7 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.evidence import Columns, columns
 from thermodata.diagnosis.in_noise_of_best import TRIED, in_noise_of_best
 from thermodata.diagnosis.known import known, likeliest
-from thermodata.diagnosis.preference import better_twin, gives_way, preferred
+from thermodata.diagnosis.preference import better_twin, gives_way, preferred, what_warms_it
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.ranking import Ranked, rank_in
 from thermodata.diagnosis.scored import Scored
@@ -193,16 +193,17 @@ def _member(
 ) -> Member:
     """One that a sound candidate does clearly better, beside the others, is swapped for it; or one that is preferred to
     it, as in the choice: a lag that was added beside a name, and then drove it out, is still not the lag's own, where
-    the name foretells left-out tests better; or for a twin that does so much better."""
+    the name foretells left-out tests better; or for a twin that does so much better, or that warms what it reads."""
     others = [c for i, c in enumerate(chosen) if i != number]
     ranking = rank_in(beside(problem, others), without(every, others), noise)
     eligible = _only(ranking, among)
     best = preferred(eligible.ranked)
     if best is not None and gives_way(own, best, eligible) and sound(best):
         own = _in_place_of(own, best, others)
-    twin = better_twin(own, eligible.ranked)
-    if twin is not None and sound(twin):
-        own = _in_place_of(own, twin, others)
+    for twin in (better_twin(own, eligible.ranked), what_warms_it(own, eligible.ranked)):
+        if twin is not None and sound(twin):
+            own = _in_place_of(own, twin, others)
+            break
     return Member(chosen[number], own, ranking.ranked)
 
 

@@ -75,7 +75,10 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     response, keys = found.fitted.responses[index], {t.key for t in found.tests}
     problem = compressed(response, found.data, found.tests, TARGET_ROWS)
     known = timings(problem, found.data.channels)
-    off = known.off
+    # what the campaign file says of a clock is somebody's word, and stays
+    declared = {c.source for c in found.data.channels.values() if c.clock_declared and c.source}
+    settled = declared | {found.data.channels[response.name].source} if declared else declared
+    off = [t for t in known.off if t.source not in declared]
     clocks = [ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in off]
     faults = [as_artefact(t, problem) for t in off]
 
@@ -85,6 +88,7 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     late = late_logs(logs, known.told)
     if not late and all(c.test for c in clocks):  # of a log that was moved in all tests the ends are not known
         late = late_in_one(logs, known.told_in_one)
+    late = [one for one in late if one.source not in declared and not {one.of.warmed, one.of.by} <= settled]
     faults += [by_heat(one, tests[0].campaign) for one in late]
     clocks += [
         ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)

@@ -18,6 +18,7 @@ from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
 from thermodata.draft.one_signal import OneSignal, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
+from thermodata.draft.other_units import unit_question
 from thermodata.draft.own_scale import scale_note
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
@@ -28,7 +29,7 @@ from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
-from thermodata.draft.values import joined
+from thermodata.draft.values import Values, joined
 from thermodata.draft.warm import warm_starts
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -204,9 +205,11 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
     values, signal = None, one.signal
     units: Counter[str | None] = Counter()
+    seen: dict[str, Values | None] = {}
     for f in one.files:
         own = one.of(f) or signal
-        values = joined(values, f.sample.values.get((own.stream, own.name)))
+        seen[f.path.name] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, seen[f.path.name])
         units[own.unit] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
@@ -221,6 +224,9 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
             said.basis,
             (*said.questions, f"unit: the files disagree: {names}; each file's own is taken"),
         ), None
+    asked = unit_question(said.quantity, seen) if None in units else None
+    if asked is not None:
+        said = replace(said, sure=False, questions=(*said.questions, asked))
     return said, None
 
 

@@ -111,12 +111,13 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     by_name = next((q for q in named if q not in ("state",) and _loosely(unit, q)), None)
     if by_name:
         return Guess(by_name, unit, sure=True, basis=("name", "unit"))
-    if not possible:
+    normal = normal_unit(unit)
+    if not possible and normal not in units.SHARES:
         return Guess(None, unit, why_not=f"no quantity has the unit {unit}")
-    normal, first = normal_unit(unit), possible[0]
     against = [q for q in named if q != "state"]
-    if normal == "percent":
-        return Guess(None, unit, why_not="a share in %: of what? quantity: load, humidity, or none")
+    if normal in units.SHARES:
+        return Guess(None, unit, why_not=f"a share in {unit}: of what? quantity: load, humidity, or none")
+    first = possible[0]
     if first == "voltage" and not against and (axis_of(own) or "") in ("x", "y", "z") and places_in(own) <= {"probe"}:
         return Guess("displacement", unit, basis=("name", "unit"))  # 'probe X', in volts
     if first == "voltage":
@@ -137,7 +138,7 @@ def _loosely(unit: str, quantity: str) -> bool:
     if quantity in ("tilt", "angle"):
         return units.is_inclination(unit) and (quantity == "tilt" or "m/m" not in bare_unit(unit))
     if quantity in ("load", "humidity"):
-        return normal_unit(unit) == "percent"
+        return normal_unit(unit) in units.SHARES
     return quantity == "rotational_speed" and units.converts(unit, quantity)
 
 

@@ -36,9 +36,11 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "m/min": ("feed",),
     "m": ("position", "displacement"),
     "cm": ("position",),
-    "inch": ("position",),
-    "in": ("position",),
+    "inch": ("position", "displacement"),
+    "in": ("position", "displacement"),
+    "thou": ("displacement",),
 }
+SHARES = ("percent", "permille", "‰")  # of what, their names say
 _FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
 _SLOPE = re.compile(r"[uμnm]?m/m")
 _ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
@@ -46,9 +48,13 @@ _ENERGY = re.compile(r"(?:Wh|J|[Cc]al|BTU)$")  # pint takes an energy for a torq
 _LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")  # pint turns any bare number into these
 # A unit at the end of a name, after a separator: unmistakable ones only.
 _IN_NAME = re.compile(
-    r"(?:^|[_.\s-])(degC|[°º]C|℃|Celsius|rpm|RPM|kW|um|µm|μm|mm|lpm|bar|mbar|kPa|MPa|mA|mV|Nm|urad|pct|"
+    r"(?:^|[_.\s-])(deg[CF]|[°º][CF]|[℃℉]|Celsius|Fahrenheit|k?rpm|RPM|rps|kW|um|µm|μm|mm|inch|thou|lpm|ipm|m?bar|"
+    r"kPa|hPa|MPa|psi|mA|mV|Nm|urad|pct|%|‰|promille?|permille|"
     r"(?:mm|m|l|1|U)[_/](?:min))$"
 )
+
+_SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
+_F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
 
@@ -63,7 +69,12 @@ def rate_at_end(name: str) -> tuple[str, str | None]:
 def from_name(name: str) -> str | None:
     """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
     match = _IN_NAME.search(name.strip())
-    return match[1].replace("_", "/").replace("pct", "%") if match else None
+    return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
+
+
+def may_be_fahrenheit(name: str) -> bool:
+    """Whether a name ends with an F that may be its unit, as in 'T_bearing_F', which may be the front one as well."""
+    return _F_AT_END.search(name.strip()) is not None
 
 
 def without_rate(name: str, unit: str | None) -> str:

@@ -16,7 +16,8 @@ class ChannelInfo:
     """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'.
 
     lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
-    in this test (of a dataset: in so many that it is no witness in any); None where it is sound.
+    in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
+    whether the campaign file says how its source's clock stands.
     """
 
     name: str
@@ -30,6 +31,7 @@ class ChannelInfo:
     resolution: float | None = None
     lost: float = 0.0
     faulty: str | None = None
+    clock_declared: bool = False
 
 
 @dataclass(frozen=True, slots=True)

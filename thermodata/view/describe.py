@@ -77,18 +77,38 @@ def channel_infos(
         "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
         [list(campaigns)],
     ).fetchall()
-    flagged = flagged_channels(con, campaigns)
+    flagged, declared = flagged_channels(con, campaigns), _declared_clocks(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
         resolution = _json(sensor).get("resolution")
         infos.setdefault((campaign, test), {})[name] = ChannelInfo(
-            name, quantity, unit, at, axis, relative_to, source, sign, _resolution(resolution, unit, raw_unit)
+            name,
+            quantity,
+            unit,
+            at,
+            axis,
+            relative_to,
+            source,
+            sign,
+            _resolution(resolution, unit, raw_unit),
+            clock_declared=(campaign, source) in declared,
         )
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:
             known = infos[campaign, test][name]
             infos[campaign, test][name] = replace(known, lost=own.lost, faulty=own.faulty)
     return infos
+
+
+def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str]]:
+    """(campaign, source), where the campaign file gives the offset of a clock, or what it is aligned to."""
+    rows = con.execute("select campaign, spec from campaign where list_contains(?, campaign)", [list(campaigns)])
+    return {
+        (campaign, name)
+        for campaign, spec in rows.fetchall()
+        for name, source in _json(_json(spec).get("sources")).items()
+        if any(_json(_json(source).get("clock")).get(key) is not None for key in ("offset", "align_to"))
+    }
 
 
 def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:
@@ -103,6 +123,6 @@ def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:
     return abs(factor * number)
 
 
-def _json(text: str | None) -> dict[str, Any]:
-    value = json.loads(text) if text else {}
+def _json(text: Any) -> dict[str, Any]:
+    value = json.loads(text) if isinstance(text, str) and text else text
     return value if isinstance(value, dict) else {}

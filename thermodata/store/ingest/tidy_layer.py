@@ -24,6 +24,7 @@ from thermodata.store.ingest.empty_channels import empty_channels
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.other_units import other_units
 from thermodata.store.ingest.repeated_times import said_of_repeats
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
@@ -113,6 +114,7 @@ def tidy_tests(
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         note.notes += plan.notes
     layer.losses += empty_channels(campaign, known)
+    layer.losses += other_units([x for x, _ in levels])
     layer.notes += idle(campaign.overrule, {name: note.overruled for name, note in known.items() if note.tidied})
     return layer
 

@@ -108,11 +108,8 @@ def _jump_data(
     )
     unit = "V" if _converts(written, "V") else written
     probe = _scaled(store, line, raw, signal.name, written, unit)
-    wanted = [
-        c for c in campaign.channels.values() if c.source == spec.source and c.quantity == "displacement" and c.signal
-    ]
     others: dict[str, Array] = {}
-    for channel in wanted:
+    for channel in probes_across(campaign, spec):
         try:
             _, other, other_unit = find_signal([raw], channel.signal or "")
         except ThermodataError:  # the jump test's file need not hold every probe
@@ -121,6 +118,19 @@ def _jump_data(
         if other.name != signal.name and other.name not in others and _converts(other_unit, unit):
             others[other.name] = _scaled(store, line, raw, other.name, other_unit, unit)
     return line.t_ns, probe, others, unit
+
+
+def probes_across(campaign: Campaign, spec: JumpCalibration) -> list[Channel]:
+    """The probes that a jump test should leave at rest: of the same log, and not declared along the axis that moves,
+    as a second one beside the probe, or at the other end of a ram, is."""
+    return [
+        c
+        for c in campaign.channels.values()
+        if c.source == spec.source
+        and c.quantity == "displacement"
+        and c.signal
+        and (c.axis is None or c.axis != spec.axis or c.signal == spec.signal)
+    ]
 
 
 def _converts(unit: str, target: str) -> bool:

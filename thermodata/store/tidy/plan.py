@@ -23,7 +23,8 @@ MEASURED = ("displacement", "tilt", "angle")
 @dataclass(frozen=True, slots=True)
 class Bound:
     """A channel of a test and where its values come from. signal is None for derived and scheduled channels;
-    unit: of the raw signal, as declared or as the file says."""
+    unit: of the raw signal, as declared or as the file says. on_change: whether its rows show that they were written
+    when something changed."""
 
     name: str
     channel: Channel
@@ -31,6 +32,7 @@ class Bound:
     stream: str
     signal: Signal | None = None
     unit: str | None = None
+    on_change: bool = False
 
     @property
     def is_text(self) -> bool:
@@ -39,7 +41,8 @@ class Bound:
     @property
     def is_held(self) -> bool:
         """Whether its log is written on change. What a model explains is never made up between two rows."""
-        return self.signal is not None and self.signal.held and self.channel.quantity not in MEASURED
+        by_file = self.signal is not None and self.signal.held and self.channel.quantity not in MEASURED
+        return by_file or self.on_change
 
 
 @dataclass(slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.chunk import Chunk
+from thermodata.store.tidy.on_change import SET, has_no_rate
 from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.source_clock import Clock, Span, build, last_ns
 from thermodata.store.tidy.timeline import Timeline, given_timeline
@@ -50,6 +51,7 @@ class TestSeries:
         self.clocks = dict(clocks)
         self._lines: dict[Member, Timeline] = {}
         self._sampled: dict[str, tuple[Int1D, Array, Array]] = {}
+        self._on_change: dict[Member, bool] = {}
 
     def timeline(self, member: Member) -> Timeline:
         """The rows of a stream; those of the schedule are a grid of a minute plus its changes."""
@@ -65,6 +67,15 @@ class TestSeries:
                     resets_allowed=source.spec.clock.resets == "allow",
                 )
         return self._lines[member]
+
+    def as_written(self, bound: Bound) -> Bound:
+        """The same, with what its rows show: what is set stands until the next row of a log that has no rate."""
+        member = (bound.source, bound.stream)
+        if bound.channel.quantity not in SET or bound.is_held or bound.signal is None:
+            return bound
+        if member not in self._on_change:
+            self._on_change[member] = has_no_rate(self.timeline(member))
+        return replace(bound, on_change=self._on_change[member])
 
     def rows(self, member: Member) -> Rows:
         """Which rows of a stream are the test's, and which its history."""
@@ -97,7 +108,7 @@ class TestSeries:
     def sampled(self, name: str, t_ns: Int1D) -> tuple[Array, Array]:
         """(values, flags) of a channel at other times, ascending: states, and what is written on change, are held,
         measurements run straight between two samples; NaN before the first and after the last sample."""
-        bound = self.plan.bound[name]
+        bound = self.as_written(self.plan.bound[name])
         if bound.channel.schedule is not None:
             return self.scheduled(bound, t_ns)
         line = self.timeline((bound.source, bound.stream))

@@ -18,6 +18,7 @@ from thermodata.store.raw.writer import group_rows
 from thermodata.store.tidy.between import Sampler, Verdict
 from thermodata.store.tidy.chunk import Column
 from thermodata.store.tidy.event import Event
+from thermodata.store.tidy.on_change import told
 from thermodata.store.tidy.overrule import overrule, overruled, rules_of
 from thermodata.store.tidy.plan import Bound
 from thermodata.store.tidy.quality import Flagged
@@ -73,8 +74,9 @@ def write_member(
     if rows.history == rows.stop:
         result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
         return result
-    here = [b for b in series.plan.bound.values() if (b.source, b.stream) == member]
+    here = [series.as_written(b) for b in series.plan.bound.values() if (b.source, b.stream) == member]
     held = tuple(b.name for b in here if b.is_held)
+    result.notes += told([b.name for b in here if b.on_change])
     verdict = (verdict or Verdict()).of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)

@@ -1,0 +1,33 @@
+"""Kelvins among degrees: told with the test and the channels, and nothing said of a sensor that is hot."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.calibration.quality_between import Course, Levels
+from thermodata.store.ingest.other_units import other_units
+
+
+def levels(test: str, **medians: float) -> Levels:
+    t = np.linspace(0.0, 3600.0, 10)
+    return Levels(test, None, None, {n: Course(t, m + np.linspace(-1, 1, 10)) for n, m in medians.items()})
+
+
+@pytest.mark.parametrize(
+    ("readings", "told"),
+    [
+        ([22.0, 24.0, 296.0], {"t2": "K"}),
+        ([295.0, 21.0, 22.0], {"t0": "K"}),
+        ([22.0, 24.0, -250.0], {"t2": "degC"}),  # declared as K, one file in degrees
+        ([22.0, 24.0, 90.0], {}),
+        ([22.0, 24.0, 450.0], {}),  # a heater, or a broken sensor: no kelvins
+        ([295.0, 296.0, 297.0], {}),  # nothing beside it says otherwise
+        ([22.0], {}),
+    ],
+)
+def test_kelvins_among_degrees_are_told(readings: list[float], told: dict[str, str]) -> None:
+    tests = [levels(f"t{i}", T_b=m, T_hall=m) for i, m in enumerate(readings)]
+    losses = other_units(tests)
+    assert {str(x["test"]): "K" if " in K" in str(x["reason"]) else "degC" for x in losses} == told
+    assert all(str(x["reason"]).startswith("T_b, T_hall: in t") for x in losses)
