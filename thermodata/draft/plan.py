@@ -208,8 +208,8 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     seen: dict[str, Values | None] = {}
     for f in one.files:
         own = one.of(f) or signal
-        seen[f.path.name] = f.sample.values.get((own.stream, own.name))
-        values = joined(values, seen[f.path.name])
+        seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, seen[str(f.path)])
         units[own.unit] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
