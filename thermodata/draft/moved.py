@@ -15,6 +15,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import canonical, linear_conversion
+from thermodata.store.tidy.on_change import come_at_no_rate
 
 _DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
 _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
@@ -22,7 +23,6 @@ _SWITCHED = 0.8  # of its largest reading: it was off as well as on
 _TURNS_RPM, _SAME = 20.0, 0.02
 _STAYS, _LEAST_ROWS = 0.02, 3  # of the time in which it turns, and rows: else it passes
 _FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much of the whole
-_UNEVEN = 3.0  # between the longer and the shorter of the times between rows (deciles)
 
 
 @dataclass(slots=True)
@@ -146,7 +146,7 @@ def _plateaus(speed: Course) -> tuple[float, ...]:
     """The speeds at which it stayed, the lower ones first; to 2 %."""
     fine = np.isfinite(speed.values)
     x, t_ns = np.abs(speed.values[fine]), speed.t_ns[fine]
-    on_change = comes_at_no_rate(t_ns)
+    on_change = come_at_no_rate(t_ns)
     lasts = _until_the_next(t_ns) if on_change else np.ones(x.size)
     turns = x > _TURNS_RPM
     whole, x, lasts = float(lasts.sum()), x[turns], lasts[turns]
@@ -164,15 +164,6 @@ def _plateaus(speed: Course) -> tuple[float, ...]:
         if not any(abs(level - f) < 2 * _SAME * f for f in found):
             found.append(level)
     return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
-
-
-def comes_at_no_rate(t_ns: Int1D) -> bool:
-    """Whether rows were written when something changed: the times between them differ by more than any clock does."""
-    times = np.unique(t_ns)
-    if times.size < 3:
-        return False
-    short, long = np.quantile(np.diff(times), (0.1, 0.9))
-    return bool(long > _UNEVEN * short)
 
 
 def _until_the_next(t_ns: Int1D) -> Float1D:
