@@ -84,6 +84,13 @@ def test_volts_never_pass_for_micrometres() -> None:
     assert "kind: jump" in str(caught.value)
 
 
+def test_a_jump_test_is_advised_for_what_can_be_displaced_only() -> None:
+    with pytest.raises(CalibrationError, match="a load in A without a calibration") as caught:
+        values([1.0], channel("load"), "A")
+    assert "jump" not in str(caught.value)
+    assert "correct the unit or the quantity" in str(caught.value)
+
+
 def test_a_signal_without_a_unit_is_refused() -> None:
     with pytest.raises(CalibrationError, match="no unit"):
         values([1.0], channel("temperature"))

@@ -36,6 +36,12 @@ def test_without_facing_the_sign_is_unknown() -> None:
     assert (result.gain, result.sign, result.passed) == (250.0, "unknown", False)
 
 
+@pytest.mark.parametrize(("gain", "sign"), [("1000 rpm/V", "+"), ("-1000 rpm/V", "-")])
+def test_what_is_no_displacement_has_no_side_to_look_from(gain: str, sign: str) -> None:
+    result = evaluate_scale("n", scale(axis=None, gain=gain), of_displacement=False)
+    assert (result.gain, result.sign, result.passed) == (float(gain.split()[0]), sign, True)
+
+
 def test_the_axis_comes_from_facing() -> None:
     assert evaluate_scale("s", scale(axis=None, facing="-Y")).axis == "Y"
 

@@ -52,6 +52,17 @@ def test_init_of_a_folder_without_logs_says_what_it_saw(say: Say, tmp_path: Path
     assert "# ?" in draft
 
 
+def test_init_says_how_many_files_it_leaves_out_and_which(say: Say, tmp_path: Path) -> None:
+    csv(tmp_path / "a.csv")
+    assert "not used" not in say("init", tmp_path).err
+    for k in range(7):
+        (tmp_path / f"notes{k}.txt").write_text("nothing\n")
+    *_, left_out, summary = say("init", tmp_path, "--force").err.splitlines()
+    assert left_out.startswith("7 of 8 files are not used (notes0.txt, notes1.txt, ")
+    assert left_out.endswith("notes4.txt and 2 more): the end of campaign.yaml says why")
+    assert summary.startswith("1 files, ")
+
+
 def test_init_talks_on_stderr_and_shows_no_progress_when_piped(say: Say, tmp_path: Path) -> None:
     csv(tmp_path / "a.csv")
     said = say("init", tmp_path)

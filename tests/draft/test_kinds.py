@@ -39,6 +39,9 @@ T_NS = np.arange(N, dtype=np.int64) * 10**10
         ("07_mixto", "mixed"),
         ("espectro", "spectrum"),
         ("cutting fluid", "other"),
+        ("07_Arbeitstag", "mixed"),
+        ("Dauerlauf_Tag1", "other"),  # a date
+        ("day_2", "other"),
     ],
 )
 def test_a_kind_is_told_by_the_name_in_many_languages(name: str, kind: str) -> None:
@@ -135,3 +138,41 @@ def test_a_test_that_is_more_than_its_environment_is_asked(
     (found,) = load_campaign(tmp_path / "campaign.yaml").tests
     assert found.kind == ("other" if said else "etve")
     assert said in (tmp_path / "campaign.yaml").read_text("utf-8")
+
+
+def spindle_log(folder: Path, name: str, rows: list[tuple[float, float]]) -> Path:
+    """rows: (time [s], speed [rpm])."""
+    lines = ["Time [s];Spindle speed [rpm];Feed X [m/min];Coolant on"]
+    lines += [f"{t:g};{speed:g};{3 * (speed == 4000):g};{int(speed > 0)}" for t, speed in rows]
+    (folder / f"{name}.csv").write_text("\n".join(lines) + "\n", "utf-8")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("rows", "kind", "speed"),
+    [
+        ([(0, 0), (1800, 8000), (10800, 0)], "spindle", "8000 rpm"),  # written on change
+        ([(0, 0), (60, 6000), (4000, 7000), (5000, 8000), (5001, 8500), (9000, 0)], "spectrum", None),
+        ([(0, 0), (1, 2000), (2, 6500), (3, 8000), (9000, 0), (9001, 0)], "spindle", "8000 rpm"),  # the ramps pass
+        ([(0, 0), (3600, 8000), (7200, 0)], "spindle", "8000 rpm"),  # each row is a third of it
+        ([(10 * i, 8000 * (i == 50)) for i in range(100)], "other", None),  # one row of many is a glitch
+    ],
+)
+def test_a_speed_is_one_by_how_long_it_stands(
+    tmp_path: Path, say: Say, rows: list[tuple[float, float]], kind: str, speed: str | None
+) -> None:
+    assert say("init", spindle_log(tmp_path, "t1", rows)).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert (found.kind, found.conditions.get("speed")) == (kind, speed)
+
+
+@pytest.mark.parametrize(("low", "kind"), [(8000, "spindle"), (4000, "mixed")])
+def test_a_day_in_a_name_is_a_mix_of_loads_where_the_data_show_them(
+    tmp_path: Path, say: Say, low: float, kind: str
+) -> None:
+    rows = [(10 * i, float(0 if i < 20 else 8000 if i < 60 else low)) for i in range(100)]
+    assert say("init", spindle_log(tmp_path, "2026-02-10_Tag8000", rows)).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert found.kind == kind
+    text = (tmp_path / "campaign.yaml").read_text("utf-8")
+    assert ("kind sure: name and data" in text) is (kind == "mixed")

@@ -345,6 +345,29 @@ def test_an_amplifier_is_no_axis() -> None:
     assert guess("Motor X 2", "°C").at == "axis.x.motor"
 
 
+@pytest.mark.parametrize(
+    ("name", "unit", "at", "axis"),
+    [
+        ("MX1609_CH1 Lager A", "°C", "spindle.bearing", None),
+        ("MX840_CH2 Weg Z", "µm", "tcp", "Z"),
+        ("MX840_CH3 Taster Y", "µm", "tcp", "Y"),
+        ("MX840B_0_CH 5 Weg X", "µm", "tcp", "X"),
+        ("Rack/DX100 CH02: Wirbelstrom Z", "V", "tcp", "Z"),
+        ("MX1609_CH7", "°C", None, None),
+        ("Lager01_CH2", "°C", "spindle.bearing", None),
+        ("Motor X_CH2", "°C", "axis.x.motor", None),
+    ],
+)
+def test_the_axis_is_in_the_words_behind_an_amplifier(name: str, unit: str, at: str | None, axis: str | None) -> None:
+    found = guess(name, unit)
+    assert (found.at, found.axis) == (at, axis)
+
+
+def test_a_designation_that_names_a_sensor_stays() -> None:
+    assert guess("Pt100_CH2", None).quantity == "temperature"
+    assert guess("GL840_CH2", None).quantity is None
+
+
 def test_a_counter_is_a_number_and_a_counter_spindle_none() -> None:
     assert guess("part counter", None).why_not
     found = guess("counter_spindle_load", None)

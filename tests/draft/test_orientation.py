@@ -32,6 +32,13 @@ def test_the_sign_of_a_displacement_in_micrometres_is_asked(tmp_path: Path) -> N
     assert "axis: Z, gain: 1 um/um, facing: ?, increases_with: ?" in asked
 
 
+def test_no_axis_is_offered_to_a_displacement_whose_name_has_none(tmp_path: Path) -> None:
+    log(tmp_path / "lab" / "S3000.csv", "Taster [um]", [i / 10 for i in range(100)])
+    made = draft_files(tmp_path / "lab").draft
+    (asked,) = [q for c in made.channels for q in c.said.questions if "which way" in q]
+    assert "'calibration: sign' stands here, and sign: {kind: scale, axis: ?," in asked
+
+
 @pytest.mark.parametrize(
     ("calibration", "told"),
     [
@@ -70,11 +77,13 @@ def test_a_second_jump_test_of_a_probe_is_named_with_the_steps_of_both(tmp_path:
     assert "-5.7 %" in why
 
 
-def test_a_jump_test_that_no_probe_needs_is_named_as_such(tmp_path: Path) -> None:
+def test_a_jump_test_in_which_nothing_moves_is_named_as_such(tmp_path: Path) -> None:
     log(tmp_path / "lab" / "S3000.csv", "dZ [um]", [i / 10 for i in range(3000)])
-    log(tmp_path / "lab" / "jump_Z.csv", "dZ [um]", staircase(100.0))
-    ((_, why),) = [x for x in draft_files(tmp_path / "lab").draft.not_used if "jump" in x[0]]
-    assert why == "taken for a jump test, and no probe in volts needs it"
+    log(tmp_path / "lab" / "jump_Z.csv", "dZ [um]", [5.0 + 0.01 * (i % 3) for i in range(200)])
+    draft = draft_files(tmp_path / "lab").draft
+    ((_, why),) = [x for x in draft.not_used if "jump" in x[0]]
+    assert why == "taken for a jump test by its name, and nothing is seen to move in it"
+    assert any("which way does it count?" in q for c in draft.channels for q in c.said.questions)
 
 
 def test_a_probe_without_a_unit_is_one_by_its_name_and_has_its_jump_test(tmp_path: Path) -> None:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from thermodata.draft.make import draft_files
 from thermodata.draft.other_units import unit_question
 from thermodata.draft.values import values_of
+
+from .labs import numbers, text
 
 
 @pytest.mark.parametrize(
@@ -27,3 +32,12 @@ def test_a_file_in_another_unit_is_asked(
     asked = unit_question(quantity, {f"t{i}": values_of(level + k * noise) for i, (k, level) in enumerate(scales)})
     assert (asked is None) == (asked_of is None)
     assert asked is None or asked.startswith(f"unit: in {asked_of} values ")
+
+
+def test_files_of_one_name_in_a_folder_each_are_told_apart(tmp_path: Path) -> None:
+    t = np.arange(300) * 10.0
+    for test, zero in (("a", 0.0), ("b", 273.15), ("c", 0.0)):
+        columns = [numbers(t, 0), numbers(22 + zero + t / 1000, 3)]
+        text(tmp_path / test / "data.csv", ["t [s]", "T_hall"], columns, mark=",")
+    (hall,) = draft_files(tmp_path).draft.channels
+    assert any(q.startswith("unit: in b/data.csv values 295") for q in hall.said.questions)

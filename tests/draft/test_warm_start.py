@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -41,6 +42,22 @@ def test_a_bearing_that_begins_far_above_the_air_is_asked_about(
         assert "id: warm_3" in lines[0]
         assert "Front_bearing begins 8.0 K further above the air than in the coolest test" in lines[0]
     assert all(t.start_state == "balance" for t in load_campaign(tmp_path / "campaign.yaml").tests)  # never made up
+
+
+@pytest.mark.parametrize(("third_k", "asked"), [(8.0, True), (0.0, False)])
+def test_of_a_test_in_parts_the_first_one_tells(tmp_path: Path, say: Say, third_k: float, asked: bool) -> None:
+    lab(tmp_path, third_k)
+    for day, file in enumerate(sorted(tmp_path.glob("warm_*.csv")), 1):
+        start = datetime(2026, 3, day, 8)
+        header, *rows = [line.split(",", 1) for line in file.read_text("utf-8").splitlines()]
+        dated = [f"{start + timedelta(seconds=float(t))},{rest}" for t, rest in rows]
+        for part, own in enumerate((dated[:100], dated[100:]), 1):
+            lines = "\n".join([f"timestamp,{header[1]}", *own]) + "\n"
+            file.with_name(f"{file.stem}_{part:03d}.csv").write_text(lines, "utf-8")
+        file.unlink()
+    say("init", tmp_path)
+    assert len(load_campaign(tmp_path / "campaign.yaml").tests) == 3
+    assert ("start_state: warm?" in (tmp_path / "campaign.yaml").read_text("utf-8")) == asked
 
 
 def test_without_the_air_a_warm_day_is_no_warm_start(tmp_path: Path, say: Say) -> None:

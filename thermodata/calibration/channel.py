@@ -174,10 +174,17 @@ def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, w
             where=where,
             expected=f"a unit that converts to {target}",
             got=unit,
-            hint="add 'calibration:' with a jump test (kind: jump) or the data sheet's gain "
-            f"(kind: scale, gain: ... {target}/{normal_unit(unit)}), or correct the unit",
+            hint=_to_calibrate(channel.quantity, f"{target}/{normal_unit(unit)}"),
         ) from error
     return values if (factor, shift) == (1.0, 0.0) else values * factor + shift
+
+
+def _to_calibrate(quantity: str, ratio: str) -> str:
+    """What to try where a reading is in no unit of its quantity. Only what is displaced can be moved by a known way."""
+    gain = f"(kind: scale, gain: ... {ratio})"
+    if quantity == "displacement":
+        return f"add 'calibration:' with a jump test (kind: jump) or the data sheet's gain {gain}, or correct the unit"
+    return f"correct the unit or the quantity, or add 'calibration:' with the sensor's gain {gain}"
 
 
 def _same_axis(channel: Channel, calibration: CalibrationResult, where: str | None) -> None:

@@ -25,8 +25,9 @@ def ratio_units(unit: str, name: str) -> tuple[str, str]:
     return out.strip(), into.strip()
 
 
-def evaluate_scale(name: str, spec: ScaleCalibration) -> CalibrationResult:
-    """A data-sheet gain with the way the probe looks; without `facing` the sign stays unknown.
+def evaluate_scale(name: str, spec: ScaleCalibration, *, of_displacement: bool = True) -> CalibrationResult:
+    """A data-sheet gain with the way the probe looks; without `facing` the sign stays unknown. of_displacement: whether
+    a displacement or a tilt is scaled; what else is measured has no side to look from, and the gain's own sign.
 
     Raises CalibrationError where the gain has no unit, is zero, or carries a sign beside `facing`.
     """
@@ -51,6 +52,7 @@ def evaluate_scale(name: str, spec: ScaleCalibration) -> CalibrationResult:
                 hint="drop the minus and say increases_with: approach, if the reading falls as the gap grows",
             )
         gain *= geometric_sign(spec.facing, spec.increases_with)
+    if spec.facing is not None or not of_displacement:
         sign = "+" if gain > 0 else "-"
     offset = _offset(name, spec.offset, unit_out)
     uncertainty = _percent_of_gain(name, spec, abs(gain), unit)

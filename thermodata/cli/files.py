@@ -47,6 +47,12 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     if not draft.sources:
         whose = "no file of {} could be read" if draft.failed else "no reader claims any file of {}"
         session.say(f"{whose.format(folder)}: the draft names them, and what would help")
+    elif draft.unused:
+        more = f" and {len(draft.unused) - _SAID} more" if len(draft.unused) > _SAID else ""
+        session.say(
+            f"{len(draft.unused)} of {made.seen} files are not used ({', '.join(draft.unused[:_SAID])}{more}): the end "
+            f"of {made.campaign.name} says why"
+        )
     session.say(
         f"{made.files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
         f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {made.questions} lines hold a question: "

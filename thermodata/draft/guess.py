@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from thermodata.draft import units
+from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
 from thermodata.draft.naming import words
 from thermodata.draft.place import Place, place_of
@@ -87,6 +88,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
+    bare = "/".join(without_amplifier(part) for part in bare.split("/"))
     own, text = words(_last(bare)), words(bare)
     written = (rate or units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
     field = words(_field(bare))

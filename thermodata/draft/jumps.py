@@ -28,13 +28,16 @@ _MOST_STEPS, _LEAST_STEPS = 40, 2
 @dataclass(frozen=True, slots=True)
 class JumpTest:
     """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
-    the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too."""
+    the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too. source: that reads
+    it; written: what its own file calls the probe, where the tests call it otherwise."""
 
     file: RawFile
     signal: tuple[str, str] | None
     steps: tuple[Step, ...]
     dwell_s: float
     named: bool
+    source: str = ""
+    written: str | None = None
 
     def is_of(self, stream: str, name: str) -> bool:
         """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""

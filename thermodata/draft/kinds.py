@@ -42,7 +42,8 @@ _KINDS: tuple[tuple[str, str], ...] = (
     ),
     (
         "mixed",
-        "mixed. mix. mixto mixte. misto. gemischt blandad day. tag. ^den. dny. shift. schicht smena. "
+        "mixed. mix. mixto mixte. misto. gemischt blandad work~day working~day workday arbeitstag pracovni~den "
+        "shift. schicht smena. "
         "kombin combin production produktion 混合 综合",
     ),
 )
@@ -51,6 +52,8 @@ _ROLES: tuple[tuple[str, str], ...] = (
     ("verification", "verif valid overe pruf check. 验证"),
     ("calibration", "train. training identif fit. ident. 辨识 建模"),
 )
+# a day is a date, unless the data show the loads of a working day
+_DAYS = "day. tag. ^den. dny."
 # a test of these is none of the environment, also where nobody logs their switches
 _FLUIDS = (
     "fluid. fluids. fluide. fluides. fluidi. ^kuhl ^kuehl kss. coolant. cooling. ^pump. pumps. ^pumpe pompa. pompe. "
@@ -115,6 +118,8 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     elif by_name is None and "air" in conditions:
         by_name = "etve"
     by_data = _by_data(moved)
+    if by_name is None and by_data == "mixed" and says(_DAYS, text):
+        by_name = "mixed"
     hint = next((role for role, listed in _ROLES if says(listed, text)), None)
     kind, comment, question = _decided(by_name, by_data, moved)
     if by_name is None and by_data == "etve" and says(_FLUIDS, text):

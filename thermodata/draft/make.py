@@ -23,13 +23,15 @@ from thermodata.store.base.files import write_error, write_text
 @dataclass(frozen=True, slots=True)
 class Drafted:
     """campaign, model: the files that were written; model is None where no sensor allows one, or where one was there.
-    kept: what was there before -> its new name. files: raw ones. questions: lines that hold one."""
+    kept: what was there before -> its new name. files: raw ones that a reader reads; seen: with those that none does.
+    questions: lines that hold one."""
 
     campaign: Path
     model: Path | None
     kept: tuple[tuple[Path, Path], ...]
     draft: Draft
     files: int
+    seen: int
     questions: int
 
 
@@ -72,6 +74,7 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         tuple(k for k in kept if k is not None),
         draft,
         len({f.path for f in found.logs}),
+        len({str(f.path) for f in found.logs}.union(draft.unused)),
         questions_in(text),
     )
 

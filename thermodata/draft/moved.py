@@ -12,13 +12,17 @@ from thermodata.draft.guess import guess_of
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sample import Course
 from thermodata.errors import UsageError
-from thermodata.plugin import Float1D
+from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import canonical, linear_conversion
+from thermodata.store.tidy.on_change import come_at_no_rate
 
 _DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
 _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
 _SWITCHED = 0.8  # of its largest reading: it was off as well as on
+_TURNS_RPM, _SAME = 20.0, 0.02
+_STAYS, _LEAST_ROWS = 0.02, 3  # of the time in which it turns, and rows: else it passes
+_FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much of the whole
 
 
 @dataclass(slots=True)
@@ -72,7 +76,7 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
                 said.at or "",
                 factor * max(abs(seen.low), abs(seen.high)),
                 factor * (seen.high - seen.low),
-                None if course is None else factor * course.values,
+                None if course is None else Course(course.t_ns, factor * course.values),
             )
             if course is not None and course.t_ns.size:
                 work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
@@ -113,7 +117,7 @@ def _factor(quantity: str | None, unit: str | None) -> float:
         return 1.0
 
 
-def _add(found: Moved, quantity: str | None, at: str, largest: float, span: float, course: Float1D | None) -> None:
+def _add(found: Moved, quantity: str | None, at: str, largest: float, span: float, course: Course | None) -> None:
     """largest, span, course: in rpm, m/min or mm where the signal's unit is known."""
     axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
     if quantity == "rotational_speed":
@@ -138,16 +142,31 @@ def _add(found: Moved, quantity: str | None, at: str, largest: float, span: floa
         found.switched |= span > _SWITCHED * largest
 
 
-def _plateaus(speed: Float1D) -> tuple[float, ...]:
-    """The speeds at which it stayed, in the order of the first time each; to 2 %."""
-    x = np.abs(speed[np.isfinite(speed)])
-    x = x[x > 20]
+def _plateaus(speed: Course) -> tuple[float, ...]:
+    """The speeds at which it stayed, the lower ones first; to 2 %."""
+    fine = np.isfinite(speed.values)
+    x, t_ns = np.abs(speed.values[fine]), speed.t_ns[fine]
+    on_change = come_at_no_rate(t_ns)
+    lasts = _until_the_next(t_ns) if on_change else np.ones(x.size)
+    turns = x > _TURNS_RPM
+    whole, x, lasts = float(lasts.sum()), x[turns], lasts[turns]
+    few = x.size < _FEW_ROWS
+    if not x.size or (few and lasts.sum() < _OF_FEW * whole):
+        return ()  # a glitch
+    least_rows = 1 if few or on_change else _LEAST_ROWS
     found: list[float] = []
-    if x.size < 5:
-        return ()
-    order, counts = np.unique(np.round(np.log(x) / 0.02).astype(np.int64), return_counts=True)
-    for cell in order[counts >= max(3, 0.02 * x.size)]:
-        level = float(np.median(x[np.abs(np.log(x) / 0.02 - cell) <= 1.5]))
-        if not any(abs(level - f) < 0.04 * f for f in found):
+    cells = np.round(np.log(x) / _SAME).astype(np.int64)
+    for cell in np.unique(cells):
+        there = cells == cell
+        if np.count_nonzero(there) < least_rows or lasts[there].sum() < _STAYS * lasts.sum():
+            continue
+        level = float(np.median(x[np.abs(np.log(x) / _SAME - cell) <= 1.5]))
+        if not any(abs(level - f) < 2 * _SAME * f for f in found):
             found.append(level)
     return tuple(float(f"{f:.3g}") if f >= 1000 else round(f) for f in found)
+
+
+def _until_the_next(t_ns: Int1D) -> Float1D:
+    """How long each row stands [ns]; the last one as long as rows do."""
+    lasts = np.maximum(np.diff(t_ns), 0).astype(np.float64)
+    return np.append(lasts, np.median(lasts))

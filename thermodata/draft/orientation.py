@@ -9,31 +9,43 @@ from statistics import median
 from thermodata.draft.axis import axis_of
 from thermodata.draft.jumps import JumpTest
 from thermodata.draft.naming import words
+from thermodata.draft.one_signal import OneSignal
 from thermodata.draft.parts import DraftJump
 from thermodata.draft.quantity import Guess
-from thermodata.draft.sources import Group
+from thermodata.draft.units import converts
 from thermodata.draft.which_way import ASKED
 from thermodata.plugin import Signal
+
+_SHOWN_STEPS = 12
 
 
 def which_way(said: Guess) -> str:
     """The question for the sign of a displacement that no calibration turns to the machine's axes."""
-    axis, unit = said.axis or "Z", said.unit if said.unit and said.unit.isalpha() else "um"
-    name = f"sign_{axis.lower()}"
+    unit = said.unit if said.unit and said.unit.isalpha() else "um"
+    axis, name = said.axis or "?", f"sign_{said.axis.lower()}" if said.axis else "sign"
+    looks = f"+{axis} or -{axis}" if said.axis else "+X, -X, +Y, -Y, +Z or -Z"
     return (
         f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
         f"scale, axis: {axis}, gain: 1 {unit}/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
-        f"+{axis} or -{axis}, where the probe looks; increases_with: gap or approach"
+        f"{looks}, where the probe looks; increases_with: gap or approach"
     )
+
+
+def reads_a_length(one: OneSignal) -> bool:
+    """Whether a displacement needs no gain: in every file that has it, its unit is one of lengths."""
+    units = {(one.of(f) or one.signal).unit for f in one.files}
+    return all(unit is not None and converts(unit, "displacement") for unit in units)
 
 
 def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump]) -> str:
     """Why a jump test is not used; where another one of the same probe is, with the steps of both."""
     own = next(j for j in jumps if str(j.file.path) == path)
-    name = own.signal[1] if own.signal is not None else None
+    name = own.written or own.signal[1] if own.signal is not None else None
     other = next((c for c in used if name is not None and c.signal == name), None)
+    if other is None and name is None:
+        return "taken for a jump test by its name, and nothing is seen to move in it"
     if other is None:
-        return "taken for a jump test, and no probe in volts needs it"
+        return f"taken for a jump test of '{name}', and there is no one displacement in the tests that is called so"
     said = f"a second jump test of '{name}', beside {other.file}"
     here, there = _height([s.size for s in own.steps]), _height(other.seen)
     if not here or not there:
@@ -57,7 +69,6 @@ def calibration_of(
     signal: Signal,
     said: Guess,
     jump: JumpTest | None,
-    group: Group,
     jumps: Sequence[JumpTest],
     calibrations: list[DraftJump],
 ) -> tuple[str | None, Guess]:
@@ -67,6 +78,24 @@ def calibration_of(
     if jump is None:
         asked = "calibration? a jump test, or kind: scale with a gain in um/V"
         return None, replace(said, sure=False, questions=(*said.questions, asked))
+    return _drafted(name, signal, said, jump, calibrations)
+
+
+def sign_of(
+    name: str, signal: Signal, said: Guess, jump: JumpTest | None, calibrations: list[DraftJump]
+) -> tuple[str | None, Guess]:
+    """What turns a probe that reads a length: the jump test in which it is seen to move, added to the calibrations;
+    without one, the question which way it counts."""
+    if jump is None:
+        return None, replace(said, sure=False, questions=(*said.questions, which_way(said)))
+    without = f"; until they stand here, {name} has no values: without 'calibration' it has, its sign unknown"
+    return _drafted(name, signal, said, jump, calibrations, without)
+
+
+def _drafted(
+    name: str, signal: Signal, said: Guess, jump: JumpTest, calibrations: list[DraftJump], beside: str = ""
+) -> tuple[str | None, Guess]:
+    """The jump test added to the calibrations. beside: what else to say to its question."""
     letter = axis_of(words(jump.file.path.stem))
     axis = said.axis or (letter.upper() if letter and letter in "xyz" else None)
     if said.axis is None and axis is not None:
@@ -74,22 +103,27 @@ def calibration_of(
         asked = f"axis: {axis} by {jump.file.path.name}?"
         said = replace(said, axis=axis, sure=False, questions=(*others, asked))
     seen = tuple(float(f"{s.size:.3g}") for s in jump.steps)
-    steps = f"seen: steps of {', '.join(f'{s:+g}' for s in seen[:8])} {said.unit or 'V'}"
     calibrations.append(
         DraftJump(
             f"jump_{name}",
-            group.source,
+            jump.source,
             str(jump.file.path),
-            signal.name,
+            jump.written or signal.name,
             axis,
             float(f"{jump.dwell_s:.2g}"),
             seen,
             said.unit,
-            "moves: the commanded ones, signed, in machine coordinates; "
-            + (steps if seen else "no steps were seen in it"),
+            "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
         )
     )
     return (f"jump_{name}" if axis else None), said
+
+
+def _steps(seen: Sequence[float], unit: str) -> str:
+    if not seen:
+        return "no steps were seen in it"
+    more = f" ... ({len(seen)} in all)" if len(seen) > _SHOWN_STEPS else ""
+    return f"seen: steps of {', '.join(f'{s:+g}' for s in seen[:_SHOWN_STEPS])}{more} {unit}"
 
 
 def _may_be_of(jump: JumpTest, signal: Signal, said: Guess) -> bool:

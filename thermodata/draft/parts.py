@@ -73,8 +73,9 @@ class DraftTest:
 
 @dataclass(frozen=True, slots=True)
 class Draft:
-    """A campaign file to be. not_used: (path, reason); failed: (path, reader) of those among them that a reader claims
-    and could not read; damaged: (path, what); table: of tests, where one is there."""
+    """A campaign file to be. not_used: (path, reason); unused: the files among them of which nothing is read; failed:
+    (path, reader) of those among them that a reader claims and could not read; damaged: (path, what); table: of tests,
+    where one is there."""
 
     campaign: str
     sources: tuple[DraftSource, ...]
@@ -86,3 +87,4 @@ class Draft:
     damaged: tuple[tuple[str, str], ...] = ()
     notes: tuple[str, ...] = field(default_factory=tuple)
     failed: tuple[tuple[str, str], ...] = ()
+    unused: tuple[str, ...] = ()

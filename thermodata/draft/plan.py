@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,19 +16,21 @@ from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.naming import channel_name
-from thermodata.draft.orientation import calibration_of, which_way, why_idle
+from thermodata.draft.one_signal import OneSignal, joined_over_units
+from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
 from thermodata.draft.other_units import unit_question
+from thermodata.draft.own_scale import scale_note
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
+from thermodata.draft.same_probe import names_in_tests, own_name, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
 from thermodata.draft.units import rate_at_end
-from thermodata.draft.values import joined
+from thermodata.draft.values import Values, joined
 from thermodata.draft.warm import warm_starts
-from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
@@ -43,13 +45,14 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
+    of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
     taken: set[str] = set()
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
     notes: list[str] = []
     for g in groups:
-        made, left = _channels(g, [j for j in jumps if j.file in g.calibrations], taken, calibrations)
+        made, left = _channels(g, of_probes[g.source], in_tests, taken, calibrations)
         made = beside_each_other(made)
         channels += made
         notes += left
@@ -79,7 +82,9 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
-    left_out += tuple((p, why_idle(p, jumps, calibrations)) for p in idle)
+    read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
+    known = [j for of_source in of_probes.values() for j in of_source]
+    left_out += tuple((p, why_idle(p, known, calibrations)) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -110,6 +115,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         found.damaged,
         tuple(notes),
         tuple(x for x in found.failed if table is None or x[0] != table.file),
+        tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
 
 
@@ -135,9 +141,10 @@ def _keyed(
     """The channels by (stream, signal) of the files, whatever the campaign file calls them."""
     plain = {signal.split(":", 1)[-1] if stream else signal: value for (stream, signal), value in named.items()}
     return {
-        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{s.name}")) or plain[s.name]
-        for s, _ in group.signals
-        if s.name in plain
+        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{one.written}")) or plain[one.written]
+        for one in joined_over_units(group.signals)
+        for s in one.spellings
+        if one.written in plain
     }
 
 
@@ -149,49 +156,61 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _channels(
-    group: Group, jumps: Sequence[JumpTest], taken: set[str], calibrations: list[DraftJump]
+    group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], taken: set[str], calibrations: list[DraftJump]
 ) -> tuple[list[DraftChannel], list[str]]:
-    found = group.signals
+    """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
+    which a jump test may have under another head."""
+    found = [
+        one
+        for one in joined_over_units(group.signals)
+        if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
+    ]
     more = len(found) - _MOST_SIGNALS
     notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
     made, seen = [], set()
-    streams = {s.stream for s, _ in found}
-    for signal, files in found[:_MOST_SIGNALS]:
+    streams = {one.signal.stream for one in found}
+    for one in found[:_MOST_SIGNALS]:
+        signal = one.signal
         if signal.name in seen and signal.name not in twice:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
-        said, note = _said(signal, files)
-        key = (signal.stream, signal.name)
-        jump = next((j for j in jumps if j.signal == key or (signal.name not in twice and j.is_of(*key))), None)
+        said, note = _said(one)
+        keys = [(s.stream, s.name) for s in one.spellings]
+        twin = signal.name in twice
+        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
         if jump is not None and said.quantity == "voltage":
             said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
-        named = f"{signal.stream}:{signal.name}" if signal.name in twice else signal.name
+        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
         name = channel_name(_wished(called(signal), said), taken)
         calibration = None
-        if said.quantity == "displacement" and normal_unit(said.unit or "V") in ("V", "mV"):
-            calibration, said = calibration_of(name, signal, said, jump, group, jumps, calibrations)
-        elif said.quantity == "displacement" and said.at == "tcp":
-            said = replace(said, sure=False, questions=(*said.questions, which_way(said)))
-        own = {id(f) for f in files}
+        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
+        if said.quantity == "displacement" and in_volts:
+            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
+            calibration, said = sign_of(name, signal, said, jump, calibrations)
+        own = {id(f) for f in one.files}
         having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         lacking = tuple(t for t in group.tests if t not in having) if only else ()
         stream = signal.stream if len(streams) > 1 else None
+        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     return made, notes
 
 
-def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
+def _said(one: OneSignal) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
-    values = None
+    values, signal = None, one.signal
     units: Counter[str | None] = Counter()
-    seen = {f.path.name: f.sample.values.get((signal.stream, signal.name)) for f in files}
-    for f in files:
-        values = joined(values, f.sample.values.get((signal.stream, signal.name)))
-        units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
+    seen: dict[str, Values | None] = {}
+    for f in one.files:
+        own = one.of(f) or signal
+        seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, seen[str(f.path)])
+        units[own.unit] += 1
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:

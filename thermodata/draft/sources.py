@@ -82,6 +82,7 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
         else:
             clusters[home].append(file)
             names[home] |= own
+    clusters = _with_their_tests(clusters, jumps)
     order = {id(f): i for i, f in enumerate(files)}
     clusters = [sorted(part, key=lambda f: order[id(f)]) for c in clusters for part in _loggers(c, jumps)]
     clusters.sort(key=lambda c: (c[0].reader, c[0].path.suffix, order[id(c[0])]))
@@ -93,6 +94,28 @@ def sources_of(files: Sequence[RawFile], jumps: Sequence[RawFile]) -> list[Group
             Group(_name(cluster, clusters, taken), cluster[0].reader, logs, tuple(f for f in cluster if f in jumps))
         )
     return groups
+
+
+def _with_their_tests(clusters: Sequence[list[RawFile]], jumps: Sequence[RawFile]) -> list[list[RawFile]]:
+    """Jump tests with the one kind of tests that has their signals under another head: 'Fast/Z' beside 'Slow/Z'."""
+
+    def own(cluster: Sequence[RawFile]) -> set[str]:
+        return {split_unit(s.name)[0].rsplit("/", 1)[-1] for f in cluster for s in f.signals}
+
+    tests = [c for c in clusters if any(f not in jumps for f in c)]
+    found = [list(c) for c in tests]
+    for cluster in (c for c in clusters if c not in tests):
+        names = own(cluster)
+        homes = [
+            i
+            for i, c in enumerate(tests)
+            if _kind(c[0]) == _kind(cluster[0]) and len(names & own(c)) >= _ALIKE * len(names)
+        ]
+        if len(homes) == 1:
+            found[homes[0]] += cluster
+        else:
+            found.append(cluster)
+    return found
 
 
 def _kind(file: RawFile) -> tuple[object, ...]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from thermodata.draft.measuring import Named
 from thermodata.draft.raw_file import RawFile
 from thermodata.errors import UsageError
+from thermodata.plugin import Signal
 from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import linear_conversion
 
@@ -37,22 +39,41 @@ def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Name
 
 def _above_air(files: Sequence[RawFile], named: Mapping[int, Named]) -> dict[str, float]:
     """Channel -> its first reading above that of the air [K], of the parts that the machine heats."""
-    first: dict[str, float] = {}
-    air: list[float] = []
+    heated: dict[str, _Begin] = {}
+    air: dict[str, _Begin] = {}
     for file in files:
-        names = named.get(id(file), {})
         for signal in file.signals:
-            quantity, at, channel = names.get((signal.stream, signal.name), ("", None, ""))
-            seen = file.sample.values.get((signal.stream, signal.name))
-            if quantity != "temperature" or not at or seen is None or signal.scaling:
+            quantity, at, channel = named.get(id(file), {}).get((signal.stream, signal.name), ("", None, ""))
+            if quantity != "temperature" or not at or signal.scaling:
                 continue
-            try:
-                factor, offset = linear_conversion(signal.unit or "degC", "degC")
-            except UsageError:
-                continue
-            degrees = factor * seen.first + offset
+            begin = _Begin(file.start_ns or 0, _first_degrees(file, signal))
             if at.startswith("hall"):
-                air.append(degrees)
+                air[channel] = begin.or_earlier(air.get(channel))
             elif is_spindle(at) or at.startswith(_HEATED):
-                first[channel] = degrees
-    return {channel: degrees - air[0] for channel, degrees in first.items()} if air else {}
+                heated[channel] = begin.or_earlier(heated.get(channel))
+    hall = next((b.degrees for b in air.values()), None)
+    return {c: b.degrees - hall for c, b in heated.items() if b.degrees is not None} if hall is not None else {}
+
+
+@dataclass(frozen=True, slots=True)
+class _Begin:
+    """Where a file of a channel begins. degrees: its first reading [degC], None where nobody looked at it: what a later
+    part of the test reads first is no beginning of the test."""
+
+    at_ns: int
+    degrees: float | None
+
+    def or_earlier(self, other: _Begin | None) -> _Begin:
+        """Of the parts of a test the first one; without a clock, the one that was listed first."""
+        return self if other is None or self.at_ns < other.at_ns else other
+
+
+def _first_degrees(file: RawFile, signal: Signal) -> float | None:
+    seen = file.sample.values.get((signal.stream, signal.name))
+    if seen is None:
+        return None
+    try:
+        factor, offset = linear_conversion(signal.unit or "degC", "degC")
+    except UsageError:
+        return None
+    return factor * seen.first + offset

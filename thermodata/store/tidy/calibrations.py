@@ -64,18 +64,28 @@ def evaluate(
         elif isinstance(spec, LinearCalibration):
             results[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
         else:
-            results[name] = evaluate_scale(name, spec)
+            results[name] = evaluate_scale(name, spec, of_displacement=_is_of_displacement(campaign, name))
     return results, problems
 
 
 def _unit_of(campaign: Campaign, calibration: str) -> str | None:
     """The declared unit of the channels that use a calibration, where they agree on one."""
-    units = {
-        c.unit
+    units = {c.unit for c in _users(campaign, calibration)}
+    return next(iter(units)) if len(units) == 1 else None
+
+
+def _is_of_displacement(campaign: Campaign, calibration: str) -> bool:
+    """Whether a displacement or a tilt uses a calibration; one that nobody uses yet may be for one."""
+    quantities = {c.quantity for c in _users(campaign, calibration)}
+    return not quantities or bool(quantities & {"displacement", "tilt"})
+
+
+def _users(campaign: Campaign, calibration: str) -> list[Channel]:
+    return [
+        c
         for c in campaign.channels.values()
         if c.calibration == calibration or (isinstance(c.calibration, list) and calibration in c.calibration)
-    }
-    return next(iter(units)) if len(units) == 1 else None
+    ]
 
 
 def _jump_data(

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.plugin import Int1D
 from thermodata.store.tidy.timeline import Timeline
 
 # what is commanded, and what follows a command at once
@@ -20,8 +21,13 @@ MOST_ROWS = 100_000  # of which it is told
 
 
 def has_no_rate(line: Timeline) -> bool:
-    """Whether the times between the rows of a stream differ by more than any clock does."""
-    times = np.unique(line.times(0, min(line.rows, MOST_ROWS)))
+    """Whether a stream was written when something changed."""
+    return come_at_no_rate(line.times(0, min(line.rows, MOST_ROWS)))
+
+
+def come_at_no_rate(t_ns: Int1D) -> bool:
+    """Whether the times between rows differ by more than any clock does."""
+    times = np.unique(t_ns)
     if len(times) < LEAST_ROWS:
         return False
     short, long = np.quantile(np.diff(times), (0.1, 0.9))

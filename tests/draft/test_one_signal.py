@@ -1,0 +1,55 @@
+"""A signal whose unit stands in its name is one channel, though a test was logged in another unit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.draft.make import draft_files
+
+from .conftest import Said
+from .labs import numbers, text
+
+Say = Callable[..., Said]
+
+
+def logs(folder: Path, headers: Sequence[str], factors: Sequence[tuple[float, float]]) -> None:
+    """A test for each header, of a bearing that warms from 20 to 30 degC; factors: to the unit of the header."""
+    t = np.arange(300) * 10.0
+    for k, (header, (factor, offset)) in enumerate(zip(headers, factors, strict=True), 1):
+        columns = [numbers(t, 0), numbers((20 + t / 299) * factor + offset, 3), numbers(20 + t / 9000, 2)]
+        text(folder / f"run_{k}.csv", ["t [s]", header, "Hall air [degC]"], columns, mark=",")
+
+
+def test_degrees_of_both_kinds_are_one_channel(tmp_path: Path, say: Say) -> None:
+    logs(tmp_path, ["101 <Front brg> (C)", "101 <Front brg> (F)", "101 <Front brg> (C)"], [(1, 0), (1.8, 32), (1, 0)])
+    draft = draft_files(tmp_path).draft
+    (bearing,) = [c for c in draft.channels if c.said.at == "spindle.bearing.front"]
+    assert (bearing.signal, bearing.said.unit, bearing.only_in) == ("101 <Front brg>", None, ())
+    assert bearing.said.questions == ("unit: the files disagree: C (2), F (1); each file's own is taken",)
+    assert say("--store", tmp_path / "s", "ingest", tmp_path / "campaign.yaml").code == 0
+    found = say(
+        "--store",
+        tmp_path / "s",
+        "sql",
+        f"select max(value) from sample where channel = '{bearing.name}' group by test",
+        "--csv",
+    ).out.split()[1:]
+    assert [float(v) for v in found] == pytest.approx([30, 30, 30], abs=0.1)
+
+
+@pytest.mark.parametrize("header", ["Spindle (%)", "Rear brg (C)"])
+def test_another_quantity_or_place_is_another_channel(tmp_path: Path, header: str) -> None:
+    logs(tmp_path, ["Spindle (A)", header, "Spindle (A)"], [(1, 0)] * 3)
+    assert len([c for c in draft_files(tmp_path).draft.channels if "air" not in c.signal]) == 2
+
+
+def test_two_columns_of_one_file_are_two_channels(tmp_path: Path) -> None:
+    t = np.arange(100) * 10.0
+    for k in (1, 2):
+        header = ["t [s]", "Front brg (C)", "Front brg (F)"]
+        text(tmp_path / f"run_{k}.csv", header, [numbers(t, 0), numbers(20 + t / 99, 2), numbers(68 + t / 55, 2)])
+    assert len(draft_files(tmp_path).draft.channels) == 2

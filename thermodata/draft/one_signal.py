@@ -1,0 +1,63 @@
+"""One signal that the files of a source call by its name in two units: '101 <Front bearing> (C)' and, in a test of
+another setting, '101 <Front bearing> (F)'. It is one channel, whose signal is written without the unit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.draft.guess import guess_of
+from thermodata.draft.raw_file import RawFile
+from thermodata.plugin import Signal
+from thermodata.reader.text import split_unit
+
+
+@dataclass(frozen=True, slots=True)
+class OneSignal:
+    """spellings: as files have it, the first of them first; files: that have it in any spelling."""
+
+    spellings: tuple[Signal, ...]
+    files: tuple[RawFile, ...]
+
+    @property
+    def signal(self) -> Signal:
+        """As the first file has it."""
+        return self.spellings[0]
+
+    @property
+    def written(self) -> str:
+        """Its name in a campaign file, by which every one of its files is read."""
+        return self.signal.name if len(self.spellings) == 1 else split_unit(self.signal.name)[0]
+
+    def of(self, file: RawFile) -> Signal | None:
+        """The signal as this file has it."""
+        keys = {(s.stream, s.name) for s in self.spellings}
+        return next((s for s in file.signals if (s.stream, s.name) in keys), None)
+
+
+def joined_over_units(found: Sequence[tuple[Signal, Sequence[RawFile]]]) -> list[OneSignal]:
+    """The signals of a source, those in one that differ in their unit only: the name says the same quantity with both,
+    and no file has both. In the order of their first appearance."""
+    made: list[OneSignal] = []
+    by_name: dict[tuple[str, str], list[int]] = {}
+    for signal, files in found:
+        name, unit = split_unit(signal.name)
+        own = OneSignal((signal,), tuple(files))
+        homes = by_name.setdefault((signal.stream, name), []) if unit and name else []
+        home = next((i for i in homes if _are_one(made[i], own)), None)
+        if home is not None:
+            made[home] = OneSignal((*made[home].spellings, signal), (*made[home].files, *files))
+            continue
+        homes.append(len(made))
+        made.append(own)
+    return made
+
+
+def _are_one(one: OneSignal, other: OneSignal) -> bool:
+    said = guess_of(one.signal).quantity
+    paths = {(f.path, f.sheet) for f in one.files}
+    return (
+        said is not None
+        and said == guess_of(other.signal).quantity
+        and not any((f.path, f.sheet) in paths for f in other.files)
+    )
