@@ -42,9 +42,11 @@ def names_and_units(
     names = spanning[-1] if spanning else [""] * width
     at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
     over = [""] * width
-    if at and any(texts[at - 1]):
-        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
+    if at and any(texts[at - 1]):
+        of_heads = _units_of_heads(texts[at - 1], names)
+        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
+        found = [own or split_unit(n)[1] or head for own, n, head in zip(found, names, of_heads, strict=True)]
     return names, [u or f for u, f in zip(units, found, strict=True)], over
 
 
@@ -203,6 +205,13 @@ def _heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
         group = "" if k == 0 and _is_label(cell) else cell or group
         carried.append(group if names[k] else "")
     return carried
+
+
+def _units_of_heads(above: Sequence[str], names: Sequence[str]) -> list[str | None]:
+    """The unit that the head of its group says of each name, but for a time's: 'T_front (DEG F)' over 'Timestamp' and
+    'Value'."""
+    heads = _heads_over(above, names)
+    return [None if _says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:
