@@ -184,12 +184,17 @@ def _channels(
 
 
 def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
-    """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
+    """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
+    they call it beside its name."""
     values = None
     units: Counter[str | None] = Counter()
+    words: Counter[str] = Counter()
     for f in files:
         values = joined(values, f.sample.values.get((signal.stream, signal.name)))
-        units[next((s.unit for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)] += 1
+        own = next((s for s in f.signals if (s.stream, s.name) == (signal.stream, signal.name)), None)
+        units[None if own is None else own.unit] += 1
+        words[signal.properties.get("description", "") if own is None else own.properties.get("description", "")] += 1
+    note = f"called '{next(iter(words))}' in the file" if len(words) == 1 and "" not in words else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
@@ -202,8 +207,12 @@ def _said(signal: Signal, files: Sequence[RawFile]) -> tuple[Guess, str | None]:
             False,
             said.basis,
             (*said.questions, f"unit: the files disagree: {names}; each file's own is taken"),
-        ), None
-    return said, None
+        ), note
+    if len(words) > 1 and said.quantity:
+        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in words.most_common())
+        asked = f"the same in all tests? the files call it {names}"
+        return replace(said, sure=False, questions=(*said.questions, asked)), None
+    return said, note
 
 
 def _wished(signal: str, said: Guess) -> str:

@@ -30,7 +30,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     return tuple(
-        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_over(i))
+        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_of(i))
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None

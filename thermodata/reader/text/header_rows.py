@@ -10,8 +10,8 @@ from thermodata.reader.text.header import looks_like_unit, split_unit
 from thermodata.reader.text.number import clean
 
 # what loggers write before a row that describes the columns, and below the names for what was done with the readings
-_OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
-_OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
+OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
+OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
 _STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 
@@ -50,8 +50,13 @@ def names_and_units(
     return names, [u or f for u, f in zip(units, found, strict=True)], over
 
 
+def texts_of(row: Sequence[Cell]) -> list[str]:
+    """The cells of a row as texts."""
+    return [clean(str(c)) if c is not None else "" for c in row]
+
+
 def _texts(row: Sequence[Cell], width: int) -> list[str]:
-    return [clean(str(c)) if c is not None else "" for c in row] + [""] * (width - len(row))
+    return texts_of(row) + [""] * (width - len(row))
 
 
 def _as_units(cells: Sequence[str]) -> list[str | None]:
@@ -73,7 +78,7 @@ def _labelled_units(texts: Sequence[Sequence[str]]) -> int | None:
     """The row that is called units by its first cell and holds some; None where there is none."""
     for i, row in enumerate(texts):
         first, *others = [c for c in row if c] or [""]
-        if _OF_UNITS.fullmatch(first.strip(" :")) and row[0] and any(map(looks_like_unit, others)):
+        if OF_UNITS.fullmatch(first.strip(" :")) and row[0] and any(map(looks_like_unit, others)):
             return i
     return None
 
@@ -106,7 +111,7 @@ def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
 
 def _is_label(cell: str) -> bool:
     """Whether a first cell says what its row holds, as "Comment" and "Tag" do."""
-    return cell.endswith(":") or _OF_TEXTS.fullmatch(cell.strip(" .")) is not None
+    return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
 
 
 def _says_time(cell: str) -> bool:

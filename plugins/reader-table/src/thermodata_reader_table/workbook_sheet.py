@@ -92,7 +92,7 @@ class Table:
                 column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
                 values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
-                said[before + self.layout.names[i]] = self.layout.said_over(i)
+                said[before + self.layout.names[i]] = self.layout.said_of(i)
                 if self._in_percent(i):
                     units[before + self.layout.names[i]] = "%"
                     percent.add(before + self.layout.names[i])
