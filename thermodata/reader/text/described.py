@@ -21,6 +21,7 @@ _FEWEST = 2  # columns that a row of comments, or a list without a header, speak
 def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
+    rows = rows[: _names_at(rows, names)]
     listed = _listed(rows, names)
     said, units = _of_list(rows, listed, names)
     heads = {min(at for at, _ in listed) - 1} if listed else set()
@@ -28,6 +29,16 @@ def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[l
         if at not in heads and not any(said):
             said = _of_row(row, names)
     return said, units
+
+
+def _names_at(rows: Sequence[Sequence[str]], names: Sequence[str]) -> int:
+    """The place of the row of names: what stands below it says where values come from, not what they are called."""
+    lasts = [n.rsplit("/", 1)[-1] for n in names]
+    for at, row in enumerate(rows):
+        same = sum(bool(c) and c in (n, last) for c, n, last in zip(row, names, lasts, strict=False))
+        if 2 * same >= sum(map(bool, names)):
+            return at
+    return len(rows)
 
 
 def _of_row(row: Sequence[str], names: Sequence[str]) -> list[str]:
@@ -41,11 +52,9 @@ def _of_row(row: Sequence[str], names: Sequence[str]) -> list[str]:
 
 
 def _listed(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[tuple[int, str]]:
-    """(place of a row, the column that it lists) of the rows that begin with the name of one: "CH1","Bearing","TEMP".
-    One that holds the names of others too is the row of names."""
+    """(place of a row, the column that it lists) of the rows that begin with the name of one: "CH1","Front","TEMP"."""
     known = {_key(n) for n in names if n}
-    keys = [[_key(c) for c in row if c] for row in rows]
-    return [(at, key[0]) for at, key in enumerate(keys) if key and rows[at][0] and known.intersection(key) == {key[0]}]
+    return [(at, key) for at, row in enumerate(rows) if len(row) > 1 and row[0] and (key := _key(row[0])) in known]
 
 
 def _of_list(

@@ -28,8 +28,9 @@ def names_and_units(
     if units_row is not None and 0 <= units_row < len(texts):
         row = texts.pop(units_row)
         units = _as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
-    spanning = [texts[i] for i in _spanning(texts, width)]
-    named = _named(spanning, width)
+    at_all = _spanning(texts, width)
+    spanning = [texts[i] for i in at_all]
+    named = _named(texts, at_all, width)
     if units_row is None and len(spanning) >= 2:
         if named is not None and (below := next((r for r in spanning[named + 1 :] if _mostly_units(r)), None)):
             units = [u if looks_like_unit(u or "") else None for u in _as_units(below)]
@@ -83,20 +84,38 @@ def _labelled_units(texts: Sequence[Sequence[str]]) -> int | None:
     return None
 
 
-def _named(spanning: Sequence[Sequence[str]], width: int) -> int | None:
-    """The row of names where others stand below it that are none: it names every column, the time among them, and the
-    rows below it repeat themselves (a kind of average, a rate) or write no time into the column of the time. None where
-    the last row, but for one of units, holds the names."""
+def _named(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int | None:
+    """Which of the rows that span the table (at: their places) is that of names, where others stand below it that are
+    none: it names every column, the time among them, and the rows below it are units and comments on these, repeat
+    themselves (a kind of average, a rate) or write no time into the column of the time. None where the last row, but
+    for one of units, holds the names."""
+    spanning = [texts[k][:width] for k in at]
     for i in range(len(spanning) - 2, -1, -1):
-        row = spanning[i][:width]
-        times = [k for k, c in enumerate(row) if _says_time(c)]
-        if not times or not all(row) or len(set(row)) < width or any(is_number(c) or is_stamp(c) for c in row):
-            continue
-        if _mostly_units(spanning[i + 1]) and not any(spanning[-1][k] for k in times):
-            return i  # units stand below names: a further row, without a word for the time, says where these come from
-        below = [r for r in spanning[i + 1 :] if not _mostly_units(r)]
-        return i if below and all(_names_nothing(r, times) for r in below) else None
+        below = spanning[i + 1 :]
+        if _comments_below_units(texts[at[i] - 1][:width] if at[i] else (), spanning[i], below):
+            return i
+        row = spanning[i]
+        times = _times_among(row)
+        if times:
+            others = [r for r in below if not _mostly_units(r)]
+            return i if others and all(_names_nothing(r, times) for r in others) else None
     return None
+
+
+def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Sequence[Sequence[str]]) -> bool:
+    """Whether units stand right below names: further rows, without a word for the time, say where these come from, or
+    what the sensors are. above: what is merged with the row below it."""
+    merged = [n or a for n, a in zip(row, above, strict=True)] if above else row
+    times = _times_among(merged)
+    unnamed = not any(_says_time(r[k]) for r in below[1:] for k in times)
+    return bool(times) and not _mostly_units(row) and _mostly_units(below[0]) and unnamed
+
+
+def _times_among(row: Sequence[str]) -> list[int]:
+    """Which cells of a row that names every column say time; none of another row."""
+    if not all(row) or len(set(row)) < len(row) or any(is_number(c) or is_stamp(c) for c in row):
+        return []
+    return [k for k, c in enumerate(row) if _says_time(c)]
 
 
 def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
@@ -160,7 +179,7 @@ def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list
     spanning = _spanning([texts[i] for i in at], width)
     if not spanning:
         return []
-    named = _named([texts[at[i]] for i in spanning], width)
+    named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not _mostly_units(texts[i]))]
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
