@@ -25,7 +25,7 @@ from thermodata.reader.text.time_formats import (
     times_of_texts,
 )
 from thermodata.reader.text.zone_words import stated_zone
-from thermodata.reader.time_units import SECONDS, to_ns
+from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 
 
@@ -127,6 +127,8 @@ class Table:
         zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
+            if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
+                return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
         if declared_parts(group.form, len(columns)):
             parts = [[_part(cell) for cell in cells] for cells in columns]
@@ -144,6 +146,15 @@ class Table:
             return Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
         return times_of_dates(naive, zone)
+
+    def _days(self, cells: tuple[Any, ...], epoch: Epoch) -> Int1D:
+        """Local times of days that are counted from a date [ns], shape (n,), NAT where there is none; a cell that is
+        formatted as a date holds such a count too, and is given as what it shows."""
+        dated = [isinstance(c, dt.date) for c in cells]
+        shown = [_joined((c,)).isoformat() if is_date else "NaT" for c, is_date in zip(cells, dated, strict=True)]
+        counts = tuple(None if is_date else c for c, is_date in zip(cells, dated, strict=True))
+        counted = to_ns(self._numbers(counts)[0], epoch.seconds, epoch.zero_s)
+        return np.where(dated, np.array(shown, "datetime64[ns]").view(np.int64), counted)
 
     def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:
         """(values, cells that are no numbers, which say overload): texts by the policy of all texts."""
