@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -23,7 +24,7 @@ from thermodata.draft.raw_file import RawFile
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
-from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
+from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import joined
 from thermodata.draft.warm import warm_starts
@@ -38,7 +39,12 @@ _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed"
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     """What the folder holds, as a campaign."""
     early = _claimed_table(folder, found)
+    beside: tuple[tuple[str, str], ...] = ()
     if early is not None:
+        own = next(f for f in found.logs if str(f.path) == early)
+        beside = tuple(
+            (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
+        )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
@@ -75,7 +81,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
     tests = tuple(_test(t, groups, table, named, warm.get(t)) for t in ids)
-    left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
+    left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     left_out += tuple((p, why_idle(p, jumps, calibrations)) for p in idle)
@@ -113,8 +119,10 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
-    """A table of tests that a reader takes for a log, because it has a column of dates."""
-    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None]
+    """A table of tests that a reader takes for a log, because it has a column of dates; what holds long logs is none,
+    though a sheet beside them lists the tests."""
+    most = most_rows(len(found.logs))
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None and f.sample.rows <= most]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
