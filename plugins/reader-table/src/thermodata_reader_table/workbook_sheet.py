@@ -14,6 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.date_parts import column_times, declared_parts
+from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
 from thermodata.reader.text.time_formats import (
@@ -76,15 +77,7 @@ class Table:
             before = "" if sheet is None else f"{sheet}/"
             times = self._times(group)
             self.notes += times.notes
-            keep = np.ones(times.t_ns.size, bool)
-            if len(self.layout.groups) > 1:  # a group that has ended is empty beside longer ones
-                keep = ~np.array(
-                    [
-                        all(is_empty(c) for c in row)
-                        for row in zip(*(self.columns[i] for i in (*group.time, *group.columns)), strict=True)
-                    ],
-                    bool,
-                )
+            keep = self._rows_of(group, times.t_ns)
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
             percent: set[str] = set()
             said: dict[str, dict[str, str]] = {}
@@ -101,6 +94,17 @@ class Table:
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = Stamps(times.t_ns[keep], times.absolute, ())
             yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
+
+    def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
+        """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time
+        where rows are counted), and statistics below the table."""
+        keep = np.ones(t_ns.size, bool)
+        if group.counted:
+            return keep
+        for row in np.flatnonzero(t_ns == NAT).tolist():
+            cells = [self.columns[i][row] for i in sorted((*group.time, *group.columns))]
+            keep[row] = not (all(map(is_empty, cells)) or is_footer(cells))
+        return keep
 
     def _in_percent(self, column: int) -> bool:
         """Whether a column is shown in per cent, and its header does not say that it is a fraction. FormatError where
