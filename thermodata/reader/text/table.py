@@ -14,6 +14,7 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
+from thermodata.reader.text.foreign_texts import refuse_foreign
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, sample
@@ -180,6 +181,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     """The table in a file's first lines. first: all that was sampled of the file."""
     if not any(line.strip() for line in head):
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
+    refuse_foreign(head, where)
     said = source.table or {}
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     top = _top(head)
