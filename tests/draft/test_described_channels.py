@@ -64,3 +64,16 @@ def test_a_description_counts_more_than_an_address_and_less_than_a_name(
 ) -> None:
     properties = {"description": description} if description else {}
     assert called(Signal(name, "table", None, properties=properties)) == expected
+
+
+def test_a_value_under_a_head_is_called_as_the_head_and_has_its_unit(tmp_path: Path, say: Say) -> None:
+    rows = [f"2026-04-20 08:{i // 6:02}:{i % 6 * 10:02},{75 + i / 50}" for i in range(300)]
+    ended = [f",2026-04-20 08:{i:02}:00,{3000 + i % 3}" if i < 50 else ",," for i in range(300)]
+    head = "MC7:BRG_FRONT_TEMP (DEG F),,MC7:SPINDLE_SPEED (RPM),\nTimestamp,Value,Timestamp,Value\n"
+    (tmp_path / "day.csv").write_text(head + "".join(a + b + "\n" for a, b in zip(rows, ended, strict=True)))
+    assert say("init", tmp_path).code == 0
+    found = load_campaign(tmp_path / "campaign.yaml").channels
+    assert {n: (c.quantity, c.unit) for n, c in found.items()} == {
+        "MC7_BRG_FRONT_TEMP": ("temperature", "DEG F"),
+        "MC7_SPINDLE_SPEED": ("rotational_speed", "RPM"),
+    }

@@ -30,6 +30,7 @@ from thermodata.draft.values import joined
 from thermodata.draft.warm import warm_starts
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.long_rows import VALUE_WORDS
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
@@ -230,6 +231,8 @@ def _wished(signal: str, said: Guess) -> str:
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
         last = "_".join(parts[-2:])
+    if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
+        last = split_unit(parts[-2])[0]
     foreign = sum(ord(c) > 0x2FF for c in bare)
     if foreign and said.at and said.quantity in CANONICAL_UNIT:
         where = "_".join(p for p in said.at.split(".") if p not in ("axis",))

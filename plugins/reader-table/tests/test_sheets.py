@@ -114,6 +114,15 @@ def test_columns_with_times_of_their_own_in_sheets(tmp_path: Path) -> None:
     assert not (*data.losses, *both.losses)
 
 
+def test_dates_as_texts_of_a_group_that_ended_long_before_the_other(tmp_path: Path) -> None:
+    stamps = [f"2026-04-20 08:{i // 60:02}:{i % 60:02}" for i in range(100)]
+    pairs: list[list[object]] = [["Timestamp", "T1", "Timestamp", "T2"]]
+    pairs += [[s, 20.5, *((s, 3000) if i < 20 else (None, None))] for i, s in enumerate(stamps)]
+    data = read(tmp_path, {"a": sheet(pairs)})
+    assert [t.size for t in data.t_ns.values()] == [100, 20]
+    assert not data.losses
+
+
 def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
     dates: list[list[object]] = [["time", "T"], *([46082 + i / 1440, i] for i in range(4))]
     with pytest.raises(FormatError, match="some times are dates"):

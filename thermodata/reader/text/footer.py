@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from thermodata.reader.text.cell import Cell, is_empty, is_number, is_stamp
+from thermodata.reader.text.cell import Cell, is_empty, is_number
 
 _STATISTIC = re.compile(
     r"(?i)(min|max)(imum|imal|\.)?([ -]?(value|wert))?|mean|average|avg|mittel(wert)?|mw|durchschnitt|median|"
@@ -20,9 +20,9 @@ _NOTED = 4
 
 def is_footer(cells: Sequence[Cell]) -> bool:
     """Whether cells are those of a line of statistics ("Max", "", 24.1), or of a mark that the table ends
-    ("$RT_COUNT$", 5965). A line that a time stands in is a row, whatever else does."""
+    ("$RT_COUNT$", 5965): beside the word stand numbers alone, no time and nothing that is damaged."""
     full = [str(c).strip() for c in cells if not is_empty(c)]
-    if not full or any(map(is_stamp, full)):
+    if not full:
         return False
     first, others = full[0].rstrip(" :=."), full[1:]
     numbers = all(is_number(c) or not any(map(str.isalnum, c)) for c in others)

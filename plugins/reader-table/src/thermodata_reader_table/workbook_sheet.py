@@ -141,7 +141,7 @@ class Table:
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return times_of_texts(texts, zone, group.form, self.where)
+            return self._of_texts(texts, zone, group.form)
         if any(isinstance(j, dt.timedelta) for j in joined):
             micro = dt.timedelta(microseconds=1)
             t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
@@ -150,6 +150,16 @@ class Table:
             return Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
         return times_of_dates(naive, zone)
+
+    def _of_texts(self, texts: list[str], zone: str | None, form: str | None) -> Stamps:
+        """Times that are written as texts; where groups have lengths of their own, by the rows that have one."""
+        if len(self.layout.groups) < 2:
+            return times_of_texts(texts, zone, form, self.where)
+        filled = np.array([k for k, text in enumerate(texts) if not is_empty(text)], np.int64)
+        found = times_of_texts([texts[k] for k in filled], zone, form, self.where)
+        t_ns = np.full(len(texts), NAT, np.int64)
+        t_ns[filled] = found.t_ns
+        return Stamps(t_ns, found.absolute, found.notes)
 
     def _days(self, cells: tuple[Any, ...], epoch: Epoch) -> Int1D:
         """Local times of days that are counted from a date [ns], shape (n,), NAT where there is none; a cell that is
