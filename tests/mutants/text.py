@@ -6,11 +6,16 @@ from mutant import Mutant
 
 # the tests that stand beside a module
 BESIDE = {
+    "clock_letters.py": ("time_formats",),
     "columns.py": ("columns",),
     "delimited.py": ("delimited",),
     "delimiter.py": ("delimiter",),
+    "described.py": ("described",),
+    "footer.py": ("footer",),
+    "foreign_texts.py": ("foreign_texts",),
     "grid.py": ("three_ways", "rows_width"),
     "header.py": ("delimited",),
+    "header_rows.py": ("preambles",),
     "layout.py": ("delimited",),
     "letters.py": ("letters",),
     "lines.py": ("lines", "locate"),
@@ -173,8 +178,8 @@ MUTANTS = [
     text("table_rows.py", "(cells.empty & ~cells.over) * _NONE", "cells.empty * _NONE", "overload is not measured"),
     text(
         "table_rows.py",
-        "            if self.table.repeats_header(text):\n                continue\n",
-        "",
+        "self.table.repeats_header(text) or self._is_footer(text)",
+        "self._is_footer(text)",
         "repeated headers are losses",
     ),
     text("table_rows.py", "            self.stopped = True\n", "", "two tables are one"),
@@ -196,6 +201,21 @@ MUTANTS = [
     text("table.py", '.strip("\\ufeff")', "", "joined files end at the second header"),
     text("table.py", "            exact=True,\n", "", "a delimiter too much shifts cells"),
     text("table.py", "            decimal_declared=self.decimal_declared,\n", "", "the declared mark is left out"),
+    # ---- what stands above and below the rows
+    text(
+        "header_rows.py", "and _mostly_units(below[0]) and unnamed", "and _mostly_units(below[0])", "names are comments"
+    ),
+    text(
+        "header_rows.py", "[n or a for n, a in zip(row, above", "[n for n, a in zip(row, above", "merged names are lost"
+    ),
+    text("described.py", "len(set(said.values())) < len(said)", "False", "a kind of input is a name"),
+    text("described.py", "    rows = rows[: _names_at(rows, names)]\n", "", "a comment on sensors is a name"),
+    text("described.py", "max(_FEWEST, len(names) // 2)", "1", "a comment on the file describes a channel"),
+    text("footer.py", "numbers = all(", "numbers = True or all(", "damage behind a word is no loss"),
+    text("footer.py", "(bool(others) and _STATISTIC", "(_STATISTIC", "a word alone is statistics"),
+    text("foreign_texts.py", "not cut and all(words)", "all(words)", "a program is a print"),
+    text("clock_letters.py", "if not full or share(full, form):", "if not full:", "damage refuses a declared format"),
+    text("clock_letters.py", 'f"{found[\'mark\']}%f" if found["mark"] else ""', '""', "fractions are not proposed"),
     text("losses.py", "NAMED = 20", "NAMED = 10", "half of the losses have no line"),
     text("losses.py", "line {line + 1}", "line {line}", "losses name the line above"),
     text("losses.py", "if not self._more:", "if True:", "losses beyond the twentieth are not told"),

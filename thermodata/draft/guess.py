@@ -22,6 +22,8 @@ from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
+# 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
+_ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
 _NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
@@ -73,8 +75,13 @@ _NEEDS_PLACE = (
 
 
 def called(signal: Signal) -> str:
-    """A signal's name with the head of the group that it stands under: "Displacements/X"."""
-    return "/".join(filter(None, (signal.properties.get("group"), signal.name)))
+    """A signal's name with the head of the group that it stands under, "Displacements/X", and what the file says of it:
+    behind the address of a channel, which says nothing, "CH1/Spindle front", but before a name."""
+    group, name = signal.properties.get("group"), signal.name
+    said = re.sub(r"\s*[/\\]\s*", " ", signal.properties.get("description", ""))
+    if said and _ADDRESS.fullmatch(split_unit(name)[0]):
+        return "/".join(filter(None, (group, split_unit(name)[0], said)))
+    return "/".join(filter(None, (group, said, name)))
 
 
 def guess_of(signal: Signal, values: Values | None = None) -> Guess:

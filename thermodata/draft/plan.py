@@ -2,46 +2,40 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence, Set
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
-from thermodata.draft.guess import called, guess
 from thermodata.draft.hints import hinted
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
-from thermodata.draft.naming import channel_name
-from thermodata.draft.one_signal import OneSignal, joined_over_units
-from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of, why_idle
-from thermodata.draft.other_units import unit_question
-from thermodata.draft.own_scale import scale_note
+from thermodata.draft.one_signal import joined_over_units
+from thermodata.draft.orientation import why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
-from thermodata.draft.quantity import Guess
 from thermodata.draft.raw_file import RawFile
-from thermodata.draft.same_probe import names_in_tests, own_name, with_their_probes
+from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
-from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table
-from thermodata.draft.units import rate_at_end
-from thermodata.draft.values import Values, joined
+from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.warm import warm_starts
-from thermodata.reader.text import split_unit
-from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
-
-_MOST_SIGNALS = 2000
-_SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     """What the folder holds, as a campaign."""
     early = _claimed_table(folder, found)
+    beside: tuple[tuple[str, str], ...] = ()
     if early is not None:
+        own = next(f for f in found.logs if str(f.path) == early)
+        beside = tuple(
+            (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
+        )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
@@ -52,7 +46,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     calibrations: list[DraftJump] = []
     notes: list[str] = []
     for g in groups:
-        made, left = _channels(g, of_probes[g.source], in_tests, taken, calibrations)
+        made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = beside_each_other(made)
         channels += made
         notes += left
@@ -79,7 +73,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
     tests = tuple(_test(t, groups, table, named, warm.get(t)) for t in ids)
-    left_out = tuple(x for x in found.ignored if table is None or x[0] != table.file)
+    left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
@@ -120,8 +114,10 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
-    """A table of tests that a reader takes for a log, because it has a column of dates."""
-    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None]
+    """A table of tests that a reader takes for a log, because it has a column of dates; what holds long logs is none,
+    though a sheet beside them lists the tests."""
+    most = most_rows(len(found.logs))
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None and f.sample.rows <= most]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
@@ -153,98 +149,6 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
     spans = sorted((f.sample.last_ns or 0) - (f.sample.first_ns or 0) for f in files if f is not jump.file)
     own = (jump.file.sample.last_ns or 0) - (jump.file.sample.first_ns or 0)
     return bool(spans) and own * 3 < spans[len(spans) // 2]
-
-
-def _channels(
-    group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], taken: set[str], calibrations: list[DraftJump]
-) -> tuple[list[DraftChannel], list[str]]:
-    """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
-    which a jump test may have under another head."""
-    found = [
-        one
-        for one in joined_over_units(group.signals)
-        if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
-    ]
-    more = len(found) - _MOST_SIGNALS
-    notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
-    twice = {
-        n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
-    }
-    made, seen = [], set()
-    streams = {one.signal.stream for one in found}
-    for one in found[:_MOST_SIGNALS]:
-        signal = one.signal
-        if signal.name in seen and signal.name not in twice:
-            continue  # the same signal, in a stream of another name
-        seen.add(signal.name)
-        said, note = _said(one)
-        keys = [(s.stream, s.name) for s in one.spellings]
-        twin = signal.name in twice
-        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
-        if jump is not None and said.quantity == "voltage":
-            said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
-        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
-        name = channel_name(_wished(called(signal), said), taken)
-        calibration = None
-        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
-        if said.quantity == "displacement" and in_volts:
-            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
-        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
-            calibration, said = sign_of(name, signal, said, jump, calibrations)
-        own = {id(f) for f in one.files}
-        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
-        only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
-        lacking = tuple(t for t in group.tests if t not in having) if only else ()
-        stream = signal.stream if len(streams) > 1 else None
-        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
-        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
-    return made, notes
-
-
-def _said(one: OneSignal) -> tuple[Guess, str | None]:
-    """The guess of a signal from all files that have it; the note says where they disagree on the unit."""
-    values, signal = None, one.signal
-    units: Counter[str | None] = Counter()
-    seen: dict[str, Values | None] = {}
-    for f in one.files:
-        own = one.of(f) or signal
-        seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
-        values = joined(values, seen[str(f.path)])
-        units[own.unit] += 1
-    # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
-    if len(units) > 1 and said.quantity:
-        names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
-        return Guess(
-            said.quantity,
-            None,
-            said.at,
-            said.axis,
-            False,
-            said.basis,
-            (*said.questions, f"unit: the files disagree: {names}; each file's own is taken"),
-        ), None
-    asked = unit_question(said.quantity, seen) if None in units else None
-    if asked is not None:
-        said = replace(said, sure=False, questions=(*said.questions, asked))
-    return said, None
-
-
-def _wished(signal: str, said: Guess) -> str:
-    """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
-    bare = rate_at_end(split_unit(signal)[0])[0]
-    parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
-    last = parts[-1]
-    if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
-        last = "_".join(parts[-2:])
-    foreign = sum(ord(c) > 0x2FF for c in bare)
-    if foreign and said.at and said.quantity in CANONICAL_UNIT:
-        where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
-        tail = "".join(c for c in bare if c.isascii() and c.isdigit())
-        return "_".join(
-            filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
-        )
-    return last
 
 
 def _test(

@@ -98,15 +98,17 @@ def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str 
     found = []
     left = [f"its sheet '{n}' is not like the {len(names)} others: a list of tests, or notes?" for n in besides]
     left += [f"its {note}" for note in whole.recording.notes if re.match(r"sheet '.*' is not read", note)]
+    asked = tuple(a for a in whole.asked if a.declare)  # what one sheet leaves open, all are declared by
     for name in names:
-        one = replace(whole, sheet=name, besides=tuple(left), table={**(whole.table or {}), "sheet": name}, asked=())
+        table = {**(whole.table or {}), "sheet": name}
+        one = replace(whole, sheet=name, besides=tuple(left), table=table, asked=asked)
         found.append(_asking(who, full, one))
     return found
 
 
 def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     """The file described, each of its questions answered for the time being."""
-    asked: list[Asked] = []
+    asked = list(file.asked)
     table: dict[str, Any] = dict(file.table or {})
     while True:
         try:

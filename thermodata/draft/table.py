@@ -51,7 +51,7 @@ def find_table(
         return None
     tables = [c for c in candidates if Path(c).suffix.lower() in _SUFFIXES]
     tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
-    most = max(200, _ROWS_A_TEST * len(tests))
+    most = most_rows(len(tests))
     for candidate in tables[:20]:
         path = folder / candidate
         if path.stat().st_size > _LARGEST:
@@ -61,6 +61,11 @@ def find_table(
             if found is not None:
                 return found
     return None
+
+
+def most_rows(tests: int) -> int:
+    """How many rows a table of so many tests has at most; what has more is a log, whatever it is called."""
+    return max(200, _ROWS_A_TEST * tests)
 
 
 def is_called_table(path: str) -> bool:

@@ -12,6 +12,7 @@ from thermodata.plugin import Head, Source
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
+from thermodata.reader.text.foreign_texts import foreign_text
 
 # First bytes of what lies in folders of logs without being one
 _MAGIC: tuple[tuple[bytes, str], ...] = (
@@ -119,6 +120,8 @@ def _kind(start: Head) -> str:
 
 def _no_table(text: str) -> str | None:
     """What a text is that holds no table of cells. A line of JSON may stand above one that does."""
+    if (foreign := foreign_text(text.splitlines())) is not None:
+        return ": ".join(foreign)
     known = next((what for start, what in _TEXTS if start.match(text)), None)
     last = next((line for line in reversed(text.splitlines()[-20:]) if line.strip()), "").strip()
     return known if last.startswith(tuple('<{}[]"')) else None
@@ -147,7 +150,9 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
         return f"declare one of them: sources: {{log: {{reader: {first}, files: ...}}}}"
     if not others:
         return "no reader is installed"
-    if _kind(start).startswith(tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)):
+    kind = _kind(start)
+    text = decode_head(start.start)
+    if kind.startswith(tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)) or kind == _no_table(text or ""):
         return None  # it says already what to do
     able = next((name for name, why in others.items() if "can read it" in why), None)
     if able:

@@ -126,3 +126,14 @@ def test_a_month_by_name_between_two_numbers_that_goes_through_years_is_asked(tm
     rows = [f"T,02-Mar-{k:02d} 08:00:00,{k}" for k in range(1, 25)]
     with pytest.raises(FormatError):
         read(tmp_path, "Tag,Time,Value", rows)
+
+
+def test_the_count_of_rows_that_ends_an_export_of_wincc_is_no_loss(tmp_path: Path) -> None:
+    rows = [f'"{tag}";"22.10.2026 07:{k:02d}:00";{21 + k / 8};1;{k}' for k in range(N) for tag in ("T_vorn", "n_Ist")]
+    header = '"VarName";"TimeString";"VarValue";"Validity";"Time_ms"'
+    data = read(tmp_path, header, [*rows, f'"$RT_COUNT$";{2 * N};;;;'])
+    assert set(values(data)) == {"T_vorn", "n_Ist"}
+    assert data.losses == ()
+    assert any("'$RT_COUNT$'" in note for note in data.recording.notes)
+    damaged = read(tmp_path, header, [*rows, '"T_vorn";5965;;;;'])
+    assert len(damaged.losses) == 1

@@ -129,10 +129,10 @@ def test_names_that_repeat_are_told_apart(tmp_path: Path) -> None:
 
 
 def test_rows_without_a_time_are_a_loss(tmp_path: Path) -> None:
-    data = read(tmp_path, "time [s];T\n0;1\n1;2\n2;3\nEOF;\n")
+    data = read(tmp_path, "time [s];T\n0;1\n1;2\n2;3\npower gone;\n")
     assert data.t_ns["table"].size == 3
     assert data.losses[0].where == "x.csv line 5"
-    assert data.losses[0].reason == "expected a time as a number [s], got 'EOF'"
+    assert data.losses[0].reason == "expected a time as a number [s], got 'power gone'"
 
 
 def test_a_cut_last_line_is_a_loss_and_not_a_value(tmp_path: Path) -> None:

@@ -75,6 +75,41 @@ def test_groups_of_dates_have_lengths_of_their_own(tmp_path: Path) -> None:
     assert not data.losses
 
 
+@pytest.mark.parametrize(
+    ("header", "names"),
+    [
+        ("Timestamp,T_front (DEG F),Timestamp,SPEED (RPM)", ("T_front (DEG F)", "SPEED (RPM)")),
+        ("T_front,,SPEED,\nTimestamp,Value,Timestamp,Value", ("T_front/Value", "SPEED/Value")),
+    ],
+)
+@pytest.mark.parametrize(("first", "second"), [(2000, 40), (40, 2000)])
+def test_dates_of_a_group_that_ended_long_before_the_other_are_still_dates(
+    tmp_path: Path, header: str, names: tuple[str, str], first: int, second: int
+) -> None:
+    dates = [f"04/20/2026 {8 + i // 360:02}:{i // 6 % 60:02}:{i % 6 * 10:02}" for i in range(2000)]
+    values = [75 + i / 1000 for i in range(2000)]
+    path = tmp_path / "x.csv"
+    body = rows(dates[:first], values[:first], dates[:second], values[:second], delimiter=",")
+    path.write_text(f"{header}\n{body}")
+    data = load(Reader(), path, Source(timezone="America/Chicago"))
+    assert [t.size for t in data.t_ns.values()] == [first, second]
+    assert tuple(s.name for s in data.recording.signals) == names
+    assert all(s.dtype == "float64" for s in data.recording.signals)
+    assert not data.losses
+
+
+def test_a_unit_in_the_head_over_a_time_and_its_values_is_that_of_the_values(tmp_path: Path) -> None:
+    header = "MC07:T_FRONT (DEG F),,MC07:SPEED (RPM),\nTimestamp,Value,Timestamp,Value\n"
+    dates = [f"4/20/2026 8:{i:02}:00 AM" for i in range(40)]
+    path = tmp_path / "x.csv"
+    path.write_text(header + rows(dates, [75.5] * 40, dates[:30], [3000.5] * 30, delimiter=","))
+    signals = load(Reader(), path, Source(timezone="UTC")).recording.signals
+    assert {s.name: s.unit for s in signals} == {
+        "MC07:T_FRONT (DEG F)/Value": "DEG F",
+        "MC07:SPEED (RPM)/Value": "RPM",
+    }
+
+
 def test_dates_and_times_of_day_a_group(tmp_path: Path) -> None:
     clock = [f"08:00:{i:02}" for i in range(8)]
     text = "Datum;Uhrzeit;T1;Datum;Uhrzeit;T2\n" + rows(["1.3.2026"] * 8, clock, VB, ["2.3.2026"] * 8, clock, VB)

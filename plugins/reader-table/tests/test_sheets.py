@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from thermodata_reader_table import Reader
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.testing.reader import Data, load
 
@@ -114,10 +114,39 @@ def test_columns_with_times_of_their_own_in_sheets(tmp_path: Path) -> None:
     assert not (*data.losses, *both.losses)
 
 
+def test_dates_as_texts_of_a_group_that_ended_long_before_the_other(tmp_path: Path) -> None:
+    stamps = [f"2026-04-20 08:{i // 60:02}:{i % 60:02}" for i in range(100)]
+    pairs: list[list[object]] = [["Timestamp", "T1", "Timestamp", "T2"]]
+    pairs += [[s, 20.5, *((s, 3000) if i < 20 else (None, None))] for i, s in enumerate(stamps)]
+    data = read(tmp_path, {"a": sheet(pairs)})
+    assert [t.size for t in data.t_ns.values()] == [100, 20]
+    assert not data.losses
+
+
 def test_sheets_of_dates_and_of_seconds_are_asked(tmp_path: Path) -> None:
     dates: list[list[object]] = [["time", "T"], *([46082 + i / 1440, i] for i in range(4))]
     with pytest.raises(FormatError, match="some times are dates"):
         read(tmp_path, {"a": sheet(dates, (1,)), "b": sheet(seconds(4))})
+
+
+def test_days_that_are_declared_are_read_whether_cells_show_them_as_dates_or_as_numbers(tmp_path: Path) -> None:
+    days: list[list[object]] = [["Zeitstempel", "T"], *([46082 + i / 1440, i] for i in range(4))]
+    book = {"shown": sheet(days, (1,)), "general": sheet(days)}
+    with pytest.raises(QuestionError) as question:
+        read(tmp_path, book)
+    assert question.value.ask.startswith("sheet 'general': unit of the time: excel")
+    data = read(tmp_path, book, Source(timezone="UTC", table={"time": {"unit": "excel"}}))
+    expected = np.datetime64("2026-03-01T00:00", "ns").astype(np.int64) + np.arange(4) * 60 * 10**9
+    for stream in ("shown", "general"):
+        assert np.abs(data.t_ns[stream] - expected).max() < 1000
+    assert not data.losses
+
+
+def test_a_column_that_turns_from_dates_to_their_numbers_goes_on(tmp_path: Path) -> None:
+    days: list[list[object]] = [["Zeitstempel", "T"], *([46082 + i / 1440, i] for i in range(40))]
+    mixed = sheet(days, (1,)).replace('<c r="A20" s="1">', '<c r="A20" s="0">')
+    data = read(tmp_path, {"a": mixed}, Source(timezone="UTC", table={"time": {"unit": "excel"}}))
+    assert np.abs(np.diff(data.t_ns["table"]) - 60 * 10**9).max() < 1000
 
 
 def test_a_list_of_tests_with_days_beside_sheets_of_seconds_is_left_out_and_said(tmp_path: Path) -> None:

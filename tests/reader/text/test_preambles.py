@@ -47,3 +47,56 @@ def test_names_stand_above_units_and_the_channels_of_the_amplifier_below(probes:
     assert found.names[1] == "Wirbelstrom X"
     assert found.units[:2] == ("s", "V")
     assert len(found.names) == probes + 1
+
+
+CATMAN = """\
+catmanAP V5.4.2 ASCII Datenexport
+Startzeit:\t12.01.2026 08:00:00
+Messrate:\t0,2 Hz
+
+Zeit  1 - Standardmessrate\tMX1609_CH1 Lager A\tMX1609_CH2 Lager B\tMX840_CH1 Weg Z
+s\t°C\t°C\tµm
+{comments}
+"""
+
+
+@pytest.mark.parametrize(
+    "comments",
+    [
+        "Sensor:\tPt100 4-Leiter\tPt100 4-Leiter\teddyNCDT 3001",
+        "Kommentar\tam Flansch\t\tneu",
+        "Sensor:\tPt100\tPt100\teddyNCDT\nOrt:\tFlansch\tMotor\tTisch",
+        "Kanal\tMX1609_CH1\tMX1609_CH2\tMX840_CH1",
+    ],
+)
+def test_comments_below_the_units_leave_names_and_units_as_they_are(comments: str) -> None:
+    found = find(rows(CATMAN.format(comments=comments) + numbers(30, 4)), None, "here")
+    assert found.names == (
+        "Zeit  1 - Standardmessrate",
+        "MX1609_CH1 Lager A",
+        "MX1609_CH2 Lager B",
+        "MX840_CH1 Weg Z",
+    )
+    assert found.units == ("s", "°C", "°C", "µm")
+    assert found.said_of(1) == {}
+    assert any("between header and data is not read" in note for note in found.notes)
+
+
+def test_comments_below_units_of_names_that_are_merged_with_the_row_above() -> None:
+    head = [
+        "Zeitstempel\tSpindel\t\tTemperaturen\t",
+        "\tDrehzahl\tAuslastung\tSpindelmotor\tRücklauf",
+        "\tU/min\t%\t°C\t°C",
+        "Kommentar\taus NCU\t\tPt1000 Klixon\t",
+    ]
+    body = [f"2026-01-12 08:{i:02d}:00\t3000\t12.5\t23.5\t19.{i % 9}" for i in range(40)]
+    found = find(rows("\n".join([*head, *body])), None, "here")
+    assert found.names == ("Zeitstempel", "Drehzahl", "Auslastung", "Spindelmotor", "Rücklauf")
+    assert found.units == (None, "U/min", "%", "°C", "°C")
+    assert found.said_of(1) == {"group": "Spindel"}
+
+
+def test_names_below_units_that_say_the_time_are_names() -> None:
+    head = "Time\tA\tB\ns\t°C\t°C\nZeit\tfront\trear\n"
+    found = find(rows(head + numbers(30, 3)), {"time": {"unit": "s"}}, "here")
+    assert found.names[-2:] == ("front", "rear")

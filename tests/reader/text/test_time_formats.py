@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cell import TIME_WORD
 from thermodata.reader.text.time_formats import find_format, find_formats, share, times_of_numbers, times_of_texts
-from thermodata.reader.text.timestamp import DATE, DATETIME, TIME_OF_DAY
+from thermodata.reader.text.timestamp import DATE, DATETIME, TIME_OF_DAY, declared_format
 
 S = 1_000_000_000
 
@@ -104,3 +104,49 @@ def test_what_labs_call_the_time_is_one(header: str) -> None:
 @pytest.mark.parametrize("header", ["epoch speed", "unixes", "Fechadora", "T"])
 def test_what_only_begins_so_is_no_time(header: str) -> None:
     assert not TIME_WORD.match(header)
+
+
+@pytest.mark.parametrize(
+    ("clock", "letters"),
+    [
+        ("", ""),
+        (" 21:30", " %H:%M"),
+        (" 21:30:{i:02d}", " %H:%M:%S"),
+        (" 21:30:{i:02d}.0", " %H:%M:%S.%f"),
+        (" 21:30:{i:02d},125", " %H:%M:%S,%f"),
+        ("T21:30:{i:02d}:250", "T%H:%M:%S:%f"),
+        (" 09:30:{i:02d} PM", " %I:%M:%S %p"),
+        (" 21:30:{i:02d}+09:00", " %H:%M:%S%z"),
+    ],
+)
+def test_a_format_that_is_proposed_reads_the_cells_that_it_is_proposed_for(clock: str, letters: str) -> None:
+    cells = [("'" if i % 2 else "") + "26-02-09" + clock.format(i=i) for i in range(40)]
+    with pytest.raises(QuestionError) as question:
+        find_formats(["Time"], [cells], None, "here")
+    proposed = f"%y-%m-%d{letters}"
+    assert f"'{proposed}' or dmy?" in question.value.ask
+    assert share(cells, declared_format(proposed)) == 1
+
+
+@pytest.mark.parametrize(
+    ("declared", "cell", "hint"),
+    [
+        ("%y-%m-%d %H:%M:%S", "26-02-09 21:30:00.0", "'%y-%m-%d %H:%M:%S.%f'"),
+        ("%d.%m.%Y %H:%M:%S.%f", "09.02.2026 21:30:00", "'%d.%m.%Y %H:%M:%S'"),
+        ("%d.%m.%Y", "09.02.2026 21:30", "'%d.%m.%Y %H:%M'"),
+        ("%d.%m.%Y %H:%M", "nothing of it", "%f is a part of a second"),
+    ],
+)
+def test_a_declared_format_that_reads_no_cell_is_refused_with_one_that_does(
+    declared: str, cell: str, hint: str
+) -> None:
+    with pytest.raises(FormatError) as error:
+        find_formats(["Time"], [[cell] * 40], declared, "here")
+    assert hint in (error.value.hint or "")
+    assert error.value.got == cell
+
+
+def test_a_declared_format_that_reads_some_of_the_cells_is_kept() -> None:
+    cells = ["26-02-09 21:30:00"] + ["damaged"] * 39
+    (found,) = find_formats(["Time"], [cells], "%y-%m-%d %H:%M:%S", "here")
+    assert found.text == "%y-%m-%d %H:%M:%S"

@@ -13,16 +13,18 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.text.delimiter import parted_bytes
+from thermodata.reader.text.delimiter import fields, parted_bytes
+from thermodata.reader.text.footer import footer_notes
 from thermodata.reader.text.lines import Chunk, chunks
 from thermodata.reader.text.local_clock import DayCount
+from thermodata.reader.text.number import clean
 from thermodata.reader.text.table import Table, open_table
 from thermodata.reader.text.table_rows import RowReader
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
 
-_FIRST_ROWS = 500
+_FIRST_ROWS, _LAST_LINES = 500, 20
 _CUT = "the last line has no end and may be cut"
 
 
@@ -30,7 +32,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     return tuple(
-        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_over(i))
+        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_of(i))
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
@@ -58,6 +60,8 @@ def describe(table: Table, source: Source) -> Recording:
         start = min(starts, default=0)
         notes += _zone_notes(table, source, start)
     notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
+    ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
+    notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
     if table.cut:
         notes.append(_CUT)
     return Recording(

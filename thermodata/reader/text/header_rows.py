@@ -10,8 +10,8 @@ from thermodata.reader.text.header import looks_like_unit, split_unit
 from thermodata.reader.text.number import clean
 
 # what loggers write before a row that describes the columns, and below the names for what was done with the readings
-_OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
-_OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
+OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
+OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
 _STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 
@@ -28,8 +28,9 @@ def names_and_units(
     if units_row is not None and 0 <= units_row < len(texts):
         row = texts.pop(units_row)
         units = _as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
-    spanning = [texts[i] for i in _spanning(texts, width)]
-    named = _named(spanning, width)
+    at_all = _spanning(texts, width)
+    spanning = [texts[i] for i in at_all]
+    named = _named(texts, at_all, width)
     if units_row is None and len(spanning) >= 2:
         if named is not None and (below := next((r for r in spanning[named + 1 :] if _mostly_units(r)), None)):
             units = [u if looks_like_unit(u or "") else None for u in _as_units(below)]
@@ -42,14 +43,21 @@ def names_and_units(
     names = spanning[-1] if spanning else [""] * width
     at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
     over = [""] * width
-    if at and any(texts[at - 1]):
-        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
     found = [split_unit(n)[1] for n in names]
+    if at and any(texts[at - 1]):
+        of_heads = _units_of_heads(texts[at - 1], names)
+        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
+        found = [own or split_unit(n)[1] or head for own, n, head in zip(found, names, of_heads, strict=True)]
     return names, [u or f for u, f in zip(units, found, strict=True)], over
 
 
+def texts_of(row: Sequence[Cell]) -> list[str]:
+    """The cells of a row as texts."""
+    return [clean(str(c)) if c is not None else "" for c in row]
+
+
 def _texts(row: Sequence[Cell], width: int) -> list[str]:
-    return [clean(str(c)) if c is not None else "" for c in row] + [""] * (width - len(row))
+    return texts_of(row) + [""] * (width - len(row))
 
 
 def _as_units(cells: Sequence[str]) -> list[str | None]:
@@ -71,25 +79,43 @@ def _labelled_units(texts: Sequence[Sequence[str]]) -> int | None:
     """The row that is called units by its first cell and holds some; None where there is none."""
     for i, row in enumerate(texts):
         first, *others = [c for c in row if c] or [""]
-        if _OF_UNITS.fullmatch(first.strip(" :")) and row[0] and any(map(looks_like_unit, others)):
+        if OF_UNITS.fullmatch(first.strip(" :")) and row[0] and any(map(looks_like_unit, others)):
             return i
     return None
 
 
-def _named(spanning: Sequence[Sequence[str]], width: int) -> int | None:
-    """The row of names where others stand below it that are none: it names every column, the time among them, and the
-    rows below it repeat themselves (a kind of average, a rate) or write no time into the column of the time. None where
-    the last row, but for one of units, holds the names."""
+def _named(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int | None:
+    """Which of the rows that span the table (at: their places) is that of names, where others stand below it that are
+    none: it names every column, the time among them, and the rows below it are units and comments on these, repeat
+    themselves (a kind of average, a rate) or write no time into the column of the time. None where the last row, but
+    for one of units, holds the names."""
+    spanning = [texts[k][:width] for k in at]
     for i in range(len(spanning) - 2, -1, -1):
-        row = spanning[i][:width]
-        times = [k for k, c in enumerate(row) if _says_time(c)]
-        if not times or not all(row) or len(set(row)) < width or any(is_number(c) or is_stamp(c) for c in row):
-            continue
-        if _mostly_units(spanning[i + 1]) and not any(spanning[-1][k] for k in times):
-            return i  # units stand below names: a further row, without a word for the time, says where these come from
-        below = [r for r in spanning[i + 1 :] if not _mostly_units(r)]
-        return i if below and all(_names_nothing(r, times) for r in below) else None
+        below = spanning[i + 1 :]
+        if _comments_below_units(texts[at[i] - 1][:width] if at[i] else (), spanning[i], below):
+            return i
+        row = spanning[i]
+        times = _times_among(row)
+        if times:
+            others = [r for r in below if not _mostly_units(r)]
+            return i if others and all(_names_nothing(r, times) for r in others) else None
     return None
+
+
+def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Sequence[Sequence[str]]) -> bool:
+    """Whether units stand right below names: further rows, without a word for the time, say where these come from, or
+    what the sensors are. above: what is merged with the row below it."""
+    merged = [n or a for n, a in zip(row, above, strict=True)] if above else row
+    times = _times_among(merged)
+    unnamed = not any(_says_time(r[k]) for r in below[1:] for k in times)
+    return bool(times) and not _mostly_units(row) and _mostly_units(below[0]) and unnamed
+
+
+def _times_among(row: Sequence[str]) -> list[int]:
+    """Which cells of a row that names every column say time; none of another row."""
+    if not all(row) or len(set(row)) < len(row) or any(is_number(c) or is_stamp(c) for c in row):
+        return []
+    return [k for k, c in enumerate(row) if _says_time(c)]
 
 
 def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
@@ -104,7 +130,7 @@ def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
 
 def _is_label(cell: str) -> bool:
     """Whether a first cell says what its row holds, as "Comment" and "Tag" do."""
-    return cell.endswith(":") or _OF_TEXTS.fullmatch(cell.strip(" .")) is not None
+    return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
 
 
 def _says_time(cell: str) -> bool:
@@ -153,7 +179,7 @@ def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list
     spanning = _spanning([texts[i] for i in at], width)
     if not spanning:
         return []
-    named = _named([texts[at[i]] for i in spanning], width)
+    named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not _mostly_units(texts[i]))]
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
@@ -203,6 +229,13 @@ def _heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
         group = "" if k == 0 and _is_label(cell) else cell or group
         carried.append(group if names[k] else "")
     return carried
+
+
+def _units_of_heads(above: Sequence[str], names: Sequence[str]) -> list[str | None]:
+    """The unit that the head of its group says of each name, but for a time's: 'T_front (DEG F)' over 'Timestamp' and
+    'Value'."""
+    heads = _heads_over(above, names)
+    return [None if _says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:

@@ -10,8 +10,9 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
+from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.header import numbered_rows, unique
-from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units
+from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -47,7 +48,7 @@ class Group:
 class Layout:
     """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
     blanks around it. groups: one, or several where columns have times of their own. over: the head that stands over
-    several names, '' where there is none."""
+    several names, '' where there is none; described: what the file says of each column elsewhere, '' for nothing."""
 
     first: int
     names: tuple[str, ...]
@@ -55,11 +56,15 @@ class Layout:
     groups: tuple[Group, ...]
     notes: tuple[str, ...] = ()
     over: tuple[str, ...] = ()
+    described: tuple[str, ...] = ()
 
-    def said_over(self, column: int) -> dict[str, str]:
-        """The properties of a signal: the head of the group that it stands in."""
-        head = self.over[column] if self.over else ""
-        return {"group": head} if head else {}
+    def said_of(self, column: int) -> dict[str, str]:
+        """The properties of a signal: the head of the group that it stands in, and what the file says of it."""
+        said = {
+            "group": self.over[column] if self.over else "",
+            "description": self.described[column] if self.described else "",
+        }
+        return {key: text for key, text in said.items() if text}
 
     @property
     def time(self) -> tuple[int, ...]:
@@ -107,15 +112,18 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units, over = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
     names = unique(heads)
+    described, listed = descriptions([texts_of(r) for r in rows[skip:first]], heads)
+    units = [u or v for u, v in zip(units, listed, strict=True)]
     data = _whole_rows(rows[first : first + 200], width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = lines_between(rows[skip:first], width, skip) if header is None else []
     if header is None and first > skip and numbered_rows(rows[first - 1], heads, data):
         names, units, over = unique(["", *heads[:-1]]), [None, *units[:-1]], ["", *over[:-1]]
+        described = ["", *described[:-1]]
         lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
-    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost), tuple(over))
+    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost), tuple(over), tuple(described))
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

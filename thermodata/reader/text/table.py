@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -14,6 +14,7 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
+from thermodata.reader.text.foreign_texts import refuse_foreign
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, last_line_is_whole, sample
@@ -180,6 +181,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     """The table in a file's first lines. first: all that was sampled of the file."""
     if not any(line.strip() for line in head):
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
+    refuse_foreign(head, where)
     said = source.table or {}
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     top = _top(head)
@@ -220,8 +222,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     body = [r for r in (*top_rows, *later) if len(r) == width]
     refuse_long(layout.names, body, where, layout.time)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
-    dated = _dated(body, groups[0]) if groups else body
-    cells_of = {name: [r[i] for r in dated] for i, name in enumerate(layout.names)}
+    cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
     times = {i: TIME if g.formats else "float64" for g in groups for i in g.group.time}
@@ -293,7 +294,7 @@ def _top(head: Sequence[str]) -> Sequence[str]:
 def _timed(
     group: Group,
     layout: Layout,
-    body: Sequence[Sequence[str]],
+    body: Sequence[list[str]],
     head: Sequence[str],
     cells: Callable[[str], list[str]],
     first: Sample,
@@ -305,12 +306,29 @@ def _timed(
         return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
     def more(k: int) -> list[str]:
-        rows = map(cells, (*head[layout.first :], *first.rest))
+        rows = _still_going(map(cells, (*head[layout.first :], *first.rest)), group, layout)
         return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
 
-    columns = [[r[i] for r in body[:_TYPED_ROWS]] for i in group.time]
+    columns = [[r[i] for r in _still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]
     return TimedGroup(name, group, find_formats(names, columns, group.form, where, more), stated_zone(names))
+
+
+def _still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
+    """The rows in which a group has a time. Groups have lengths of their own: beside those that go on, one that has
+    ended is empty, which says nothing of how its times are written."""
+    if len(layout.groups) < 2:
+        return list(rows)
+    return [r for r in rows if any(clean(r[i]) for i in group.time if i < len(r))]
+
+
+def _cells_of(layout: Layout, groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> dict[str, list[str]]:
+    """The cells of each column by its name, in the rows that have a time for it."""
+    found: dict[int, list[str]] = {}
+    for timed in groups:
+        dated = _dated(_still_going(body, timed.group, layout), timed)
+        found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
+    return {name: found[i] for i, name in enumerate(layout.names)}
 
 
 def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:

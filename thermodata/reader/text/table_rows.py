@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.date_parts import column_times
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.grid import Rows
 from thermodata.reader.text.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.local_clock import DayCount, LocalClock
@@ -69,12 +70,15 @@ class RowReader:
         rows, told = self._until_another_header(rows, told, data, line)
         told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not self.table.repeats_header(bad.text):
+            if not (self.table.repeats_header(bad.text) or self._is_footer(bad.text)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
         for number, clock in enumerate(self.clocks):
             yield from self._group(clock, rows, told if number == 0 else [], data, line)
+
+    def _is_footer(self, text: str) -> bool:
+        return is_footer([clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)])
 
     def _torn(self, rows: Rows) -> list[_Complaint]:
         """Rows that end with the columns of a group, as if the others had ended, though longer lines follow."""
@@ -182,7 +186,7 @@ class RowReader:
         for row in lost.tolist():
             number = int(rows.line[row])
             text = lines[number - line].decode("utf-8", "replace").rstrip("\r")
-            if self.table.repeats_header(text):
+            if self.table.repeats_header(text) or self._is_footer(text):
                 continue
             cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
             own = [clean(cells[i]) if i < len(cells) else "" for i in (*clock.timed.group.time, *columns)]

@@ -19,6 +19,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import timestamp
+from thermodata.reader.text.clock_letters import refuse_unread, with_clock
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
@@ -89,6 +90,8 @@ def find_formats(
         form = None
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
             own = timestamp.declared_format(text)
+            if len(columns) == 1:
+                refuse_unread(text, own, _spread(cells, _MANY), share, f"{where} column '{name}'")
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
         form = form or _two_parts(clock, cells, more(k)) or find_format(cells, where, name, partial(more, k), order)
         forms.append(_zoned(form, cells))
@@ -192,7 +195,9 @@ def _ask_for_year(cells: Sequence[str], where: str) -> None:
         if not (last < first <= latest and 1 <= middle <= 12 and last >= 1):
             return
     got = parts[0].group().strip(" '")
-    letters = f"%y{got[2]}%m{got[2]}%d" + (" %H:%M:%S" if any(":" in c for c in cells) else "")
+    date = f"%y{got[2]}%m{got[2]}%d"
+    spelled = {with_clock(date, m.string[m.end() :]) for m in parts}
+    letters = max(sorted(spelled), key=lambda text: share(cells, timestamp.declared_format(text)))
     raise QuestionError(
         "dates with a year of two digits at either end",
         where=where,

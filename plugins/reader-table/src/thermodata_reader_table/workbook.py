@@ -111,7 +111,7 @@ def read(path: Path, source: Source) -> Read:
         try:
             tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
         except ThermodataError as error:
-            refused[sheet] = error
+            refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
     # a list of numbers may be no recording; a time without its unit is one
     asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
     if asked or not tables:
@@ -151,6 +151,22 @@ def read(path: Path, source: Source) -> Read:
             )
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+
+
+def _naming(sheet: str, error: ThermodataError) -> ThermodataError:
+    """A question of a sheet among several says which one leaves it."""
+    if not isinstance(error, QuestionError):
+        return error
+    return QuestionError(
+        error.what,
+        where=error.where,
+        expected=error.expected,
+        got=error.got,
+        hint=error.hint,
+        ask=f"sheet '{sheet}': {error.ask}",
+        declare=error.declare,
+        meanwhile=error.meanwhile,
+    )
 
 
 def _of_another_clock(found: Mapping[str, Sequence[Stream]]) -> list[str]:

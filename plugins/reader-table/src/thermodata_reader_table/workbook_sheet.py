@@ -14,6 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.date_parts import column_times, declared_parts
+from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
 from thermodata.reader.text.time_formats import (
@@ -25,7 +26,7 @@ from thermodata.reader.text.time_formats import (
     times_of_texts,
 )
 from thermodata.reader.text.zone_words import stated_zone
-from thermodata.reader.time_units import SECONDS, to_ns
+from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 
 
@@ -76,15 +77,7 @@ class Table:
             before = "" if sheet is None else f"{sheet}/"
             times = self._times(group)
             self.notes += times.notes
-            keep = np.ones(times.t_ns.size, bool)
-            if len(self.layout.groups) > 1:  # a group that has ended is empty beside longer ones
-                keep = ~np.array(
-                    [
-                        all(is_empty(c) for c in row)
-                        for row in zip(*(self.columns[i] for i in (*group.time, *group.columns)), strict=True)
-                    ],
-                    bool,
-                )
+            keep = self._rows_of(group, times.t_ns)
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
             percent: set[str] = set()
             said: dict[str, dict[str, str]] = {}
@@ -92,7 +85,7 @@ class Table:
                 column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
                 values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
-                said[before + self.layout.names[i]] = self.layout.said_over(i)
+                said[before + self.layout.names[i]] = self.layout.said_of(i)
                 if self._in_percent(i):
                     units[before + self.layout.names[i]] = "%"
                     percent.add(before + self.layout.names[i])
@@ -101,6 +94,17 @@ class Table:
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = Stamps(times.t_ns[keep], times.absolute, ())
             yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
+
+    def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
+        """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time
+        where rows are counted), and statistics below the table."""
+        keep = np.ones(t_ns.size, bool)
+        if group.counted:
+            return keep
+        for row in np.flatnonzero(t_ns == NAT).tolist():
+            cells = [self.columns[i][row] for i in sorted((*group.time, *group.columns))]
+            keep[row] = not (all(map(is_empty, cells)) or is_footer(cells))
+        return keep
 
     def _in_percent(self, column: int) -> bool:
         """Whether a column is shown in per cent, and its header does not say that it is a fraction. FormatError where
@@ -127,6 +131,8 @@ class Table:
         zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
+            if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
+                return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
         if declared_parts(group.form, len(columns)):
             parts = [[_part(cell) for cell in cells] for cells in columns]
@@ -135,7 +141,7 @@ class Table:
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
-            return times_of_texts(texts, zone, group.form, self.where)
+            return self._of_texts(texts, zone, group.form)
         if any(isinstance(j, dt.timedelta) for j in joined):
             micro = dt.timedelta(microseconds=1)
             t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
@@ -144,6 +150,25 @@ class Table:
             return Stamps(t, False, ("durations: counted as the cells say",))
         naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
         return times_of_dates(naive, zone)
+
+    def _of_texts(self, texts: list[str], zone: str | None, form: str | None) -> Stamps:
+        """Times that are written as texts; where groups have lengths of their own, by the rows that have one."""
+        if len(self.layout.groups) < 2:
+            return times_of_texts(texts, zone, form, self.where)
+        filled = np.array([k for k, text in enumerate(texts) if not is_empty(text)], np.int64)
+        found = times_of_texts([texts[k] for k in filled], zone, form, self.where)
+        t_ns = np.full(len(texts), NAT, np.int64)
+        t_ns[filled] = found.t_ns
+        return Stamps(t_ns, found.absolute, found.notes)
+
+    def _days(self, cells: tuple[Any, ...], epoch: Epoch) -> Int1D:
+        """Local times of days that are counted from a date [ns], shape (n,), NAT where there is none; a cell that is
+        formatted as a date holds such a count too, and is given as what it shows."""
+        dated = [isinstance(c, dt.date) for c in cells]
+        shown = [_joined((c,)).isoformat() if is_date else "NaT" for c, is_date in zip(cells, dated, strict=True)]
+        counts = tuple(None if is_date else c for c, is_date in zip(cells, dated, strict=True))
+        counted = to_ns(self._numbers(counts)[0], epoch.seconds, epoch.zero_s)
+        return np.where(dated, np.array(shown, "datetime64[ns]").view(np.int64), counted)
 
     def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:
         """(values, cells that are no numbers, which say overload): texts by the policy of all texts."""

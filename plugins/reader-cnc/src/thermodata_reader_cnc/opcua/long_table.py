@@ -16,6 +16,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.footer import footer_notes, is_footer
 from thermodata.reader.text.grid import BadLine
 from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of, lines_of
@@ -33,6 +34,7 @@ EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\
 _LOOK = 4 << 20
 _PART = 1 << 20  # bytes, and lines, whose cells are held as text at once
 _LINES = 20_000
+_LAST_LINES = 20  # in which a footer is looked for
 _MOST_HELD = 1 << 16  # bytes of a value in quotes that goes over two parts
 
 
@@ -98,7 +100,7 @@ def _not_rows(
     found += [
         (k, 1, f"expected {layout.width} cells with a time, got '{text[:80]}'")
         for k, text in texts.items()
-        if not layout.is_header(text) and k != end
+        if not (layout.is_header(text) or is_footer([clean(c) for c in fields(text, layout.delimiter)])) and k != end
     ]
     if end is not None:
         found = [each for each in found if each[0] < end]
@@ -147,6 +149,8 @@ def _look(path: Path, source: Source) -> _Look:
     by_tag = 0 < changes < 0.1 * len(head) and 2 * back > changes
     notes = [first.note] if first.note else []
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
+    ends = (first.rest or first.head)[-_LAST_LINES:]
+    notes += footer_notes([clean(c) for c in fields(line, layout.delimiter)] for line in ends)
     if layout.unread:
         notes.append(f"not read, beside the value: {', '.join(repr(name) for name in layout.unread)}")
     return _Look(

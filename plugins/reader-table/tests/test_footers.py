@@ -1,0 +1,68 @@
+"""Statistics below a table, and marks of its end: no rows, no losses, and told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.plugin import Source
+from thermodata.testing.reader import Data, load
+
+from .test_sheets import sheet, workbook
+
+ROWS = "".join(f"{i / 2:.1f};{20 + i / 8:.3f};3000\n" for i in range(40))
+SAID = "lines of statistics or of the end of the table are not read: "
+
+
+def read(tmp_path: Path, text: str) -> Data:
+    path = tmp_path / "log.csv"
+    path.write_text("Zeit [s];T [°C];n [rpm]\n" + text, encoding="utf-8")
+    return load(Reader(), path, Source(timezone="UTC"))
+
+
+@pytest.mark.parametrize(
+    ("footer", "said"),
+    [
+        ("Min;20.0;3000\nMax;25.1;3000\nMittelwert;22.5;3000\n", "'Min', 'Max', 'Mittelwert'"),
+        ("\nMinimum:;20.0;3000\nStd.Abw.;0.1;-\n", "'Minimum:', 'Std.Abw.'"),
+        (
+            "最大値;25.1;3000\n最小値;20.0;3000\n平均値;22.5;3000\n標準偏差;1.1;0\n",
+            "'最大値', '最小値', '平均値', '標準偏差'",
+        ),
+        ("Average;22.5\n", "'Average'"),
+        ("END\n", "'END'"),
+        ('"$RT_COUNT$";5965;;;;\n', "'$RT_COUNT$'"),
+    ],
+)
+def test_a_footer_is_no_loss(tmp_path: Path, footer: str, said: str) -> None:
+    data = read(tmp_path, ROWS + footer)
+    assert data.t_ns["table"].size == 40
+    assert data.losses == ()
+    assert SAID + said in data.recording.notes
+
+
+@pytest.mark.parametrize("line", ["garbage;20.0;3000", "Max;broken;3000", "Max", "min;2026-03-02;3000", ";20.0;3000"])
+def test_what_is_no_footer_is_lost(tmp_path: Path, line: str) -> None:
+    data = read(tmp_path, ROWS + line + "\n")
+    assert len(data.losses) == 1
+    assert not any(note.startswith(SAID) for note in data.recording.notes)
+
+
+def test_rows_behind_statistics_are_rows(tmp_path: Path) -> None:
+    data = read(tmp_path, ROWS + "Max;25.1;3000\n30.0;25.0;3000\n")
+    assert data.t_ns["table"].size == 41
+    assert data.losses == ()
+
+
+@pytest.mark.parametrize("styles", [(), (1,)])
+def test_a_footer_below_a_sheet_and_the_empty_row_above_it_are_no_losses(
+    tmp_path: Path, styles: tuple[int, ...]
+) -> None:
+    rows: list[list[object]] = [["Zeit", "T [°C]"], *([46082 + i / 1440, 20.5] for i in range(40))]
+    rows += [[None, None], ["Mittelwert", 20.5], ["lost", 20.5]]
+    path = workbook(tmp_path / "x.xlsx", {"a": sheet(rows, styles)})
+    data = load(Reader(), path, Source(timezone="UTC", table={"time": {"unit": "excel"}}))
+    assert data.t_ns["table"].size == 40
+    assert [loss.reason for loss in data.losses] == ["1 rows without a time"]

@@ -1,0 +1,56 @@
+"""Texts that hold no table whatever is declared: each is called by its name, with what to do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.explain import explain
+from thermodata.reader.text.foreign_texts import foreign_text
+from thermodata.reader.text.table import open_table
+
+LINES = "\n".join(f"probe,machine=MC5,unit=mm z=0.00014{i},y=-0.0001 178898580{i}000" for i in range(9)) + "\n"
+STRINGS = "\n".join(f'log,host=a\\ b text="one, two",n={i}i' for i in range(9)) + "\n"
+PRINT = "%\n" + "\n".join(f"26/03/11 09:00:{i:02d} S0{i}000 L045 T026" for i in range(9)) + "\n%\n"
+DIADEM = "DIAEXTENDED  {@:ENGLISH\n#BEGINGLOBALHEADER\n1,WINDOWS 32Bit\n101,Spindel\n104,13.04.2026\n" + "".join(
+    f"#BEGINCHANNELHEADER\n200,Lager {i}\n202,K\n210,EXPLIZIT\n211,Spindel.R64\n#ENDCHANNELHEADER\n" for i in range(6)
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "what", "do"),
+    [
+        (LINES, "line protocol", "CSV"),
+        (STRINGS, "line protocol", "CSV"),
+        (PRINT, "DPRNT", "commas"),
+        (DIADEM, "DIAdem", "TDMS"),
+    ],
+)
+def test_such_a_text_is_refused_with_what_to_do(tmp_path: Path, text: str, what: str, do: str) -> None:
+    path = tmp_path / "day.txt"
+    path.write_text(text)
+    with pytest.raises(FormatError) as error:
+        open_table(path, Source(table={"header_rows": 1}))
+    assert what in error.value.what
+    assert do in (error.value.hint or "")
+    said = explain(path)
+    assert not said.claims
+    assert what in said.kind
+    assert said.advice is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Time,T1\n0,20.5\n1,20.6\n",
+        "%\nO1234\nN10 G0 X0\nN20 M3 S3000\n%\n",
+        "% made by a script\n0.0 20.5\n1.0 20.6\n",
+        "T1=20.5 n=3000\nT1=20.6 n=3000\n",
+        "",
+    ],
+)
+def test_other_texts_are_none_of_them(text: str) -> None:
+    assert foreign_text(text.splitlines()) is None

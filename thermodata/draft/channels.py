@@ -1,0 +1,121 @@
+"""The channels of one source as a draft has them: what each signal is, from all files that have it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence, Set
+from dataclasses import replace
+
+from thermodata.draft.guess import called, guess
+from thermodata.draft.jumps import JumpTest
+from thermodata.draft.naming import channel_name
+from thermodata.draft.one_signal import OneSignal, joined_over_units
+from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
+from thermodata.draft.other_units import unit_question
+from thermodata.draft.own_scale import scale_note
+from thermodata.draft.parts import DraftChannel, DraftJump
+from thermodata.draft.quantity import Guess
+from thermodata.draft.same_probe import own_name
+from thermodata.draft.sources import Group
+from thermodata.draft.units import rate_at_end
+from thermodata.draft.values import Values, joined
+from thermodata.reader.text import split_unit
+from thermodata.reader.text.long_rows import VALUE_WORDS
+from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
+
+_MOST_SIGNALS = 2000
+_SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
+
+
+def channels_of(
+    group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], taken: set[str], calibrations: list[DraftJump]
+) -> tuple[list[DraftChannel], list[str]]:
+    """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
+    which a jump test may have under another head."""
+    found = [
+        one
+        for one in joined_over_units(group.signals)
+        if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
+    ]
+    more = len(found) - _MOST_SIGNALS
+    notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
+    twice = {
+        n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
+    }
+    made, seen = [], set()
+    streams = {one.signal.stream for one in found}
+    for one in found[:_MOST_SIGNALS]:
+        signal = one.signal
+        if signal.name in seen and signal.name not in twice:
+            continue  # the same signal, in a stream of another name
+        seen.add(signal.name)
+        said, note = _said(one)
+        keys = [(s.stream, s.name) for s in one.spellings]
+        twin = signal.name in twice
+        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
+        if jump is not None and said.quantity == "voltage":
+            said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
+        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
+        name = channel_name(_wished(called(signal), said), taken)
+        calibration = None
+        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
+        if said.quantity == "displacement" and in_volts:
+            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
+            calibration, said = sign_of(name, signal, said, jump, calibrations)
+        own = {id(f) for f in one.files}
+        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
+        only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
+        lacking = tuple(t for t in group.tests if t not in having) if only else ()
+        stream = signal.stream if len(streams) > 1 else None
+        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
+        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
+    return made, notes
+
+
+def _said(one: OneSignal) -> tuple[Guess, str | None]:
+    """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
+    they call it beside its name."""
+    values, signal = None, one.signal
+    units: Counter[str | None] = Counter()
+    words: Counter[str] = Counter()
+    seen: dict[str, Values | None] = {}
+    for f in one.files:
+        own = one.of(f) or signal
+        seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, seen[str(f.path)])
+        units[own.unit] += 1
+        words[own.properties.get("description", "")] += 1
+    note = f"called '{next(iter(words))}' in the file" if len(words) == 1 and "" not in words else None
+    # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
+    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    if len(units) > 1 and said.quantity:
+        names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
+        asked = f"unit: the files disagree: {names}; each file's own is taken"
+        return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
+    questions = [unit_question(said.quantity, seen) if None in units else None]
+    if len(words) > 1 and said.quantity:
+        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in words.most_common())
+        questions.append(f"the same in all tests? the files call it {names}")
+    if asked_of := [q for q in questions if q]:
+        said = replace(said, sure=False, questions=(*said.questions, *asked_of))
+    return said, note
+
+
+def _wished(signal: str, said: Guess) -> str:
+    """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
+    bare = rate_at_end(split_unit(signal)[0])[0]
+    parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
+    last = parts[-1]
+    if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
+        last = "_".join(parts[-2:])
+    if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
+        last = split_unit(parts[-2])[0]
+    foreign = sum(ord(c) > 0x2FF for c in bare)
+    if foreign and said.at and said.quantity in CANONICAL_UNIT:
+        where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
+        tail = "".join(c for c in bare if c.isascii() and c.isdigit())
+        return "_".join(
+            filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
+        )
+    return last

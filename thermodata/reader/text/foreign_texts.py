@@ -1,0 +1,70 @@
+"""Texts that programs write, and that hold no table of cells whatever is declared: what they are, and what to do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.errors import FormatError
+
+# a measurement with its tags, its fields, and a time in nanoseconds or the like
+_LINE_PROTOCOL = re.compile(
+    r"(?:[^\s,=\\]|\\.)+(?:,(?:[^\s,=\\]|\\.)+=(?:[^\s,=\\]|\\.)+)*"
+    r" (?:[^\s,=\\]|\\.)+=(?:\"[^\"]*\"|[^\s,]+)(?:,(?:[^\s,=\\]|\\.)+=(?:\"[^\"]*\"|[^\s,]+))*(?: -?\d+)?"
+)
+_LOOKED_AT = 20
+_FEWEST = 2
+
+
+def foreign_text(lines: Sequence[str]) -> tuple[str, str] | None:
+    """(what a text is, what to do with it) by its first lines; None where it may hold a table."""
+    full = [bare for line in lines[: 2 * _LOOKED_AT] if (bare := line.strip().strip("\ufeff").strip())][:_LOOKED_AT]
+    if not full:
+        return None
+    return next(((what, do) for is_one, what, do in _KNOWN if is_one(full)), None)
+
+
+def refuse_foreign(lines: Sequence[str], where: str) -> None:
+    """FormatError where a text is one of them."""
+    known = foreign_text(lines)
+    if known is not None:
+        what, do = known
+        first = next(line for line in lines if line.strip())
+        raise FormatError(f"{what}, no table", where=where, expected="a table", got=first.strip()[:60], hint=do)
+
+
+def _is_line_protocol(lines: Sequence[str]) -> bool:
+    points = [line for line in lines if not line.startswith("#")][:-1] or lines  # the last one may be cut
+    return len(points) >= _FEWEST and all(map(_LINE_PROTOCOL.fullmatch, points))
+
+
+def _is_print_of_a_macro(lines: Sequence[str]) -> bool:
+    """Whether a control printed it from a program, from % to %, with a letter before each number; a program is none."""
+    rows = [line for line in lines[1:] if line != "%"]
+    words = [re.findall(r"(?:^|\s)[A-Z]{1,4} ?[+-]?\d[\d.]*", row) for row in rows]
+    cut = any(re.search(r"[,;\t|]|^[ON]\d|\b[GM]\d", row) for row in rows)
+    return lines[0] == "%" and bool(rows) and not cut and all(words)
+
+
+def _is_header_of_diadem(lines: Sequence[str]) -> bool:
+    return lines[0].startswith("DIAEXTENDED")
+
+
+_KNOWN = (
+    (
+        _is_line_protocol,
+        "InfluxDB's line protocol",
+        "export it as CSV: influx query --raw, or the data explorer's CSV",
+    ),
+    (
+        _is_print_of_a_macro,
+        "the print of a macro (DPRNT)",
+        "print a line of names first, and the numbers with commas between them and no letters before them; in what is "
+        "printed already, replace the blanks and letters so",
+    ),
+    (
+        _is_header_of_diadem,
+        "the header of a DIAdem data set, whose values stand in a binary file beside it (.R64, .I16, ...)",
+        "save the data set in DIAdem as TDMS, or export it as CSV",
+    ),
+)
