@@ -95,3 +95,23 @@ def test_steps_that_are_not_listed_are_counted(tmp_path: Path, many: int, shown:
     (jump,) = draft_files(tmp_path).draft.jumps
     assert len(jump.seen) == many
     assert jump.question.endswith(f"{jump.seen[11]:+g}{shown} V")
+
+
+def test_two_probes_along_one_axis_have_a_jump_test_each(tmp_path: Path) -> None:
+    """Both answer whenever the axis moves, the upper one more: each file is of the probe that it is called after."""
+    for k in range(3):
+        columns = {n: (warm(2000, 5, 0.1, 0.3, k), "V") for n in ("Probe Y", "Probe Y oben", "Probe Z")}
+        tdms(tmp_path / f"m{k}.tdms", {"Slow": columns}, START, 10)
+    still = 5 + np.random.default_rng(0).normal(0, 0.002, len(volts()))
+    moved = {"Probe Y": (volts(), "V"), "Probe Y oben": (volts(70.0), "V"), "Probe Z": (still, "V")}
+    for called in ("d2", "dY"):
+        tdms(tmp_path / f"jump_{called}.tdms", {"Slow": moved}, START, 0.05)
+    rest = dict.fromkeys(("Probe Y", "Probe Y oben"), (still, "V"))
+    tdms(tmp_path / "jump_dZ.tdms", {"Slow": {**rest, "Probe Z": (volts(), "V")}}, START, 0.05)
+    draft = draft_files(tmp_path).draft
+    assert {j.signal: Path(j.file).stem for j in draft.jumps} == {
+        "Slow/Probe Y": "jump_dY",
+        "Slow/Probe Y oben": "jump_d2",
+        "Slow/Probe Z": "jump_dZ",
+    }
+    assert not draft.not_used

@@ -6,9 +6,10 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import replace
 
+from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import called, guess
 from thermodata.draft.jumps import JumpTest
-from thermodata.draft.naming import channel_name
+from thermodata.draft.naming import channel_name, words
 from thermodata.draft.one_signal import OneSignal, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
 from thermodata.draft.other_units import unit_question
@@ -54,7 +55,7 @@ def channels_of(
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
         if jump is not None and said.quantity == "voltage":
-            said = Guess("displacement", said.unit, "tcp", None, False, ("data",), ("axis?",))
+            said = _moved_probe(said, called(signal))
         named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
         name = channel_name(_wished(called(signal), said), taken)
         calibration = None
@@ -71,6 +72,13 @@ def channels_of(
         note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     return made, notes
+
+
+def _moved_probe(said: Guess, name: str) -> Guess:
+    """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
+    letter = (axis_of(words(name.rsplit("/", 1)[-1])) or "").upper()
+    axis = letter if letter in ("X", "Y", "Z") else None
+    return Guess("displacement", said.unit, "tcp", axis, False, ("data",), () if axis else ("axis?",))
 
 
 def _said(one: OneSignal) -> tuple[Guess, str | None]:

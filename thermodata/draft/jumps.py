@@ -5,6 +5,7 @@ Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -23,13 +24,15 @@ NAMED = (
 )
 _LONGEST_S = 3600.0
 _MOST_STEPS, _LEAST_STEPS = 40, 2
+_ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
 
 
 @dataclass(frozen=True, slots=True)
 class JumpTest:
     """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
     the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too. source: that reads
-    it; written: what its own file calls the probe, where the tests call it otherwise."""
+    it; written: what its own file calls the probe, where the tests call it otherwise. others: probes that moved nearly
+    as far, as a second one along the axis does, with their steps and dwell."""
 
     file: RawFile
     signal: tuple[str, str] | None
@@ -38,6 +41,7 @@ class JumpTest:
     named: bool
     source: str = ""
     written: str | None = None
+    others: tuple[tuple[tuple[str, str], tuple[Step, ...], float], ...] = ()
 
     def is_of(self, stream: str, name: str) -> bool:
         """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""
@@ -50,7 +54,7 @@ def jump_of(file: RawFile) -> JumpTest | None:
     """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with
     signal None: a person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
-    best: JumpTest | None = None
+    moved: list[tuple[tuple[str, str], tuple[Step, ...], float]] = []
     probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
     stirred = _others_move(file, set(probes))
     for key, _ in probes.items():
@@ -58,13 +62,19 @@ def jump_of(file: RawFile) -> JumpTest | None:
         found = staircase(course) if course is not None else None
         if found is None or (stirred and not named):
             continue
-        steps, dwell = found
-        height = max(abs(s.size) for s in steps)
-        if best is None or height > max(abs(s.size) for s in best.steps):
-            best = JumpTest(file, key, steps, dwell, named)
-    if best is None and named and probes and not stirred and _is_short(file):
+        moved.append((key, *found))
+    if moved:
+        signal, steps, dwell = max(moved, key=lambda m: height(m[1]))
+        far = [m for m in moved if m[0] != signal and height(m[1]) > _ALONG * height(steps)]
+        return JumpTest(file, signal, steps, dwell, named, others=tuple(far))
+    if named and probes and not stirred and _is_short(file):
         return JumpTest(file, None, (), 10.0, True)
-    return best
+    return None
+
+
+def height(steps: Sequence[Step]) -> float:
+    """Of the largest step."""
+    return max(abs(float(s.size)) for s in steps)
 
 
 def _is_short(file: RawFile) -> bool:

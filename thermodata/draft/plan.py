@@ -24,6 +24,7 @@ from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
+from thermodata.draft.twin_probes import each_its_own
 from thermodata.draft.warm import warm_starts
 
 
@@ -37,7 +38,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
         )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
-    jumps = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
+    recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
+    jumps = each_its_own(recorded)
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
     of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
     taken: set[str] = set()

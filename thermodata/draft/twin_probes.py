@@ -1,0 +1,34 @@
+"""Several probes along one axis: each jump test moves all of them, and each probe has one of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from thermodata.draft.jumps import JumpTest
+from thermodata.draft.naming import words
+
+
+def each_its_own(jumps: Sequence[JumpTest]) -> list[JumpTest]:
+    """The jump tests in their order. Where two are of the probe that moved most, and another that moved with it has
+    none, the one whose file is called more like that is its."""
+    made = list(jumps)
+    for probe in dict.fromkeys(j.signal for j in jumps if j.signal is not None):
+        same = [i for i, j in enumerate(made) if j.signal == probe]
+        for name, steps, dwell in [o for i in same for o in made[i].others]:
+            if len(same) < 2 or any(j.signal == name for j in made):
+                continue
+            of = [i for i in same if any(o[0] == name for o in made[i].others)]
+            if not of:
+                continue
+            best = max(of, key=lambda i: _alike(made[i], name) - _alike(made[i], probe))
+            steps, dwell = next((s, d) for n, s, d in made[best].others if n == name)
+            made[best] = replace(made[best], signal=name, steps=steps, dwell_s=dwell)
+            same.remove(best)
+    return made
+
+
+def _alike(jump: JumpTest, signal: tuple[str, str]) -> float:
+    """The share of the words of a signal's name that stand in the name of the jump test's file."""
+    own, there = set(words(signal[1]).split()), set(words(jump.file.path.stem).split())
+    return len(own & there) / max(len(own), 1)
