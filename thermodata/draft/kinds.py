@@ -24,7 +24,7 @@ _KINDS: tuple[tuple[str, str], ...] = (
     ("spectrum", "spectrum spektrum spec. spektr espectro spectre. spettro 谱 转速谱 drehzahlspektrum stufenprogramm"),
     (
         "cutting",
-        "^cut. cutting ^fras ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado usinag "
+        "^cut. cutting ^fras ^fraes ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado usinag "
         "coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning skarande "
         "fresning talasli frezeleme resanie",
     ),
@@ -59,6 +59,7 @@ _FLUIDS = (
     "fluid. fluids. fluide. fluides. fluidi. ^kuhl ^kuehl kss. coolant. cooling. ^pump. pumps. ^pumpe pompa. pompe. "
     "^hydraul ^idraul emuls ^refriger arrosage. ^lubri ^schmier ^chlaz ^chlad ^cerpadl kapalin 冷却 液压 taladrina "
     "^enfria "
+    "nebenaggregat hilfsaggregat ausiliari. auxiliar auxiliaires. auxiliares. aux. "
     "chiller chillers ^refroid ^raffredd chlodz koelvloei koeling kylvatska kylare skarvatsk sogut fluido~de~corte "
     "liquide~de~coupe fluide~de~coupe fluido~da~taglio fluido~di~taglio liquido~de~corte cutting~fluid"
 )

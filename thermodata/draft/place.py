@@ -205,8 +205,10 @@ def _speed(said: set[str], axis: str | None) -> Place:
         return Place("table", True)
     if axis == "c":
         return Place("table", question="at: table, or rotary.c of a head?")
-    if axis and axis in "ab":
-        return Place(f"rotary.{axis}", question=f"at: rotary.{axis} or table?")
+    if axis == "b":
+        return Place("rotary.b", question="at: rotary.b or table?")
+    if axis == "a":
+        return Place("rotary.a")  # it tilts: what turns about a vertical axis is the table
     if axis:
         return Place(f"axis.{axis}.motor")
     return Place("spindle")
