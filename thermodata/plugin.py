@@ -83,13 +83,16 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """What a file holds, read without its bulk. complete: None where the format cannot tell."""
+    """What a file holds, read without its bulk. complete: None where the format cannot tell. of_day_ns: of a relative
+    clock whose file has times of day without a date, that of its first row: so parts of a recording tell their pauses.
+    """
 
     signals: tuple[Signal, ...]
     clock: Literal["absolute", "relative"]
     start_ns: int | None = None
     complete: bool | None = None
     notes: tuple[str, ...] = ()
+    of_day_ns: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,6 +32,7 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     """
     from thermodata.draft.answer import as_json
     from thermodata.draft.make import draft_files
+    from thermodata.draft.write import one_line
 
     made = draft_files(folder, force=force, progress=_progress(session))
     for before, after in made.kept:
@@ -49,8 +50,9 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
         session.say(f"{whose.format(folder)}: the draft names them, and what would help")
     elif draft.unused:
         more = f" and {len(draft.unused) - _SAID} more" if len(draft.unused) > _SAID else ""
+        named = ", ".join(one_line(path) for path in draft.unused[:_SAID])
         session.say(
-            f"{len(draft.unused)} of {made.seen} files are not used ({', '.join(draft.unused[:_SAID])}{more}): the end "
+            f"{len(draft.unused)} of {made.seen} files are not used ({named}{more}): the end "
             f"of {made.campaign.name} says why"
         )
     session.say(

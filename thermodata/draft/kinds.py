@@ -24,9 +24,9 @@ _KINDS: tuple[tuple[str, str], ...] = (
     ("spectrum", "spectrum spektrum spec. spektr espectro spectre. spettro 谱 转速谱 drehzahlspektrum stufenprogramm"),
     (
         "cutting",
-        "^cut. cutting ^fras ^fraes ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado usinag "
-        "coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning skarande "
-        "fresning talasli frezeleme resanie",
+        "^cut. cutting ^fras ^fraes ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado "
+        "usinag coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning "
+        "skarande fresning talasli frezeleme resanie",
     ),
     ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
     (

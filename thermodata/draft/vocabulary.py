@@ -120,7 +120,8 @@ _PLACE_WORDS: dict[str, str] = {
     "crossbeam": "crossbeam querbalken querbal traverse. ^pricni 横梁 gantry. cross~rail crossrail beam. portal.",
     "tool": "tool. werkzeug nastroj 刀具 刀柄 toolholder",
     "workpiece": "workpiece werkstuck werkstueck obrobek obrobku 工件 part~temp wkp.",
-    "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter tasterhalter messhalter sondenhalter halter~messtaster halter~sonde "
+    "fixture": "fixture vorrichtung pripravek pripravku 夹具 halterung drzak. sensorhalter tasterhalter "
+    "messhalter sondenhalter halter~messtaster halter~sonde "
     "probe~bracket probes~bracket probe~holder probes~holder probe~mount probe~nest probe~support probe~stand "
     "sensor~bracket sensor~holder sensor~mount bracket~of~probe bracket~of~probes bracket~probe bracket~probes",
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",

@@ -51,14 +51,17 @@ def describe(table: Table, source: Source) -> Recording:
             hint="declare one time: table: {time: {column: ...}}, and a second source for the others",
         )
     notes = list(table.notes)
-    start = None
-    if table.absolute:
+    start = of_day = None
+    if table.absolute or any(timed.of_day for timed in table.groups):
         reader = RowReader(table, source, 1)
         first = table.layout.first
         data = "\n".join((*table.sample.head[first : first + _FIRST_ROWS], "")).encode()
         starts = [int(b.t_ns[0]) for b in reader.read(Chunk(data, first, 0, False)) if isinstance(b, Block)]
-        start = min(starts, default=0)
-        notes += _zone_notes(table, source, start)
+        if table.absolute:
+            start = min(starts, default=0)
+            notes += _zone_notes(table, source, start)
+        elif len(reader.clocks) == 1:
+            of_day = reader.clocks[0].days.first_ns
     notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
@@ -70,6 +73,7 @@ def describe(table: Table, source: Source) -> Recording:
         start,
         False if table.cut else None,
         tuple(dict.fromkeys(notes)),
+        of_day,
     )
 
 

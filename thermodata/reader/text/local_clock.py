@@ -63,6 +63,11 @@ class DayCount:
     def note(cls, cycle_ns: int) -> str:
         return cls.NOTE if cycle_ns == _DAY else cls.NOTE_MINUTES
 
+    @property
+    def first_ns(self) -> int | None:
+        """The time of day that is counted from; None before there is one, and of minutes and seconds."""
+        return self._first if self._cycle == _DAY else None
+
     def relative(self, of_day_ns: Int1D) -> Int1D:
         """Nanoseconds since the first of all, shape (n,); NAT stays."""
         good = of_day_ns != NAT

@@ -28,7 +28,8 @@ class RawStream:
     path: relative to the store. columns: signal name -> column of the Parquet file. first_ns, last_ns: the smallest and
     the largest recorded time. ordered: whether no row is earlier than the one before it (None: nobody looked).
     newest_first: the rows stand from the last to the first; what reads them turns them round.
-    unordered: the reader says that rows need not stand in the order of their times.
+    unordered: the reader says that rows need not stand in the order of their times. of_day_ns: the time of day of the
+    first row, where the file has no date.
     """
 
     key: str
@@ -54,6 +55,7 @@ class RawStream:
     ordered: bool | None = None
     newest_first: bool = False
     unordered: bool = False
+    of_day_ns: int | None = None
     # as it was read; a copy that was changed has none
     _told: str | None = field(default=None, init=False, repr=False, compare=False)
 
@@ -90,6 +92,7 @@ class RawStream:
                 **({} if self.ordered is None else {"ordered": self.ordered}),
                 **({"newest_first": True} if self.newest_first else {}),
                 **({"unordered": True} if self.unordered else {}),
+                **({} if self.of_day_ns is None else {"of_day_ns": self.of_day_ns}),
             },
             default=_plain,
             sort_keys=True,
@@ -139,6 +142,7 @@ class RawStream:
             meta.get("ordered"),
             meta.get("newest_first", False),
             meta.get("unordered", False),
+            meta.get("of_day_ns"),
         )
         if "superseded_at" not in meta:
             object.__setattr__(raw, "_told", row["columns"])
@@ -305,4 +309,5 @@ def _finish(
         ordered=writer.ordered,
         newest_first=writer.newest_first,
         unordered=writer.unordered and not writer.ordered,
+        of_day_ns=recording.of_day_ns,
     )

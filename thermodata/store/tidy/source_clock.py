@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import pairwise
@@ -17,6 +18,9 @@ from thermodata.store.tidy.timeline import Timeline, make_timeline
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
 _TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length
+
+DAY_NS = 86_400 * 10**9
+OVERLAP_NS = 600 * 10**9
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,12 +179,12 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
         and any(b.first_ns <= a.last_ns for a, b in pairwise(ordered))
     ):
         ordered = list(raws)
-        notes.append("relative files that overlap: joined end to end in the order of their names")
-        end = None
-        shifts = []
-        for raw in ordered:
-            shifts.append(0 if end is None else end - raw.first_ns)
-            end = shifts[-1] + raw.last_ns + max(raw.step_ns, 1)
+        by_day = _by_times_of_day(ordered)
+        if by_day is None:
+            notes.append("relative files that overlap: joined end to end in the order of their names")
+        else:
+            notes.append("times of day without a date in several files: each begins at its own, in the order of names")
+        shifts = _end_to_end(ordered) if by_day is None else by_day
     else:
         shifts = [_start_of(r) for r in ordered]
     first = min(s + r.first_ns for r, s in zip(ordered, shifts, strict=True))
@@ -192,3 +196,31 @@ def build(store: Path, raws: list[RawStream], clock: Clock, *, resets_allowed: b
         resets_allowed=resets_allowed,
         notes=notes,
     )
+
+
+def _end_to_end(raws: Sequence[RawStream]) -> list[int]:
+    """What is added to the times of each, so that it begins a sample after the one before [ns]."""
+    shifts: list[int] = []
+    end = None
+    for raw in raws:
+        shifts.append(0 if end is None else end - raw.first_ns)
+        end = shifts[-1] + raw.last_ns + max(raw.step_ns, 1)
+    return shifts
+
+
+def _by_times_of_day(raws: Sequence[RawStream]) -> list[int] | None:
+    """The same of parts that tell the time of day of their first rows: one that begins before the end of the one before
+    is of the next day. None where one does not tell it, or begins a little before that end: their clock is no one."""
+    shifts: list[int] = []
+    end = 0
+    for raw in raws:
+        if raw.of_day_ns is None:
+            return None
+        begin = raw.of_day_ns - (raws[0].of_day_ns or 0)
+        while begin < end:
+            if end - begin < OVERLAP_NS:
+                return None
+            begin += DAY_NS
+        shifts.append(begin - raw.first_ns)
+        end = begin + raw.last_ns - raw.first_ns
+    return shifts
