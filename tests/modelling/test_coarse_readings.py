@@ -165,3 +165,15 @@ def test_whatever_is_read_nothing_is_further_than_half_a_step(read: list[int], s
     found = smoothest(values, np.full_like(values, half), step)
     assert np.isfinite(found).all()
     assert np.abs(found - values).max() <= half + 1e-9
+
+
+def test_a_value_that_is_held_where_a_log_begins_late_is_no_step() -> None:
+    """Ten minutes before and after it the first and the last reading stand: levels, alike by chance, but no staircase."""
+    tests = []
+    for seed in range(4):
+        test = made(seed, 0.0)
+        held = test.values["T"].copy()
+        held[:10], held[-10:] = held[10], held[10] + 0.6 * (seed + 1)
+        tests.append(replace(test, values={**test.values, "T": held}))
+    assert treads_of(tests) == {}
+    assert treads_of([made(seed, 1.0) for seed in range(4)])["T"] == pytest.approx(1.0)

@@ -41,7 +41,10 @@ def drawn(data: Dataset) -> Dataset:
 def treads_of(tests: Sequence[TestData]) -> dict[str, float]:
     """The step of each temperature that is read in coarse ones [K]."""
     names = {n for t in tests for n, c in t.channels.items() if c.quantity == TEMPERATURE and n in t.values}
-    found = {n: exact_tread_of([t.values[n][_read(t, n)] for t in tests if n in t.values]) for n in sorted(names)}
+    found = {
+        n: exact_tread_of([_without_ends(t.values[n][_read(t, n)]) for t in tests if n in t.values])
+        for n in sorted(names)
+    }
     return {n: tread for n, tread in found.items() if tread >= COARSE_K}
 
 
@@ -62,6 +65,12 @@ def _drawn(test: TestData, treads: Mapping[str, float]) -> TestData:
 def _read(test: TestData, name: str) -> Bool1D:
     """Where a channel was read, shape (n,)."""
     return np.isfinite(test.values[name]) & test.valid.get(name, np.ones(len(test.t_s), dtype=np.bool_))
+
+
+def _without_ends(x: Float1D) -> Float1D:
+    """Without what stands at both ends: where a log begins later than the test, its first value stands before it."""
+    moved = np.flatnonzero(np.diff(x))
+    return x[moved[0] : moved[-1] + 2] if len(moved) else x
 
 
 def said(data: Dataset, names: Collection[str]) -> list[str]:
