@@ -168,12 +168,14 @@ def test_whatever_is_read_nothing_is_further_than_half_a_step(read: list[int], s
 
 
 def test_a_value_that_is_held_where_a_log_begins_late_is_no_step() -> None:
-    """Ten minutes before and after it the first and the last reading stand: levels, alike by chance, but no staircase."""
+    """Before and after it the first and the last reading stand: levels, alike by chance, but no staircase."""
     tests = []
     for seed in range(4):
         test = made(seed, 0.0)
         held = test.values["T"].copy()
-        held[:10], held[-10:] = held[10], held[10] + 0.6 * (seed + 1)
-        tests.append(replace(test, values={**test.values, "T": held}))
+        held[:10], held[390:400] = held[10], held[10] + 0.6 * (seed + 1)
+        short = {n: x[:400] for n, x in {**test.values, "T": held}.items()}
+        valid = {n: x[:400] for n, x in test.valid.items()}
+        tests.append(replace(test, t_s=T_S[:400], values=short, valid=valid, in_window=test.in_window[:400]))
     assert treads_of(tests) == {}
     assert treads_of([made(seed, 1.0) for seed in range(4)])["T"] == pytest.approx(1.0)
