@@ -172,10 +172,9 @@ def test_a_value_that_is_held_where_a_log_begins_late_is_no_step() -> None:
     tests = []
     for seed in range(4):
         test = made(seed, 0.0)
-        held = test.values["T"].copy()
-        held[:10], held[390:400] = held[10], held[10] + 0.6 * (seed + 1)
-        short = {n: x[:400] for n, x in {**test.values, "T": held}.items()}
-        valid = {n: x[:400] for n, x in test.valid.items()}
-        tests.append(replace(test, t_s=T_S[:400], values=short, valid=valid, in_window=test.in_window[:400]))
+        short = {n: x[200:].copy() for n, x in test.values.items()}
+        short["T"][:10], short["T"][-10:] = short["T"][10], short["T"][10] + 0.6 * (seed + 1)
+        valid = {n: x[200:] for n, x in test.valid.items()}
+        tests.append(replace(test, t_s=T_S[:-200], values=short, valid=valid, in_window=test.in_window[200:]))
     assert treads_of(tests) == {}
     assert treads_of([made(seed, 1.0) for seed in range(4)])["T"] == pytest.approx(1.0)
