@@ -60,6 +60,7 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
     if late.source is not None:
         which = f"the choice is made with '{late.source}' moved by {late.shift_s / 60:+.0f} min"
     by = "as they do in the other tests" if of.test else "in tests left out"
+    where = f"clocks: {{{late.source or of.by}: ...}} at the test" if of.test else "clock: {offset: ...} at the source"
     return Artefact(
         kind="clock_offset",
         campaign=of.campaign or campaign,
@@ -69,7 +70,7 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
         why=f"{of.telling} temperatures of source '{of.warmed}' follow the commands of source '{of.by}' best with "
         f"these moved by {of.shift_s / 60:+.0f} min (give or take {known_to:.0f}): {of.share:.0%} of their squared "
         f"rises are foretold {by}, unmoved {max(of.unmoved, 0.0):.0%}. So {which}; check the time zone "
-        "and the clocks, or declare clock: {offset: ...}",
+        f"and the clocks, or declare what holds: {where}",
     )
 
 

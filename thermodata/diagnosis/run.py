@@ -14,6 +14,7 @@ from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import confirm
 from thermodata.diagnosis.copies import copies
+from thermodata.diagnosis.ends_of_logs import odd_ends
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.diagnosis.sound import sound
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 45
+RULES_VERSION = 46
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -66,12 +67,14 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
         return Diagnosis.model_validate_json(kept)
     with watched(tell):
         outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left)
+    faults = [*outcome.diagnosis.artefacts, *odd_ends(store, model, outcome.diagnosis.artefacts)]
+    found = outcome.diagnosis.model_copy(update={"artefacts": faults})
     if outcome.locked:
         why = f"confirming {', '.join(outcome.asked)}"
         count_locked_look(store, model.identity, [t.key for t in outcome.locked], why)
-    save_diagnosis(store, model.identity, outcome.diagnosis)
-    keep_answer(store, model.identity, "diagnose", key, outcome.diagnosis.model_dump_json())
-    return outcome.diagnosis
+    save_diagnosis(store, model.identity, found)
+    keep_answer(store, model.identity, "diagnose", key, found.model_dump_json())
+    return found
 
 
 def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confirmed, bool]:

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.clocks import as_artefact, timings, with_clocks_right
+from thermodata.diagnosis.clocks_by_heat import Late, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
-from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.problem import TARGET_ROWS
@@ -20,7 +20,7 @@ from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +64,34 @@ def sound(
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """What the campaign file says of clocks is somebody's word, and stays. of_all: sources in all tests; in_one: the
+    same by test; home: the source of the response."""
+
+    of_all: frozenset[str]
+    in_one: Mapping[tuple[str, str], frozenset[str]]
+    home: str | None
+
+    @classmethod
+    def of(cls, data: Dataset, response: str) -> Declared:
+        def sources(channels: Mapping[str, ChannelInfo]) -> frozenset[str]:
+            return frozenset(c.source for c in channels.values() if c.clock_declared and c.source)
+
+        in_one = {t.key: sources(t.channels) for t in data.tests}
+        return cls(sources(data.channels), in_one, data.channels[response].source)
+
+    def of_clock(self, campaign: str, test: str) -> frozenset[str]:
+        """Sources whose clock is declared there; test '': in all tests."""
+        return self.of_all if not test else self.of_all | self.in_one.get((campaign, test), frozenset())
+
+    def settles(self, late: Late) -> bool:
+        """Whether it would move a clock that is declared, or one beside the response's, which the others go by."""
+        declared = self.of_clock(late.of.campaign, late.of.test)
+        both = {late.of.warmed, late.of.by}
+        return late.source in declared or (bool(declared) and both <= declared | {self.home})
+
+
 def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) -> Sound:
     """As it is fitted where there are no tests."""
     spec = on_all_open(fitted.spec, tests, fitted.tests(data, "locked"))
@@ -75,10 +103,8 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     response, keys = found.fitted.responses[index], {t.key for t in found.tests}
     problem = compressed(response, found.data, found.tests, TARGET_ROWS)
     known = timings(problem, found.data.channels)
-    # what the campaign file says of a clock is somebody's word, and stays
-    declared = {c.source for c in found.data.channels.values() if c.clock_declared and c.source}
-    settled = declared | {found.data.channels[response.name].source} if declared else declared
-    off = [t for t in known.off if t.source not in declared]
+    word = Declared.of(found.data, response.name)
+    off = [t for t in known.off if t.source not in word.of_clock(t.campaign, t.test)]
     clocks = [ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in off]
     faults = [as_artefact(t, problem) for t in off]
 
@@ -88,7 +114,7 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     late = late_logs(logs, known.told)
     if not late and all(c.test for c in clocks):  # of a log that was moved in all tests the ends are not known
         late = late_in_one(logs, known.told_in_one)
-    late = [one for one in late if one.source not in declared and not {one.of.warmed, one.of.by} <= settled]
+    late = [one for one in late if not word.settles(one)]
     faults += [by_heat(one, tests[0].campaign) for one in late]
     clocks += [
         ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)

@@ -132,6 +132,13 @@ class SourceSpec(Strict):
         """Whether each test is a sheet of one workbook."""
         return self.table is not None and "{test}" in str(self.table.sheet)
 
+    def with_clock(self, offset_s: float | None) -> SourceSpec:
+        """The source as a test has it in which its clock was off by itself; None: in which it was as ever."""
+        if offset_s is None:
+            return self
+        clock = self.clock.model_copy(update={"offset": offset_s, "align_to": None, "by": [], "events": []})
+        return self.model_copy(update={"clock": clock})
+
     def of_test(self, test: str) -> SourceSpec:
         """The source as one test has it: the sheet with the test's name."""
         if self.table is None or not self.sheet_a_test:

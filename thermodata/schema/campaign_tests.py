@@ -96,6 +96,8 @@ class Test(Strict):
     machine: attributes of `machine` that differ in this test
     channels: channels that differ in this test
     files: files of a source, where its pattern does not give them
+    clocks: of a source whose clock was off in this test, what is added to its times there [s], in place of the offset
+        or alignment that the source has: cn: -2400 s
     start: date and time at which a recording without dates began, local to its source's timezone: 2026-03-02 08:00
     window: [from, to]: the test is this part of a longer recording
     history: recording: lags run from the recording's start; test: from the window's
@@ -117,6 +119,7 @@ class Test(Strict):
     machine: dict[str, Any] = {}
     channels: dict[str, ChannelOverride] = {}
     files: dict[str, str | list[str]] = {}
+    clocks: dict[str, Seconds] = Field(default={}, exclude_if=lambda clocks: not clocks)
     start: Annotated[str | None, BeforeValidator(date_and_time)] = Field(
         default=None, exclude_if=lambda start: start is None
     )

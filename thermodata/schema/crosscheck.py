@@ -140,6 +140,8 @@ def _tests(campaign: Campaign, document: Document) -> None:
             _known("source", source, campaign.sources, document, ("tests", i, "files", source))
             for text in [files] if isinstance(files, str) else files:
                 inside(text, document, ("tests", i, "files", source))
+        for source in test.clocks:
+            _known("source", source, campaign.sources, document, ("tests", i, "clocks", source))
         for channel in test.channels:
             _known("channel", channel, campaign.channels, document, ("tests", i, "channels", channel))
         if test.repeat_of is not None:

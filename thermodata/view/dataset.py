@@ -17,7 +17,7 @@ class ChannelInfo:
 
     lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
-    whether the campaign file says how its source's clock stands.
+    whether the campaign file says how its source's clock stands (of a dataset: in all tests).
     """
 
     name: str

@@ -91,7 +91,7 @@ def channel_infos(
             source,
             sign,
             _resolution(resolution, unit, raw_unit),
-            clock_declared=(campaign, source) in declared,
+            clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
         )
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:
@@ -100,15 +100,20 @@ def channel_infos(
     return infos
 
 
-def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str]]:
-    """(campaign, source), where the campaign file gives the offset of a clock, or what it is aligned to."""
+def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:
+    """(campaign, test, source), where the campaign file gives the offset of a clock, or what it is aligned to; test '':
+    in all of them."""
     rows = con.execute("select campaign, spec from campaign where list_contains(?, campaign)", [list(campaigns)])
-    return {
-        (campaign, name)
-        for campaign, spec in rows.fetchall()
-        for name, source in _json(_json(spec).get("sources")).items()
-        if any(_json(_json(source).get("clock")).get(key) is not None for key in ("offset", "align_to"))
-    }
+    found: set[tuple[str, str, str]] = set()
+    for campaign, text in rows.fetchall():
+        spec = _json(text)
+        for name, source in _json(spec.get("sources")).items():
+            clock = _json(_json(source).get("clock"))
+            if clock.get("offset") is not None or clock.get("align_to") is not None:
+                found.add((campaign, "", name))
+        for test in spec.get("tests") or ():
+            found |= {(campaign, test["id"], name) for name in _json(test.get("clocks"))}
+    return found
 
 
 def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:

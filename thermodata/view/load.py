@@ -73,7 +73,9 @@ def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
         failed = [info.faulty for info in infos if info.faulty is not None]
         sound = len(infos) - len(failed)
         mostly = sound >= LEAST_SOUND and len(failed) <= MOST_FAILED * len(infos)
-        union[name] = replace(infos[0], faulty=None if mostly or not failed else failed[0])
+        declared = all(info.clock_declared for info in infos)
+        faulty = None if mostly or not failed else failed[0]
+        union[name] = replace(infos[0], faulty=faulty, clock_declared=declared)
     return union
 
 

@@ -28,8 +28,29 @@ class _Ends:
     last: float
 
 
-def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[str]:
-    """Sentences for the summary of an ingest. rows: test -> its rows of the table `source`."""
+@dataclass(frozen=True, slots=True)
+class OddClock:
+    """A test in which the source `late` stands shift_s (> 0) later beside `early` than in the others."""
+
+    test: str
+    late: str
+    early: str
+    shift_s: float
+    others: int
+
+    def __str__(self) -> str:
+        minutes = self.shift_s / 60
+        late, early = f"{self.late}: {-self.shift_s:.0f} s", f"{self.early}: {self.shift_s:.0f} s"
+        return (
+            f"test '{self.test}': source '{self.late}' begins and ends {minutes:.3g} min later beside '{self.early}' "
+            f"than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? try at "
+            f"this test clocks: {{{late}}} or clocks: {{{early}}}; at the source clock: {{align_to: ..., by: [...]}}, "
+            "which estimates the offset of each test from what both logged"
+        )
+
+
+def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock]:
+    """As sentences for the summary of an ingest. rows: test -> its rows of the table `source`."""
     ends = {test: _ends(of_test) for test, of_test in rows.items()}
     sources = sorted({source for of_test in ends.values() for source in of_test})
     found = []
@@ -42,7 +63,8 @@ def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[str]:
         )
         if (odd := _odd(apart)) is not None:
             place, shift_s = odd
-            found.append(_said(tests[place], one, other, shift_s, len(tests) - 1))
+            late, early = (one, other) if shift_s > 0 else (other, one)
+            found.append(OddClock(tests[place], late, early, abs(shift_s), len(tests) - 1))
     return found
 
 
@@ -65,14 +87,3 @@ def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:
             first = row["start_ns"] / 1e9
             found[row["source"]].append(_Ends(first, first + row["step_s"] * (row["rows"] - 1)))
     return {s: _Ends(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
-
-
-def _said(test: str, one: str, other: str, shift_s: float, others: int) -> str:
-    late, early = (one, other) if shift_s > 0 else (other, one)
-    minutes = abs(shift_s) / 60
-    return (
-        f"test '{test}': source '{late}' begins and ends {minutes:.3g} min later beside '{early}' than in the {others} "
-        "other tests, in which both ends agree: was a clock set wrongly? try: clock: {align_to: ..., by: [...]}, which "
-        "estimates the offset of each test from what both logged, or a source of its own for the files of this test, "
-        f"with clock: {{offset: {-abs(shift_s):.0f} s}} for '{late}' or {{offset: {abs(shift_s):.0f} s}} for '{early}'"
-    )

@@ -87,7 +87,7 @@ class RawIngest:
         self._test, self.said[test.id] = test.id, Said()
         plan = TestPlan(self.files.campaign, test)
         for name, spec in self.files.campaign.sources.items():
-            plan.sources[name] = self._source(test, name, spec.of_test(test.id))
+            plan.sources[name] = self._source(test, name, spec.of_test(test.id).with_clock(test.clocks.get(name)))
         missing = [n for n, s in plan.sources.items() if not s.raws]
         if len(missing) == len(plan.sources):
             self.losses.append(loss_row("no data: no file of any source was found or could be read", test=test.id))

@@ -165,7 +165,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         notes=list(
             dict.fromkeys(
                 same_content(files_of_tests, files.hashes())
-                + odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})
+                + [str(odd) for odd in odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})]
                 + unanswered(campaign)
                 + said
             )

@@ -28,7 +28,8 @@ def read_series(con: duckdb.DuckDBPyConnection, store: Path, campaign: str, test
     spec = read_campaign(con, campaign)
     plan = TestPlan(spec, next(t for t in spec.tests if t.id == test))
     files = fetch(con, "select * from file where campaign = ? and test = ? and layer = 'raw'", [campaign, test])
-    for name, source in spec.sources.items():
+    for name, own in spec.sources.items():
+        source = own.with_clock(plan.test.clocks.get(name))
         raws = [RawStream.from_row(r) for r in files if r["source"] == name]
         # as resolve tells it: a pattern without the test's name gives other tests the same files
         patterns = [source.files] if isinstance(source.files, str) else list(source.files or [])
