@@ -456,11 +456,31 @@ MUTANTS = [
         "preference.py", "better or _is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
     ),
     diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
+    diagnosis(
+        "preference.py", "if not (own.candidate.of_holder or own.candidate.passive)", "if False", "a cut for all"
+    ),
+    diagnosis(
+        "preference.py", "own.candidate.of_holder or own.candidate.passive", "own.candidate.passive", "a bracket cuts"
+    ),
+    diagnosis(
+        "preference.py", "s.candidate.of_holder or s.candidate.passive or s.candidate.around", "False", "air cuts"
+    ),
+    diagnosis(
+        "preference.py", "and s.evidence >= own.evidence\n            and abs", "and abs", "a lesser cut is taken"
+    ),
+    diagnosis(
+        "heat_balance.py", "(shares.max(axis=1) >= TELLS) & usual", "shares.max(axis=1) >= TELLS", "a hall tells"
+    ),
     diagnosis("preference.py", "FORETELLS = 0.9, 0.8", "FORETELLS = 0.9, 0.9", "a twin is taken by a hair"),
     diagnosis("preference.py", "TWIN, FORETELLS = 0.9,", "TWIN, FORETELLS = 0.8,", "what acts otherwise is a twin"),
     diagnosis("preference.py", "and s.evidence >= NAMED_SHARE * own.evidence", "", "an unlikely twin is taken"),
     diagnosis("preference.py", "and s.candidate.kin in kin", "", "a mode of the model takes the place of a cause"),
-    diagnosis("preference.py", "and probability(s) >= probability(own)", "", "a twin that is less probable is taken"),
+    diagnosis(
+        "preference.py",
+        "and probability(s) >= probability(own)\n        and (own",
+        "",
+        "a twin that is less probable is taken",
+    ),
     diagnosis(
         "preference.py", "and (own.candidate.around or not s.candidate.around)", "", "the air stands in for heat"
     ),
