@@ -47,6 +47,7 @@ DIAGNOSIS = {
     "noise_over_s",
     "chance",
     "rmse_um",
+    "fitted_rmse_um",
     "locked_rmse_um",
     "explainable",
     "weak_spots",
