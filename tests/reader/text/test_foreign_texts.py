@@ -54,3 +54,10 @@ def test_such_a_text_is_refused_with_what_to_do(tmp_path: Path, text: str, what:
 )
 def test_other_texts_are_none_of_them(text: str) -> None:
     assert foreign_text(text.splitlines()) is None
+
+
+def test_a_line_of_quotes_has_one_way_to_be_read() -> None:
+    """With two for each of its texts this would take longer than there is time."""
+    line = "m " + ",".join('a="x,b=y"' for _ in range(200))
+    assert foreign_text([line] * 3) is not None
+    assert foreign_text([f"{line} !"] * 3) is None

@@ -16,6 +16,7 @@ _CLOCK = re.compile(
     re.ASCII,
 )
 _IN_LETTERS = re.compile(r"%[HI].*")
+_LONGEST = 100  # letters of a cell that holds a time: no search goes through what somebody pasted there
 Share = Callable[[Sequence[str], TimeFormat], float]
 
 
@@ -49,9 +50,9 @@ def refuse_unread(declared: str, form: TimeFormat, cells: Sequence[str], share: 
 
 def _others(declared: str, cells: Sequence[str]) -> list[str]:
     """Formats of the same date with the times of day that stand in the cells, and what is guessed without it."""
-    date = _IN_LETTERS.sub("", declared).rstrip()
-    tails = [re.sub(r"^.*?(?=\D\d{1,2}:\d{2})", "", c.strip(), count=1) for c in (cells[0], cells[-1])]
-    return [t for t in (*(with_clock(date, tail) for tail in tails), guess_format(cells)) if t is not None]
+    date, short = _IN_LETTERS.sub("", declared).rstrip(), [c.strip() for c in cells if len(c) <= _LONGEST]
+    tails = [re.sub(r"^.*?(?=\D\d{1,2}:\d{2})", "", c, count=1) for c in (*short[:1], *short[-1:])]
+    return [t for t in (*(with_clock(date, tail) for tail in tails), guess_format(short)) if t is not None]
 
 
 def _reads(text: str, cells: Sequence[str], share: Share) -> bool:

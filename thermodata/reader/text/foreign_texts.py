@@ -7,11 +7,10 @@ from collections.abc import Sequence
 
 from thermodata.errors import FormatError
 
-# a measurement with its tags, its fields, and a time in nanoseconds or the like
-_LINE_PROTOCOL = re.compile(
-    r"(?:[^\s,=\\]|\\.)+(?:,(?:[^\s,=\\]|\\.)+=(?:[^\s,=\\]|\\.)+)*"
-    r" (?:[^\s,=\\]|\\.)+=(?:\"[^\"]*\"|[^\s,]+)(?:,(?:[^\s,=\\]|\\.)+=(?:\"[^\"]*\"|[^\s,]+))*(?: -?\d+)?"
-)
+# a measurement with its tags, its fields, and a time in nanoseconds or the like; what begins with a quote is a text and
+# nothing else: were there two ways to read it, a line of n of them would be tried in 2^n ways
+_WORD, _VALUE = r"(?:[^\s,=\\]|\\.)+", r"(?:\"[^\"]*\"|[^\s,\"][^\s,]*)"
+_LINE_PROTOCOL = re.compile(rf"{_WORD}(?:,{_WORD}={_WORD})* {_WORD}={_VALUE}(?:,{_WORD}={_VALUE})*(?: -?\d+)?")
 _LOOKED_AT = 20
 _FEWEST = 2
 
