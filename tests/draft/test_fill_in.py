@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from thermodata.calibration.channel import calibrate
 from thermodata.calibration.static import evaluate_scale
 from thermodata.draft.fill_in import filled_in, questions
 from thermodata.errors import SpecError, UsageError
@@ -117,7 +119,7 @@ def test_the_sign_of_a_displacement_is_one_answer_and_becomes_a_calibration() ->
     campaign = parse_campaign(after)
     assert campaign.channels["Along"].calibration == "sign_z"
     assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain == -1.0
-    assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain_unit == "mm/mm"
+    assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain_unit == "um/um"
     assert evaluate_scale("sign_y", campaign.calibrations["sign_y"]).gain == -1.0
     again = {q.name: q for q in questions(after)}
     assert (again["channels.Along.sign"].value, again["channels.Along.sign"].open) == ("-Z, gap", False)
@@ -134,3 +136,33 @@ def test_a_sign_needs_no_calibrations_before_it() -> None:
     text = without.replace("channels:\n", f"channels:\n{line}   # ? which way does it count?\n")
     campaign = parse_campaign(filled_in(text, {"channels.Along.sign": "-Z, approach"}))
     assert evaluate_scale("sign_z", campaign.calibrations["sign_z"]).gain == 1.0
+
+
+def test_what_a_jump_test_turns_already_is_asked_no_more() -> None:
+    probe = "  Along: {source: nc, signal: dz, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: jump_Z}"
+    text = TEXT.replace("  dZ: {", f"{probe}   # ? which way does it count?\n  dZ: {{")
+    assert "channels.Along.sign" not in {q.name for q in questions(text)}
+
+
+def test_a_name_that_is_taken_is_no_name_for_a_sign() -> None:
+    line = "  Along: {source: nc, signal: dz, quantity: displacement, unit: um, axis: Z, at: tcp}"
+    taken = "".join(
+        f"  {n}: {{kind: scale, axis: Z, gain: 2 um/V, facing: +Z, increases_with: gap}}\n"
+        for n in ("sign_z", "sign_Along")
+    )
+    text = TEXT.replace("  dZ: {", f"{line}   # ? which way does it count?\n  dZ: {{")
+    text = text.replace("calibrations:\n", f"calibrations:\n{taken}")
+    campaign = parse_campaign(filled_in(text, {"channels.Along.sign": "-Z, gap"}))
+    assert campaign.channels["Along"].calibration == "sign_Along_2"
+
+
+@pytest.mark.parametrize(("unit", "reading", "um"), [("um", 30.0, -30.0), ("mm", 0.03, -30.0), ("mil", 1.0, -25.4)])
+def test_a_sign_turns_a_displacement_in_any_length(unit: str, reading: float, um: float) -> None:
+    line = f"  Along: {{source: nc, signal: dz, quantity: displacement, unit: {unit}, axis: Z, at: tcp}}"
+    text = TEXT.replace("  dZ: {", f"{line}   # ? which way does it count?\n  dZ: {{")
+    campaign = parse_campaign(filled_in(text, {"channels.Along.sign": "-Z, gap"}))
+    turned = evaluate_scale("sign_z", campaign.calibrations["sign_z"])
+    channel = campaign.channels["Along"]
+    values, _ = calibrate(np.array([reading]), channel=channel, signal_unit=None, scaling=None, calibrations=[turned])
+    assert values[0] == pytest.approx(um)
+    assert all(c["passed"] for c in turned.checks)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 from thermodata.draft.unread import GUESSED, WHAT, come_to_life, quantity_and_unit, unread
-from thermodata.draft.which_way import ASKED, calibration_for, facing_and_way, its_name, way_of, ways
+from thermodata.draft.which_way import ASKED, calibration_for, facing_and_way, its_name, may_be_asked, way_of, ways
 from thermodata.draft.write import scalar
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Role, TestKind
@@ -108,18 +108,18 @@ def _turned(lines: list[str], document: Document, place: Place, answer: str, new
         return {}
     at, name = document.line[place] - 1, its_name(str(place[1]), facing, {**known, **new})
     lines[at] = set_in_line(lines[at], "calibration", name, place)
-    return {name: calibration_for(channel, facing, way)}
+    return {name: calibration_for(facing[1:], facing, way)}
 
 
 def _with_calibrations(lines: list[str], document: Document, new: Mapping[str, str]) -> list[str]:
-    """The lines with further calibrations after the head of that section; before the tests where there is none."""
+    """The lines with further calibrations after the head of that section; before the channels where there is none."""
     if not new:
         return lines
     added = [f"  {name}: {body}" for name, body in new.items()]
     if isinstance(document.data.get("calibrations"), dict):
         at = document.line["calibrations",]
         return [*lines[:at], *added, *lines[at:]]
-    at = next(i for i, line in enumerate(lines) if re.match(r"channels\s*:", line))
+    at = document.line["channels",] - 1
     return [*lines[:at], "calibrations:", *added, *lines[at:]]
 
 
@@ -135,7 +135,8 @@ def _asked(document: Document, lines: list[str]) -> Iterator[tuple[Place, str]]:
             yield ("channels", name), "quantity"
         if isinstance(channel, dict) and "axis?" in lines[document.line["channels", name] - 1].partition("#")[2]:
             yield ("channels", name), "axis"
-        if isinstance(channel, dict) and ASKED in lines[document.line["channels", name] - 1].partition("#")[2]:
+        asks = ASKED in lines[document.line["channels", name] - 1].partition("#")[2]
+        if asks and isinstance(channel, dict) and may_be_asked(channel, _mapping(data, "calibrations")):
             yield ("channels", name), "sign"
         if isinstance(channel, dict) and channel.get("quantity") in _PLACED:
             yield ("channels", name), "at"

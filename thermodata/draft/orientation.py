@@ -13,7 +13,7 @@ from thermodata.draft.one_signal import OneSignal
 from thermodata.draft.parts import DraftJump
 from thermodata.draft.quantity import Guess
 from thermodata.draft.units import converts
-from thermodata.draft.which_way import ASKED
+from thermodata.draft.which_way import ASKED, calibration_for
 from thermodata.plugin import Signal
 
 _SHOWN_STEPS = 12
@@ -21,13 +21,12 @@ _SHOWN_STEPS = 12
 
 def which_way(said: Guess) -> str:
     """The question for the sign of a displacement that no calibration turns to the machine's axes."""
-    unit = said.unit if said.unit and said.unit.isalpha() else "um"
     axis, name = said.axis or "?", f"sign_{said.axis.lower()}" if said.axis else "sign"
     looks = f"+{axis} or -{axis}" if said.axis else "+X, -X, +Y, -Y, +Z or -Z"
     return (
-        f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: {{kind: "
-        f"scale, axis: {axis}, gain: 1 {unit}/{unit}, facing: ?, increases_with: ?}} under calibrations; facing: "
-        f"{looks}, where the probe looks; increases_with: gap or approach"
+        f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: "
+        f"{calibration_for(axis, '?', '?')} under calibrations; facing: {looks}, where the probe looks; "
+        "increases_with: gap or approach"
     )
 
 
