@@ -9,10 +9,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.clocks import as_artefact, timings, with_clocks_right
-from thermodata.diagnosis.clocks_by_heat import Late, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
+from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
+from thermodata.diagnosis.declared_clocks import Declared
 from thermodata.diagnosis.problem import TARGET_ROWS
 from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
@@ -20,7 +21,7 @@ from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,34 +63,6 @@ def sound(
         faults=(*found.faults, *turned),
         put_right=found.put_right.model_copy(update={"left_out": sorted(wrong)}),
     )
-
-
-@dataclass(frozen=True, slots=True)
-class Declared:
-    """What the campaign file says of clocks is somebody's word, and stays. of_all: sources in all tests; in_one: the
-    same by test; home: the source of the response."""
-
-    of_all: frozenset[str]
-    in_one: Mapping[tuple[str, str], frozenset[str]]
-    home: str | None
-
-    @classmethod
-    def of(cls, data: Dataset, response: str) -> Declared:
-        def sources(channels: Mapping[str, ChannelInfo]) -> frozenset[str]:
-            return frozenset(c.source for c in channels.values() if c.clock_declared and c.source)
-
-        in_one = {t.key: sources(t.channels) for t in data.tests}
-        return cls(sources(data.channels), in_one, data.channels[response].source)
-
-    def of_clock(self, campaign: str, test: str) -> frozenset[str]:
-        """Sources whose clock is declared there; test '': in all tests."""
-        return self.of_all if not test else self.of_all | self.in_one.get((campaign, test), frozenset())
-
-    def settles(self, late: Late) -> bool:
-        """Whether it would move a clock that is declared, or one beside the response's, which the others go by."""
-        declared = self.of_clock(late.of.campaign, late.of.test)
-        both = {late.of.warmed, late.of.by}
-        return late.source in declared or (bool(declared) and both <= declared | {self.home})
 
 
 def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) -> Sound:

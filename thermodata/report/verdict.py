@@ -7,7 +7,8 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import duration, number, percent
+from thermodata.report.left_over import left_over, on_left_out
+from thermodata.report.words import number, percent
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
@@ -15,12 +16,8 @@ if TYPE_CHECKING:
 
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
-NOISY = 1.5
-"""An error up to so many times the noise is noise."""
 _UNNAMED = ("lag", "control_compensation")  # which say no more than the channels that they read
 _MOST_TWINS = 2
-OTHERWISE = 3.0
-"""An error of so many times that on left-out tests says that the model's effects act otherwise than it has them."""
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
 FAR = 2.0
@@ -108,7 +105,7 @@ def _verdict(found: Diagnosis) -> str:
             )
         )
     if found.verdict == "none":
-        return "; ".join(filter(None, [f"the open tests show no missing effect: {_left_over(found)}", open_still]))
+        return "; ".join(filter(None, [f"the open tests show no missing effect: {left_over(found)}", open_still]))
     return {
         "effect": "missing: an effect that the data point to",
         "refine": "the open tests show no missing cause, but an effect that is there acts otherwise than modelled",
@@ -125,39 +122,6 @@ def _not_excluded(found: Diagnosis) -> str:
     if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)):
         return ""
     return f"not excluded: {_or_elsewhere(first)}, {_how_sure(first)}"
-
-
-def _left_over(found: Diagnosis) -> str:
-    """What is left where nothing is missing: noise, or what is slower than noise and yet too little to ask about."""
-    if found.rmse_um is None:
-        return "too little is left to ask about"
-    left, as_fitted = f"{number(found.rmse_um)} um are left on left-out tests", otherwise(found)
-    if found.noise_um is None:
-        return f"{left}, too little to ask about{as_fitted}"
-    noise = f"noise ({number(found.noise_um)} um{_between(found)})"
-    if found.rmse_um <= NOISY * found.noise_um:
-        return f"{left}, and they are {noise}{as_fitted}"
-    return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
-
-
-def otherwise(found: Diagnosis) -> str:
-    """What the model itself leaves, where that is much more than with its effects free to act otherwise; else ''."""
-    left, fitted = found.rmse_um, found.fitted_rmse_um
-    if left is None or fitted is None or fitted < OTHERWISE * left or fitted <= NOISY * (found.noise_um or 0.0):
-        return ""
-    return (
-        f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
-        f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
-    )
-
-
-def _between(found: Diagnosis) -> str:
-    return f" between neighbouring means of {duration(found.noise_over_s)}" if found.noise_over_s else ""
-
-
-def noise_words(found: Diagnosis) -> str:
-    """'noise 0.0563 um between neighbouring means of 60 s'; '' where none is known."""
-    return "" if found.noise_um is None else f"noise {number(found.noise_um)} um{_between(found)}"
 
 
 def _missing(claims: Sequence[Candidate], left: float | None) -> str:
@@ -263,7 +227,7 @@ def _unclaimed(found: Diagnosis) -> str:
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     if (first.probability or 0.0) < UNLIKELY:
         return (
-            f"something is left{seen or _on_left_out(found)} that nothing logged is likely to explain: {named(first)} "
+            f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain: {named(first)} "
             f"comes nearest, probability {probability(first.probability)}"
         )
     return (
@@ -271,14 +235,6 @@ def _unclaimed(found: Diagnosis) -> str:
         f"is {named(first)}, probability {probability(first.probability)}"
         f"{', though the locked tests do not bear it out' if _is_refused(first) else ''}"
     )
-
-
-def _on_left_out(found: Diagnosis) -> str:
-    """' on left-out tests (1.4 um of the response's 5.1)'."""
-    if found.rmse_um is None:
-        return ""
-    of = "" if found.response_um is None else f" of the response's {number(found.response_um)}"
-    return f" on left-out tests ({number(found.rmse_um)} um{of})"
 
 
 def _is_refused(one: Candidate) -> bool:

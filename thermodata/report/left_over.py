@@ -1,0 +1,56 @@
+"""What a model leaves, in words: on left-out tests, beside noise, and as it is fitted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.report.words import duration, number
+
+if TYPE_CHECKING:
+    from thermodata.schema.diagnosis import Diagnosis
+
+NOISY = 1.5
+"""An error up to so many times the noise is noise."""
+OTHERWISE = 3.0
+"""An error of so many times that on left-out tests says that the model's effects act otherwise than it has them."""
+
+
+def left_over(found: Diagnosis) -> str:
+    """What is left where nothing is missing: noise, or what is slower than noise and yet too little to ask about."""
+    if found.rmse_um is None:
+        return "too little is left to ask about"
+    left, as_fitted = f"{number(found.rmse_um)} um are left on left-out tests", otherwise(found)
+    if found.noise_um is None:
+        return f"{left}, too little to ask about{as_fitted}"
+    noise = f"noise ({number(found.noise_um)} um{_between(found)})"
+    if found.rmse_um <= NOISY * found.noise_um:
+        return f"{left}, and they are {noise}{as_fitted}"
+    return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
+
+
+def otherwise(found: Diagnosis) -> str:
+    """What the model itself leaves, where that is much more than with its effects free to act otherwise; else ''."""
+    left, fitted = found.rmse_um, found.fitted_rmse_um
+    if left is None or fitted is None or fitted < OTHERWISE * left or fitted <= NOISY * (found.noise_um or 0.0):
+        return ""
+    return (
+        f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
+        f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
+    )
+
+
+def _between(found: Diagnosis) -> str:
+    return f" between neighbouring means of {duration(found.noise_over_s)}" if found.noise_over_s else ""
+
+
+def on_left_out(found: Diagnosis) -> str:
+    """' on left-out tests (1.4 um of the response's 5.1)'."""
+    if found.rmse_um is None:
+        return ""
+    of = "" if found.response_um is None else f" of the response's {number(found.response_um)}"
+    return f" on left-out tests ({number(found.rmse_um)} um{of})"
+
+
+def noise_words(found: Diagnosis) -> str:
+    """'noise 0.0563 um between neighbouring means of 60 s'; '' where none is known."""
+    return "" if found.noise_um is None else f"noise {number(found.noise_um)} um{_between(found)}"
