@@ -86,15 +86,15 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     they call it beside its name."""
     values, signal = None, one.signal
     units: Counter[str | None] = Counter()
-    words: Counter[str] = Counter()
+    called_so: Counter[str] = Counter()
     seen: dict[str, Values | None] = {}
     for f in one.files:
         own = one.of(f) or signal
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
         values = joined(values, seen[str(f.path)])
         units[own.unit] += 1
-        words[own.properties.get("description", "")] += 1
-    note = f"called '{next(iter(words))}' in the file" if len(words) == 1 and "" not in words else None
+        called_so[own.properties.get("description", "")] += 1
+    note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
@@ -102,8 +102,8 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         asked = f"unit: the files disagree: {names}; each file's own is taken"
         return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
     questions = [unit_question(said.quantity, seen) if None in units else None]
-    if len(words) > 1 and said.quantity:
-        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in words.most_common())
+    if len(called_so) > 1 and said.quantity:
+        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in called_so.most_common())
         questions.append(f"the same in all tests? the files call it {names}")
     if asked_of := [q for q in questions if q]:
         said = replace(said, sure=False, questions=(*said.questions, *asked_of))

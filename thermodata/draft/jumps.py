@@ -5,7 +5,6 @@ Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -28,11 +27,25 @@ _ALONG = 0.4  # of the steps of the probe that moved most: what is across the ax
 
 
 @dataclass(frozen=True, slots=True)
+class Moved:
+    """A probe that moved in steps: (stream, name), in the unit of the signal, and the usual time between them."""
+
+    signal: tuple[str, str]
+    steps: tuple[Step, ...]
+    dwell_s: float
+
+    @property
+    def height(self) -> float:
+        """Of the largest step."""
+        return max(abs(float(s.size)) for s in self.steps)
+
+
+@dataclass(frozen=True, slots=True)
 class JumpTest:
     """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
     the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too. source: that reads
     it; written: what its own file calls the probe, where the tests call it otherwise. others: probes that moved nearly
-    as far, as a second one along the axis does, with their steps and dwell."""
+    as far, as a second one along the axis does."""
 
     file: RawFile
     signal: tuple[str, str] | None
@@ -41,7 +54,7 @@ class JumpTest:
     named: bool
     source: str = ""
     written: str | None = None
-    others: tuple[tuple[tuple[str, str], tuple[Step, ...], float], ...] = ()
+    others: tuple[Moved, ...] = ()
 
     def is_of(self, stream: str, name: str) -> bool:
         """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""
@@ -54,7 +67,7 @@ def jump_of(file: RawFile) -> JumpTest | None:
     """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with
     signal None: a person must look."""
     named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
-    moved: list[tuple[tuple[str, str], tuple[Step, ...], float]] = []
+    moved: list[Moved] = []
     probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
     stirred = _others_move(file, set(probes))
     for key, _ in probes.items():
@@ -62,19 +75,14 @@ def jump_of(file: RawFile) -> JumpTest | None:
         found = staircase(course) if course is not None else None
         if found is None or (stirred and not named):
             continue
-        moved.append((key, *found))
+        moved.append(Moved(key, *found))
     if moved:
-        signal, steps, dwell = max(moved, key=lambda m: height(m[1]))
-        far = [m for m in moved if m[0] != signal and height(m[1]) > _ALONG * height(steps)]
-        return JumpTest(file, signal, steps, dwell, named, others=tuple(far))
+        most = max(moved, key=lambda m: m.height)
+        others = tuple(m for m in moved if m is not most and m.height > _ALONG * most.height)
+        return JumpTest(file, most.signal, most.steps, most.dwell_s, named, others=others)
     if named and probes and not stirred and _is_short(file):
         return JumpTest(file, None, (), 10.0, True)
     return None
-
-
-def height(steps: Sequence[Step]) -> float:
-    """Of the largest step."""
-    return max(abs(float(s.size)) for s in steps)
 
 
 def _is_short(file: RawFile) -> bool:

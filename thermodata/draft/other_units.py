@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from statistics import median
 
 from thermodata.draft.values import Values
+from thermodata.store.ingest.other_units import APART_K, ZERO_K
 
-ZERO_K, APART_K = 273.15, 60.0
 THOUSAND = (300.0, 3000.0)  # of how much the rows differ: um and mm, W and kW
 _SHOWN = 3
 

@@ -14,17 +14,14 @@ def each_its_own(jumps: Sequence[JumpTest]) -> list[JumpTest]:
     none, the one whose file is called more like that is its."""
     made = list(jumps)
     for probe in dict.fromkeys(j.signal for j in jumps if j.signal is not None):
-        same = [i for i, j in enumerate(made) if j.signal == probe]
-        for name, steps, dwell in [o for i in same for o in made[i].others]:
-            if len(same) < 2 or any(j.signal == name for j in made):
+        for name in dict.fromkeys(o.signal for j in jumps if j.signal == probe for o in j.others):
+            same = [i for i, j in enumerate(made) if j.signal == probe]
+            having = {i: o for i in same for o in made[i].others if o.signal == name}
+            if len(same) < 2 or not having or any(j.signal == name for j in made):
                 continue
-            of = [i for i in same if any(o[0] == name for o in made[i].others)]
-            if not of:
-                continue
-            best = max(of, key=lambda i: _alike(made[i], name) - _alike(made[i], probe))
-            steps, dwell = next((s, d) for n, s, d in made[best].others if n == name)
-            made[best] = replace(made[best], signal=name, steps=steps, dwell_s=dwell)
-            same.remove(best)
+            best = max(having, key=lambda i: _alike(made[i], name) - _alike(made[i], probe))
+            its = having[best]
+            made[best] = replace(made[best], signal=name, steps=its.steps, dwell_s=its.dwell_s)
     return made
 
 
