@@ -56,3 +56,16 @@ def test_a_pause_between_two_parts_is_kept(tmp_path: Path, second_min: int, paus
     (test,) = load_dataset(store, "lab", 60.0).tests
     (at,) = np.flatnonzero(test.values["T_b"] == 79.5)
     assert test.t_s[at] / 60 == 60 + pause_min
+
+
+def test_parts_that_stand_newest_first_keep_it_too(tmp_path: Path) -> None:
+    for name, begin in (("001", 21 * 60 + 30), ("002", 22 * 60 + 40)):
+        part(tmp_path / f"night_{name}.txt", begin, 60 if name == "001" else 30, 20.0 if name == "001" else 79.5)
+        head, *rows = (tmp_path / f"night_{name}.txt").read_text().splitlines()
+        (tmp_path / f"night_{name}.txt").write_text("\n".join([head, *rows[::-1]]) + "\n")
+    (tmp_path / "campaign.yaml").write_text(CAMPAIGN)
+    store = Store(tmp_path / "s.store", create=True)
+    ingest(store, tmp_path / "campaign.yaml")
+    (test,) = load_dataset(store, "lab", 60.0).tests
+    (at,) = np.flatnonzero(test.values["T_b"] == 79.5)
+    assert (test.t_s[0], test.t_s[at] / 60) == (0.0, 70)

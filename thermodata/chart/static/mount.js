@@ -1,7 +1,7 @@
 // Finds the charts of a page: an element with data-chart="ID" (and data-height, in px) draws the JSON of the script
 // element with that id.
-// They are drawn when they come near the window or get the focus (a campaign has dozens), all of them before printing, and `scan` takes up
-// those that came into the page later. data-wheel and data-drag are the options of chart.js.
+// They are drawn when they come near the window or get the focus (a campaign has dozens), all of them before printing,
+// and `scan` takes up those that came into the page later. data-wheel and data-drag are the options of chart.js.
 (function () {
   "use strict";
   const T = (window.ThermoChart = window.ThermoChart || {});

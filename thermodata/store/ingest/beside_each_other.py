@@ -44,13 +44,13 @@ class OddClock:
         return (
             f"test '{self.test}': source '{self.late}' begins and ends {minutes:.3g} min later beside '{self.early}' "
             f"than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? try at "
-            f"this test clocks: {{{late}}} or clocks: {{{early}}}; at the source clock: {{align_to: ..., by: [...]}}, "
-            "which estimates the offset of each test from what both logged"
+            f"this test clocks: {{{late}}} or clocks: {{{early}}}, or at the source clock: {{align_to: ..., by: "
+            "[...]}, which estimates the offset of each test from what both logged"
         )
 
 
 def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock]:
-    """As sentences for the summary of an ingest. rows: test -> its rows of the table `source`."""
+    """Each as a sentence by `str`. rows: test -> its rows of the table `source`."""
     ends = {test: _ends(of_test) for test, of_test in rows.items()}
     sources = sorted({source for of_test in ends.values() for source in of_test})
     found = []

@@ -100,6 +100,7 @@ class CampaignFiles:
         return {task.key for task in self.tasks()}
 
     def tasks(self) -> Iterator[Task]:
+        """Each listed file as it is to be read, but for those that can't be."""
         for path, source, spec in self._listed():
             try:
                 reader, file = self.reader(spec.reader, source), self.settle(path)

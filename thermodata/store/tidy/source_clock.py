@@ -19,8 +19,8 @@ from thermodata.store.tidy.timeline import Timeline, make_timeline
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
 _TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length
 
-DAY_NS = 86_400 * 10**9
-OVERLAP_NS = 600 * 10**9
+_DAY_NS = 86_400 * 10**9
+_OVERLAP_NS = 600 * 10**9  # by which a part begins before the end of the one before, and is none of the next day
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,15 +212,15 @@ def _by_times_of_day(raws: Sequence[RawStream]) -> list[int] | None:
     """The same of parts that tell the time of day of their first rows: one that begins before the end of the one before
     is of the next day. None where one does not tell it, or begins a little before that end: their clock is no one."""
     shifts: list[int] = []
-    end = 0
+    end = raws[0].first_ns
     for raw in raws:
         if raw.of_day_ns is None:
             return None
-        begin = raw.of_day_ns - (raws[0].of_day_ns or 0)
-        while begin < end:
-            if end - begin < OVERLAP_NS:
+        shift = raw.of_day_ns - (raws[0].of_day_ns or 0)  # of the row at 0, which in a file newest first is the last
+        while shift + raw.first_ns < end:
+            if end - shift - raw.first_ns < _OVERLAP_NS:
                 return None
-            begin += DAY_NS
-        shifts.append(begin - raw.first_ns)
-        end = begin + raw.last_ns - raw.first_ns
+            shift += _DAY_NS
+        shifts.append(shift)
+        end = shift + raw.last_ns
     return shifts
