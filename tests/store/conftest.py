@@ -25,6 +25,15 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     store_fakes.NpzReader.reads = 0
 
 
+@pytest.fixture
+def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The installed readers, which another process finds too."""
+    from thermodata.reader import registry
+    from thermodata.store.ingest import campaign_files
+
+    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
+
+
 @pytest.fixture(scope="session")
 def _made(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
     """An empty store, and a campaign with the store that holds it; each test gets copies."""

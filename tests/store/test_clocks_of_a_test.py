@@ -7,10 +7,8 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.reader import registry
 from thermodata.schema.load import parse_campaign
 from thermodata.store import Store
-from thermodata.store.ingest import campaign_files
 from thermodata.store.ingest.run import ingest
 from thermodata.store.trace.lineage import trace
 from thermodata.view import load_dataset
@@ -33,9 +31,8 @@ MENDED = CAMPAIGN.replace(" CLOCKS", ", clocks: {plc: -40 min}")
 
 
 @pytest.fixture
-def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def lab(tmp_path: Path, installed_readers: None) -> Path:
     """The speed is 4000 rpm from the first hour on; in test b the control's clock is 40 min late."""
-    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
 
     def stamp(minute: int) -> str:
         return f"2026-05-11T{6 + minute // 60:02d}:{minute % 60:02d}:00Z"

@@ -7,16 +7,10 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.reader import registry
 from thermodata.store import Store
 from thermodata.store.ingest.run import IngestSummary, ingest
 
-
-@pytest.fixture(autouse=True)
-def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata.store.ingest import campaign_files
-
-    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
+pytestmark = pytest.mark.usefixtures("installed_readers")
 
 
 def write(folder: Path, speeds: dict[str, str], step_s: int = 60, missing_in: str = "", cut: int = 16) -> Path:

@@ -28,12 +28,7 @@ import whole
 TESTS = 6
 
 
-@pytest.fixture(autouse=True)
-def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The installed readers, which another process finds too."""
-    from thermodata.store.ingest import campaign_files
-
-    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
+pytestmark = pytest.mark.usefixtures("installed_readers")
 
 
 @pytest.fixture

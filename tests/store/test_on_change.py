@@ -7,9 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.reader import registry
 from thermodata.store import Store
-from thermodata.store.ingest import campaign_files
 from thermodata.store.ingest.run import ingest
 from thermodata.store.tidy.on_change import has_no_rate
 from thermodata.store.tidy.timeline import given_timeline
@@ -34,9 +32,7 @@ def times(every_s: list[float]) -> object:
     return given_timeline((np.cumsum([0.0, *every_s]) * 1e9).astype(np.int64))
 
 
-@pytest.fixture(autouse=True)
-def installed_readers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
+pytestmark = pytest.mark.usefixtures("installed_readers")
 
 
 @pytest.mark.parametrize(

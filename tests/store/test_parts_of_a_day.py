@@ -7,9 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.reader import registry
 from thermodata.store import Store
-from thermodata.store.ingest import campaign_files
 from thermodata.store.ingest.run import ingest
 from thermodata.view import load_dataset
 
@@ -26,9 +24,7 @@ tests:
 """
 
 
-@pytest.fixture(autouse=True)
-def installed_readers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
+pytestmark = pytest.mark.usefixtures("installed_readers")
 
 
 def part(path: Path, begin_min: int, minutes: int, first: float) -> None:
