@@ -1,5 +1,5 @@
 """What labs write, by what it means: English, German, Czech and Chinese, with the abbreviations of the trade; further
-languages stand in draft/languages.py.
+languages stand in draft/languages/.
 
 Case, diacritics and humps are gone before matching (draft/naming.py). A word is looked for anywhere in the name
 ('lager' finds 'Spindellager'); 'nut.' is a whole word only, '^hall' the beginning of one. Signs of Chinese are
