@@ -28,6 +28,7 @@ BESIDE = {
     "table.py": ("delimited",),
     "table_rows.py": ("delimited",),
     "time_formats.py": ("time_formats",),
+    "time_pattern.py": ("timestamp", "time_formats"),
     "timestamp.py": ("timestamp",),
     "zone_words.py": ("timestamp",),
 }
@@ -111,7 +112,7 @@ MUTANTS = [
         "what parts a time may be anything",
     ),
     text("timestamp.py", "moment.tzinfo or UTC", "UTC", "a declared offset is left out"),
-    text("timestamp.py", "(ZONE if zoned else", '(f"{ZONE}?" if zoned else', "local times among those of UTC"),
+    text("time_pattern.py", "(ZONE if zoned else", '(f"{ZONE}?" if zoned else', "local times among those of UTC"),
     # ---- which letters a byte stands for
     text("letters.py", "bool(of_west) - bool(of_east)", "bool(of_east) - bool(of_west)", "a Polish letter is a power"),
     text("letters.py", "_UNPROVEN else 0.0)", "0.0 else 0.0)", "a letter that may be either is not asked"),

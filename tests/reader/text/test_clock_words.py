@@ -14,7 +14,8 @@ from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.table import open_table
 from thermodata.reader.text.time_formats import find_formats
-from thermodata.reader.text.timestamp import declared_format, parse, parse_one
+from thermodata.reader.text.time_pattern import declared_format
+from thermodata.reader.text.timestamp import parse, parse_one
 
 S = 1_000_000_000
 SHORT = ["00:05", "05:10"]

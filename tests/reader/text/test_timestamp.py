@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.timestamp import (
+from thermodata.reader.text.time_pattern import (
     DATE,
     DATETIME,
     MILLISECOND,
@@ -20,11 +20,9 @@ from thermodata.reader.text.timestamp import (
     is_date_text,
     is_time_of_day,
     is_zoned,
-    offset_ns,
-    parse,
-    parse_one,
     with_zone,
 )
+from thermodata.reader.text.timestamp import offset_ns, parse, parse_one
 from thermodata.reader.zone import NAT
 
 S = 1_000_000_000

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from thermodata.reader.text.number import EMPTY, OVERLOAD, spelled
-from thermodata.reader.text.timestamp import is_date_text, is_time_of_day
+from thermodata.reader.text.time_pattern import is_date_text, is_time_of_day
 
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature

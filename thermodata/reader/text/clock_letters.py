@@ -7,9 +7,9 @@ import re
 from collections.abc import Callable, Sequence
 
 from thermodata.errors import FormatError
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern
 from thermodata.reader.text.odd_stamps import guess_format
-from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.time_pattern import TimeFormat
 
 _CLOCK = re.compile(
     r"(?P<between>\D*)\d{1,2}:\d{2}(?P<seconds>:\d{2})?(?:(?P<mark>[.,:])\d{1,9})?(?P<half>\s*[AaPp][Mm])?(?P<zone>\s*.+)?",
@@ -57,6 +57,6 @@ def _others(declared: str, cells: Sequence[str]) -> list[str]:
 
 def _reads(text: str, cells: Sequence[str], share: Share) -> bool:
     try:
-        return share(cells, timestamp.declared_format(text)) > 0.9
+        return share(cells, time_pattern.declared_format(text)) > 0.9
     except FormatError:
         return False

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.cell import Cell, is_clocked, mostly, number_of
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.number import text_array
-from thermodata.reader.text.timestamp import MILLISECONDS, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
 from thermodata.reader.zone import NAT
 
 _WORDS = {
@@ -134,7 +134,7 @@ def declared_parts(declared: str | None, columns: int) -> tuple[TimeFormat, ...]
         return ()
     text = f"{', '.join(_TEXTS[x] for x in letters)} in {len(letters)} columns"
     body = " ".join(_PIECES[x] for x in letters)
-    form = replace(timestamp.declared_format(" ".join(pieces)), text=text, zoned=False, columns=len(letters))
+    form = replace(time_pattern.declared_format(" ".join(pieces)), text=text, zoned=False, columns=len(letters))
     return (replace(form, pattern=re.compile(body, re.ASCII)), *[PART] * (len(letters) - 1))
 
 

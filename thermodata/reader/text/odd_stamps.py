@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from thermodata.errors import FormatError
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.zone import NAT
 
 _WORDS = (
@@ -31,7 +31,7 @@ def guess_format(cells: Sequence[str]) -> str | None:
 
 def _share(cells: Sequence[str], text: str) -> float:
     try:
-        form = timestamp.declared_format(text)
+        form = time_pattern.declared_format(text)
     except FormatError:
         return 0.0
     return sum(timestamp.parse_one(c, form) != NAT for c in cells) / len(cells)

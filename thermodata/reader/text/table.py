@@ -23,7 +23,7 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.time_formats import find_formats
-from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.time_pattern import TimeFormat
 from thermodata.reader.text.unit_cells import refuse_units_in_cells
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import SECONDS

@@ -14,6 +14,7 @@ from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
     ZONED_ROWS,
     epoch_in,
@@ -25,7 +26,6 @@ from thermodata.reader.text.time_questions import (
     worded_time,
     zone_question,
 )
-from thermodata.reader.text.timestamp import part_of_a_second
 from thermodata.reader.time_units import SECONDS, check_unit
 
 _FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")

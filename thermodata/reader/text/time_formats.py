@@ -18,12 +18,12 @@ import numpy.typing as npt
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.clock_letters import refuse_unread, with_clock
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.timestamp import DATE, DATETIME, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.time_pattern import DATE, DATETIME, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
@@ -83,13 +83,13 @@ def find_formats(
     if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
         wanted = declared.split()
     for k, (name, cells) in list(enumerate(zip(names, columns, strict=True)))[len(forms) :]:
-        behind = timestamp.part_of_a_second(name) if k else None
+        behind = time_pattern.part_of_a_second(name) if k else None
         if behind is not None:
             forms.append(behind)
             continue
         form = None
         for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
-            own = timestamp.declared_format(text)
+            own = time_pattern.declared_format(text)
             if len(columns) == 1:
                 refuse_unread(text, own, _spread(cells, _MANY), share, f"{where} column '{name}'")
             form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
@@ -100,8 +100,8 @@ def find_formats(
 
 def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:
     some = [c for c in _spread(cells, _FEW) if timestamp.parse_one(c, form) != NAT]
-    zoned = sum(timestamp.is_zoned(c, form) for c in some)
-    return timestamp.with_zone(form, zoned * 2 > len(some))
+    zoned = sum(time_pattern.is_zoned(c, form) for c in some)
+    return time_pattern.with_zone(form, zoned * 2 > len(some))
 
 
 def _two_parts(clock: str | None, cells: Sequence[str], more: Sequence[str]) -> TimeFormat | None:
@@ -197,7 +197,7 @@ def _ask_for_year(cells: Sequence[str], where: str) -> None:
     got = parts[0].group().strip(" '")
     date = f"%y{got[2]}%m{got[2]}%d"
     spelled = {with_clock(date, m.string[m.end() :]) for m in parts}
-    letters = max(sorted(spelled), key=lambda text: share(cells, timestamp.declared_format(text)))
+    letters = max(sorted(spelled), key=lambda text: share(cells, time_pattern.declared_format(text)))
     raise QuestionError(
         "dates with a year of two digits at either end",
         where=where,

@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.events import HeldRows, Value
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.local_clock import LocalClock
 from thermodata.reader.text.number import is_empty, is_overload, to_bool, to_float
-from thermodata.reader.text.timestamp import TimeFormat
+from thermodata.reader.text.time_pattern import TimeFormat
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 
@@ -23,7 +23,7 @@ GONE = "UNAVAILABLE"
 _MOST_VALUES = 1_000_000  # of a block: rows times signals
 _MOST_TOGETHER = 1_000  # signals that share their rows; with more, each item is a stream
 _MOST_WORDS = 16  # numbers in one text that are signals of their own
-ISO = timestamp.DATETIME["ymd"]
+ISO = time_pattern.DATETIME["ymd"]
 
 
 class Event(NamedTuple):
@@ -137,7 +137,7 @@ def to_utc(times: list[str], clock: LocalClock, form: TimeFormat = ISO) -> Int1D
     ns = timestamp.parse(times, form)
     if clock.timezone is None or form.role == "offset":
         return ns
-    local = timestamp.parse(times, timestamp.with_zone(form, zoned=False)) != NAT
+    local = timestamp.parse(times, time_pattern.with_zone(form, zoned=False)) != NAT
     if local.any():
         ns[local] = clock.utc(ns[local])
     return ns
@@ -159,7 +159,7 @@ def recording(
     start, all_notes = 0, list(notes)
     if plan.first is not None:
         start = int(to_utc([plan.first], LocalClock(source.timezone), plan.form)[0])
-        if source.timezone is None and plan.form.role != "offset" and not timestamp.is_zoned(plan.first, plan.form):
+        if source.timezone is None and plan.form.role != "offset" and not time_pattern.is_zoned(plan.first, plan.form):
             all_notes.append("no time zone declared: times are taken as UTC")
     return Recording(signals, "absolute", start, complete, tuple(all_notes))
 

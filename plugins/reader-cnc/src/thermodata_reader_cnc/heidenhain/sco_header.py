@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.local_clock import LocalClock
 from thermodata.reader.text.number import is_empty, to_float
 from thermodata.reader.zone import NAT
@@ -150,8 +150,8 @@ def _scaling(keys: dict[str, str], where: str) -> Scaling | None:
 def _start(shared: dict[str, str], source: Source) -> int | None:
     """UTC start by the global block's date and time; None where it has none that reads."""
     for order in ("dmy", "ymd"):
-        day = timestamp.parse_one(shared.get("DATE", ""), timestamp.DATE[order])
-        clock = timestamp.parse_one(shared.get("TIME", ""), timestamp.TIME_OF_DAY)
+        day = timestamp.parse_one(shared.get("DATE", ""), time_pattern.DATE[order])
+        clock = timestamp.parse_one(shared.get("TIME", ""), time_pattern.TIME_OF_DAY)
         if NAT not in (day, clock):
             return int(LocalClock(source.timezone).utc(np.array([day + clock]))[0])
     return None

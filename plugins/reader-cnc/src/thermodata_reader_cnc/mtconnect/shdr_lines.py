@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from thermodata.plugin import Loss
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.number import to_float
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
@@ -43,7 +43,7 @@ def is_time(text: str) -> bool:
 
 def is_offset(text: str) -> bool:
     """Whether a first field is a time relative to the adapter's start (a number of milliseconds)."""
-    return timestamp.parse_one(text.partition("@")[0], timestamp.OFFSET_MS) != NAT
+    return timestamp.parse_one(text.partition("@")[0], time_pattern.OFFSET_MS) != NAT
 
 
 def fields(text: str) -> list[str]:

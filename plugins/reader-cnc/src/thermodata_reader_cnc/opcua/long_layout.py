@@ -16,7 +16,7 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.status import zero_is_good
 from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.timestamp import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
+from thermodata.reader.text.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (

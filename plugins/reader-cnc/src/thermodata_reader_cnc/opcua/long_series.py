@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from thermodata.plugin import Int1D
 from thermodata.reader.text.long_rows import NAME_WORDS
 from thermodata.reader.text.number import clean, is_empty, is_number
-from thermodata.reader.text.timestamp import is_date_text, is_time_of_day
+from thermodata.reader.text.time_pattern import is_date_text, is_time_of_day
 from thermodata.reader.zone import NAT
 
 # columns that name where a value comes from, or what is told of it: they are parts of a name wherever they differ

@@ -16,7 +16,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.text import timestamp
+from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.local_clock import LocalClock
 from thermodata.reader.text.locate import row_at
 from thermodata.reader.zone import NAT
@@ -91,10 +91,10 @@ def _layouts(frames: list[Frame]) -> dict[tuple[tuple[str, ...], ...], list[Grou
 def _start_ns(header: dict[str, str], source: Source) -> int | None:
     """UTC of a frame's startTime; None where it is no date."""
     text = header.get("startTime", "")
-    for form in timestamp.DATETIME.values():
+    for form in time_pattern.DATETIME.values():
         ns = timestamp.parse_one(text, form)
         if ns != NAT:
-            return ns if timestamp.is_zoned(text, form) else int(LocalClock(source.timezone).utc(np.array([ns]))[0])
+            return ns if time_pattern.is_zoned(text, form) else int(LocalClock(source.timezone).utc(np.array([ns]))[0])
     return None
 
 
