@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.modelling import checks
+from thermodata.modelling import bound_checks, checks
 from thermodata.modelling.parameters import gain_unit
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.schema.result import Check
@@ -137,29 +137,29 @@ def test_a_column_that_never_moves_is_named_and_left_out() -> None:
 )
 def test_a_parameter_at_its_bound(value: float, at: bool) -> None:
     """Within a thousandth of the bound."""
-    assert names(checks._bounds(term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
+    assert names(bound_checks.at_bounds(term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
 
 
 def test_a_bound_that_bodies_reach_beyond_is_told_with_what_to_write() -> None:
     reaching = Straight(params=(replace(TAU, reach=(1.0, 360.0)),))
-    [told] = checks._bounds(term(reaching, {"tau": 100.0}))
+    [told] = bound_checks.at_bounds(term(reaching, {"tau": 100.0}))
     assert "in the effect: bounds: {tau: [1, 360]}" in told.advice
-    [plain] = checks._bounds(term(params={"tau": 100.0}))
+    [plain] = bound_checks.at_bounds(term(params={"tau": 100.0}))
     assert plain.advice.endswith("or the bound is wrong")
-    assert checks._wider(replace(TAU, reach=(1.0, 360.0)), 360.0) == "", "it stands at the end of that"
+    assert bound_checks._wider(replace(TAU, reach=(1.0, 360.0)), 360.0) == "", "it stands at the end of that"
 
 
 @pytest.mark.parametrize(("value", "at"), [(0.0019, True), (0.0021, False), (1.9981, True), (1.9979, False)])
 def test_a_parameter_that_may_be_zero_is_at_its_bound_by_its_range(value: float, at: bool) -> None:
     effect = Straight(params=(EXPONENT,))
-    assert names(checks._bounds(term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
+    assert names(bound_checks.at_bounds(term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
 
 
 def test_a_bound_is_the_users_where_there_is_one_and_fixed_and_silent_ones_have_none() -> None:
-    assert checks._bounds(term(params={"tau": 100.0}, bounds={"tau": (10.0, 200.0)})) == []
-    assert names(checks._bounds(term(params={"tau": 200.0}, bounds={"tau": (10.0, 200.0)})))
-    assert checks._bounds(term(params={"tau": 100.0}, fixed=["tau"])) == []
-    assert checks._bounds(term(params={"tau": 100.0}, silent=["tau"])) == []
+    assert bound_checks.at_bounds(term(params={"tau": 100.0}, bounds={"tau": (10.0, 200.0)})) == []
+    assert names(bound_checks.at_bounds(term(params={"tau": 200.0}, bounds={"tau": (10.0, 200.0)})))
+    assert bound_checks.at_bounds(term(params={"tau": 100.0}, fixed=["tau"])) == []
+    assert bound_checks.at_bounds(term(params={"tau": 100.0}, silent=["tau"])) == []
 
 
 @pytest.mark.parametrize(("tau", "long"), [(600.5, True), (599.5, False)])
@@ -172,8 +172,8 @@ def test_a_time_constant_longer_than_the_longest_test(tau: float, long: bool) ->
 
 @pytest.mark.parametrize(("gain", "named"), [(10.01, True), (-10.01, True), (9.99, False), (-9.99, False)])
 def test_a_gain_larger_than_anything_known(gain: float, named: bool) -> None:
-    assert names(checks._plausible(term(gain=gain))) == (["implausible:straight.gain"] if named else [])
-    assert checks._plausible(term(gain=gain, fixed=["gain"])) == []
+    assert names(bound_checks._plausible(term(gain=gain))) == (["implausible:straight.gain"] if named else [])
+    assert bound_checks._plausible(term(gain=gain, fixed=["gain"])) == []
 
 
 @pytest.mark.parametrize(("quantity", "named", "unit"), [("temperature", True, "um/K"), ("feed", False, "um")])
@@ -181,14 +181,14 @@ def test_a_gain_a_kelvin_is_one_where_a_temperature_drives_it(quantity: str, nam
     """A screw that is driven by its feed grows by 20 um at 10 m/min, which is no 20 um/K."""
     kelvin = replace(GAIN, unit="um/K", magnitude=(0.5, 5.0))
     found = term(Straight(needs=(Need("u", quantity),), gains=(kelvin,)), gain=20.0)
-    assert bool(checks._plausible(found)) == named
+    assert bool(bound_checks._plausible(found)) == named
     assert gain_unit(SimpleNamespace(unit="um"), found, "um/K") == unit  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("largest", [float("inf"), 0.0])
 def test_a_gain_without_a_known_magnitude_is_plausible(largest: float) -> None:
     effect = Straight(gains=(Gain("gain", "um/K", (0.0, largest), "any", ""),))
-    assert checks._plausible(term(effect, gain=1e6)) == []
+    assert bound_checks._plausible(term(effect, gain=1e6)) == []
 
 
 @pytest.mark.parametrize(

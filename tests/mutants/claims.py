@@ -67,8 +67,8 @@ def heat(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
 
 
-def check(old: str, new: str, why: str) -> Mutant:
-    return Mutant("thermodata/modelling/checks.py", old, new, why, CHECKS)
+def check(old: str, new: str, why: str, file: str = "checks.py") -> Mutant:
+    return Mutant(f"thermodata/modelling/{file}", old, new, why, CHECKS)
 
 
 def calibration(file: str, old: str, new: str, why: str) -> Mutant:
@@ -725,9 +725,9 @@ MUTANTS = [
     check("COLLINEAR = 0.98", "COLLINEAR = 1.0", "twins go unnoticed"),
     check("if abs(correlation[a, b]) > COLLINEAR", "if correlation[a, b] > COLLINEAR", "mirrored twins go unnoticed"),
     check("FEWEST = 5.0", "FEWEST = 1.0", "fits to a few independent samples pass"),
-    check("AT_BOUND = 1e-3", "AT_BOUND = 1e-9", "parameters at their bounds go unnoticed"),
+    check("AT_BOUND = 1e-3", "AT_BOUND = 1e-9", "parameters at their bounds go unnoticed", "bound_checks.py"),
     check("if value > record:", "if value > 9 * record:", "time constants beyond the record pass"),
-    check("abs(value) > top", "value > top", "implausible negative gains pass"),
+    check("abs(value) > top", "value > top", "implausible negative gains pass", "bound_checks.py"),
     check("LAGS_APART = 1.5", "LAGS_APART = 1.0", "lags that are one pass as two"),
     check("UNSURE = 1.0", "UNSURE = 99.0", "lags that nothing tells pass"),
     check("RIPPLE = 1.0", "RIPPLE = 99.0", "quantisation of a sensor reaches the prediction"),

@@ -24,6 +24,7 @@ BESIDE = {
     "losses.py": ("losses", "delimited"),
     "number.py": ("number",),
     "quality_columns.py": ("quality_columns",),
+    "odd_rows.py": ("three_ways", "rows_width"),
     "rows.py": ("three_ways", "rows_width"),
     "table.py": ("delimited",),
     "table_rows.py": ("delimited",),
@@ -156,12 +157,14 @@ MUTANTS = [
         "rows stand a line too low",
     ),
     text("rows.py", "np.array([row.number - 1 for", "np.array([row.number for", "lines move behind a bad one"),
-    text("rows.py", "not self.grid.exact and ", "", "a delimiter too much shifts cells"),
+    text("odd_rows.py", "not self.grid.exact and ", "", "a delimiter too much shifts cells"),
     text("grid.py", ", short=self.short[np.isin(self.short, line)]", "", "empty lines lack a group"),
-    text("rows.py", "            self.short.append(line)\n", "", "rows that lack a group go unnoticed"),
-    text("rows.py", "        at += more\n", "        at += 1\n", "the lines of a cell in quotes are rows again"),
+    text("odd_rows.py", "            self.short.append(line)\n", "", "rows that lack a group go unnoticed"),
+    text("odd_rows.py", "        at += more\n", "        at += 1\n", "the lines of a cell in quotes are rows again"),
     text("rows.py", 'b"\\0" in data\n        or', "False\n        or", "bytes of zero are parts of cells"),
-    text("rows.py", "if len(_cells(joined, grid)) == grid.width:", "if True:", "a quote left open takes rows with it"),
+    text(
+        "odd_rows.py", "if len(_cells(joined, grid)) == grid.width:", "if True:", "a quote left open takes rows with it"
+    ),
     text("rows.py", "if table.num_rows != many:", "if False:", "cells over lines move the lines"),
     # ---- tables
     text("columns.py", "2 * words >= len(full)", "2 * words > len(full)", "half words are numbers"),

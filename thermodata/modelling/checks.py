@@ -10,19 +10,18 @@ import numpy as np
 
 from thermodata.modelling.apart import told_apart
 from thermodata.modelling.bound import each_group_its_own
+from thermodata.modelling.bound_checks import at_bounds
 from thermodata.modelling.design import Design
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.parameters import by_kelvin
 from thermodata.modelling.uncertainty import effective_count
-from thermodata.plugin import Float1D, Float2D, Param
+from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
 CONDITION = 1000.0
 COLLINEAR = 0.98
 FEWEST = 5.0  # independent samples a parameter
-AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 LAGS_APART = 1.5  # ratio of two time constants of one effect
 UNSURE = 1.0  # standard deviation of log(tau) that says nothing
 LOST = 0.2  # of a test's samples, to flags
@@ -54,20 +53,13 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     ]
     for term in response.terms:
         rows += [
-            *_bounds(term),
-            *_gain_bounds(term),
+            *at_bounds(term),
             *_long(term, tests),
-            *_plausible(term),
             *_second_lag(term),
             *_ripple(response, term, tests),
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
     return {"checks": tuple(rows), "noise": noise}
-
-
-def at_bounds(response: FittedResponse) -> list[Check]:
-    """Parameters and gains that a bound holds, and gains beyond what the library thinks possible."""
-    return [c for term in response.terms for c in (*_bounds(term), *_gain_bounds(term), *_plausible(term))]
 
 
 def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
@@ -174,64 +166,6 @@ def _late(delay: int) -> str:
     return f", {delay} step{'s' if delay > 1 else ''} late," if delay else ""
 
 
-def _bounds(term: FittedTerm) -> list[Check]:
-    rows = []
-    for group, values in term.groups.items():
-        tag = f"[{group}]" if group else ""
-        for param in term.effect.params:
-            if param.name in term.bound.spec.fixed or param.name in values.silent:
-                continue
-            low, high = term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
-            value = values.params[param.name]
-            for end in (low, high):
-                if abs(value - end) <= AT_BOUND * (abs(end) if low > 0 else high - low):
-                    rows.append(
-                        Check(
-                            name=f"at_bound:{term.id}.{param.name}{tag}",
-                            value=value,
-                            threshold=end,
-                            passed=False,
-                            advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: another effect may be "
-                            f"behind it, or the bound is wrong{_wider(param, end)}",
-                        )
-                    )
-    return rows
-
-
-def _wider(param: Param, end: float) -> str:
-    """What to write where the library knows that bodies reach beyond the bound; '' else."""
-    if param.reach is None or not param.reach[0] < end < param.reach[1]:
-        return ""
-    return f"; to let it go on, in the effect: bounds: {{{param.name}: [{param.reach[0]:g}, {param.reach[1]:g}]}}"
-
-
-def _gain_bounds(term: FittedTerm) -> list[Check]:
-    """A gain that a bound holds: the data want another, and the fit could not say which."""
-    rows = []
-    for group, values in term.groups.items():
-        tag = f"[{group}]" if group else ""
-        for gain in term.effect.gains:
-            spec = term.bound.spec
-            if gain.name in spec.fixed or (gain.name not in spec.bounds and gain.sign == "any"):
-                continue
-            library = {"+": (0.0, np.inf), "-": (-np.inf, 0.0), "any": (-np.inf, np.inf)}[gain.sign]
-            whose = "the model file" if gain.name in spec.bounds else f"the library ({term.effect.name}: {gain.sign})"
-            value = values.gains[gain.name]
-            for end in spec.bounds.get(gain.name, library):
-                if np.isfinite(end) and abs(value - end) <= AT_BOUND * abs(end):
-                    rows.append(
-                        Check(
-                            name=f"at_bound:{term.id}.{gain.name}{tag}",
-                            value=value,
-                            threshold=float(end),
-                            passed=False,
-                            advice=f"held at {end:g} by a bound of {whose}: the data want it beyond; another effect "
-                            "may be behind it, or the bound is wrong",
-                        )
-                    )
-    return rows
-
-
 def _warm(design: Design) -> list[Check]:
     """Tests that began warm: what faded is left out of the fit, and stands in the scores."""
     return [
@@ -265,28 +199,6 @@ def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
                         threshold=record,
                         passed=False,
                         advice="the time constant is longer than the longest test: only gain/tau is known",
-                    )
-                )
-    return rows
-
-
-def _plausible(term: FittedTerm) -> list[Check]:
-    rows = []
-    for gain in term.effect.gains:
-        if gain.unit.endswith("/K") and not by_kelvin(term):
-            continue  # what is known is a size a kelvin, and nothing here is a kelvin
-        for group, values in term.groups.items():
-            value, top = values.gains[gain.name], gain.magnitude[1]
-            if np.isfinite(top) and top > 0 and abs(value) > top and gain.name not in term.bound.spec.fixed:
-                tag = f"[{group}]" if group else ""
-                rows.append(
-                    Check(
-                        name=f"implausible:{term.id}.{gain.name}{tag}",
-                        value=value,
-                        threshold=top,
-                        passed=False,
-                        advice=f"larger than anything known for '{term.effect.name}' "
-                        f"({top:g} {gain.unit}): it may stand in for another effect",
                     )
                 )
     return rows

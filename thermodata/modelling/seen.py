@@ -12,7 +12,7 @@ from thermodata.effect.law_run import evaluate
 from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
-from thermodata.modelling.checks import at_bounds
+from thermodata.modelling.bound_checks import at_bounds
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.laws import TermLaw, laws
@@ -110,7 +110,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         count,
         tuple(ljung_box(correlation, count, k) for k in LJUNG_BOX if k <= most),
         _states(response, shown, tests, residuals, data.step_s),
-        tuple(at_bounds(response)),
+        tuple(c for term in response.terms for c in at_bounds(term)),
     )
 
 

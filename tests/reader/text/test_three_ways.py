@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from thermodata.reader.text.grid import TIME, Grid, Rows
 from thermodata.reader.text.number import clean, to_float
-from thermodata.reader.text.rows import _as_text, _line_by_line, _typed, parse
+from thermodata.reader.text.odd_rows import line_by_line
+from thermodata.reader.text.rows import _as_text, _typed, parse
 
 FIRST = 17  # the line of the file that a part begins with
 KINDS = (TIME, "float64", "str", "int64", "bool")
@@ -56,7 +57,7 @@ def test_three_ways_give_the_same_rows(
     if data.isspace():
         return
     grid = Grid(";", ".", KINDS, quoted=True, least=least, exact=exact, blank_rows=blank_rows)
-    slow = shown(_line_by_line(data, FIRST, grid))
+    slow = shown(line_by_line(data, FIRST, grid))
     for fast in (_typed, _as_text):
         found = fast(data, FIRST, grid)
         if found is not None:

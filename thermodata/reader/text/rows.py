@@ -7,10 +7,7 @@ odd, it is taken line by line. All three ways give the same rows for what they c
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -20,21 +17,20 @@ from thermodata.reader.text import arrow
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import TIME, BadLine, Grid, Rows
 from thermodata.reader.text.lines import count
-from thermodata.reader.text.number import EXACT, Values, clean, null_words, text_array, values_of
+from thermodata.reader.text.number import EXACT, Values, clean, null_words, text_array
+from thermodata.reader.text.odd_rows import SHOWN, CutRows, converted, line_by_line
 
-_MOST_LINES = 64  # of one cell in quotes
 _SLACK_CELLS = 10_000  # delimiters of a part beyond what its lines should have
-_SHOWN = 200
 
 
 def parse(data: bytes, line: int, grid: Grid) -> Rows:
     """All rows of whole lines in UTF-8. line: the number of the first, 0-based in the file. Empty lines are none."""
     if not data or data.isspace():
         nuls = ((line, data.count(b"\0")),) if b"\0" in data else ()
-        return Rows(np.empty(0, np.int64), *_converted([[] for _ in grid.kinds], grid), nul=nuls)
+        return Rows(np.empty(0, np.int64), *converted([[] for _ in grid.kinds], grid), nul=nuls)
     if not data.endswith(b"\n"):
         data += b"\n"
-    return _typed(data, line, grid) or _as_text(data, line, grid) or _line_by_line(data, line, grid)
+    return _typed(data, line, grid) or _as_text(data, line, grid) or line_by_line(data, line, grid)
 
 
 # ---- by Arrow ------------------------------------------------------------------------------------
@@ -205,20 +201,20 @@ def _as_text(data: bytes, line: int, grid: Grid) -> Rows | None:
         return None
     if table.num_rows + len(invalid) != many or any("\n" in row.text for row in invalid):
         return None  # a cell in quotes goes over lines
-    side, bad = _Cells(grid), list[BadLine]()
+    side, bad = CutRows(grid), list[BadLine]()
     numbers = np.array([row.number - 1 for row in invalid], np.int64)
     for row in invalid:
         cells = fields(row.text.rstrip("\r"), grid.delimiter, grid.quoted)
         fits = side.add(line + row.number - 1, cells)
         if not fits and any(cell.strip() for cell in cells):
             size = len(row.text.encode())
-            bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:_SHOWN].rstrip("\r"), size))
+            bad.append(BadLine(line + row.number - 1, row.actual_columns, row.text[:SHOWN].rstrip("\r"), size))
     lines = np.delete(np.arange(line, line + table.num_rows + len(invalid), dtype=np.int64), numbers)
     cells_of: list[Any] = [None] * grid.width
     for i in wanted:
         column = table.column(str(i)).combine_chunks() if i < width else pa.nulls(table.num_rows, pa.string())
         cells_of[i] = pa.concat_arrays([*_arrays(column), text_array(side.columns[i])])
-    columns, times = _converted(cells_of, grid)
+    columns, times = converted(cells_of, grid)
     lines = np.concatenate([lines, np.array(side.lines, np.int64)])
     short = np.array(side.short, np.int64)
     if width < grid.width:
@@ -254,100 +250,3 @@ def _without_empty_rows(rows: Rows, cells_of: Sequence[Any], order: Int1D) -> Ro
             continue
         blank &= arrow.values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
     return rows.take(np.flatnonzero(~blank[order])) if blank.any() else rows
-
-
-def _converted(cells_of: Sequence[Any], grid: Grid) -> tuple[dict[int, Values], dict[int, Any]]:
-    import pyarrow as pa
-
-    columns: dict[int, Values] = {}
-    times: dict[int, Any] = {}
-    for i, kind in enumerate(grid.kinds):
-        if kind is None:
-            continue
-        cells = cells_of[i] if isinstance(cells_of[i], pa.Array) else text_array(cells_of[i])
-        if kind == TIME:
-            times[i] = cells
-        else:
-            columns[i] = values_of(cells, kind, grid.decimal, grid.decimal_declared)
-    return columns, times
-
-
-# ---- line by line --------------------------------------------------------------------------------
-
-
-@dataclass
-class _Cells:
-    """Rows that were cut by hand: their lines, and the cells of each column."""
-
-    grid: Grid
-    lines: list[int] = field(default_factory=list)
-    short: list[int] = field(default_factory=list)
-    columns: list[list[str]] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.columns = [[] for _ in self.grid.kinds]
-
-    def add(self, line: int, cells: Sequence[str]) -> bool:
-        """Takes a row; False where a line is none: empty cells behind its last column are nothing, and those that a row
-        may lack are empty."""
-        width = self.grid.width
-        if len(cells) > width and not self.grid.exact and not any(c.strip() for c in cells[width:]):
-            cells = cells[:width]
-        if self.grid.least is not None and self.grid.least <= len(cells) < width:
-            self.short.append(line)
-            cells = [*cells, *[""] * (width - len(cells))]
-        if len(cells) != width:
-            return False
-        self.lines.append(line)
-        for column, cell in zip(self.columns, cells, strict=True):
-            column.append(cell)
-        return True
-
-
-def _line_by_line(data: bytes, line: int, grid: Grid) -> Rows:
-    rows, bad, nul = _Cells(grid), list[BadLine](), list[tuple[int, int]]()
-    for number, text in _records(data, line, grid):
-        # what a power cut left before a row says nothing of it; inside, a cell that lost a part must not pass for whole
-        bare = text.lstrip("\0").rstrip("\r")
-        if "\0" in text:
-            nul.append((number, text.count("\0")))
-        record = _cells(bare, grid)
-        if "\0" in bare:
-            kinds = [*grid.kinds, *[None] * len(record)]
-            record = [c.replace("\0", "") if kind == "str" else c for c, kind in zip(record, kinds, strict=False)]
-        blank = not any(cell.strip() for cell in record)
-        if blank and not (grid.blank_rows and len(record) > 1):
-            continue
-        if not rows.add(number, record) and not blank:
-            size = len(text.encode("utf-8", "replace"))
-            bad.append(BadLine(number, len(record), bare[:_SHOWN], size))
-    columns, times = _converted(rows.columns, grid)
-    lines, short = np.array(rows.lines, np.int64), np.array(rows.short, np.int64)
-    return Rows(lines, columns, times, tuple(bad), tuple(nul), short)
-
-
-def _cells(record: str, grid: Grid) -> list[str]:
-    if "\n" not in record:
-        return fields(record, grid.delimiter, grid.quoted)
-    try:
-        return next(csv.reader(io.StringIO(record), delimiter=grid.delimiter), [""])
-    except csv.Error:
-        return record.split(grid.delimiter)
-
-
-def _records(data: bytes, line: int, grid: Grid) -> Iterator[tuple[int, str]]:
-    """(number of its first line, text) of each record: a line, or the lines of a cell in quotes that goes over several.
-    A quote that nothing closes is a character like any other."""
-    lines = data.decode("utf-8", "replace").split("\n")[:-1]
-    at = 0
-    while at < len(lines):
-        text, more = lines[at], 1
-        if grid.quoted and text.count('"') % 2:
-            for k in range(at + 1, min(len(lines), at + _MOST_LINES)):
-                if lines[k].count('"') % 2:
-                    joined = "\n".join(lines[at : k + 1])
-                    if len(_cells(joined, grid)) == grid.width:
-                        text, more = joined, k + 1 - at
-                    break
-        yield line + at, text
-        at += more

@@ -11,11 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, StoreError, ThermodataError
-from thermodata.plugin import Loss
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.places import is_powered
 from thermodata.store.base.files import is_whole, key_of
@@ -25,7 +23,7 @@ from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.losses import Losses, loss_row
 from thermodata.store.ingest.other_units import other_units
-from thermodata.store.ingest.repeated_times import said_of_repeats
+from thermodata.store.ingest.tidy_rows import count, duration_s, tidy_rows
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of
@@ -35,7 +33,7 @@ from thermodata.store.tidy.overrule import idle, met
 from thermodata.store.tidy.plan import SCHEDULE, TestPlan
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, span
-from thermodata.store.tidy.writer import TidyResult, write_member
+from thermodata.store.tidy.writer import write_member
 
 Columns = list[tuple[str, bool]]
 
@@ -231,7 +229,7 @@ class _Tidier:
         key = key_of(base, json.dumps(said, sort_keys=True)) if said else base
         result = write_member(series, member, self.columns[member], key, verdict)
         self.layer.new_streams += 1
-        test.files[member] = _tidy_rows(campaign, name, member, result, self.store, self.now, base, said)
+        test.files[member] = tidy_rows(campaign, name, member, result, self.store, self.now, base, said)
         test.events[member] = [
             {"campaign": campaign, "test": name, "source": member[0], "stream": member[1], **dataclasses.asdict(e)}
             for e in result.events
@@ -244,13 +242,13 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     files = [*catalogue_rows.raw_rows(plan, now), *(r for rows in tidied.files.values() for r in rows)]
     note = layer.tests[test]
     for rows in tidied.files.values():
-        _count(note, rows, test)
+        count(note, rows, test)
     for row in files:
         # the same clock for all of one ingest, and for a kept file the moment at which it was made
         row.setdefault("added_at", now)
     _add(layer, test, "file", files)
     _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
-    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, _duration(plan, files))])
+    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, duration_s(plan, files))])
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
     _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))
@@ -270,73 +268,6 @@ def _kept_alive(path: str, size_bytes: int) -> bool:
         # where nothing can be written, no gc runs either
         return error.errno in (errno.EROFS, errno.EACCES, errno.EPERM)
     return True
-
-
-def _duration(plan: TestPlan, files: Sequence[Row]) -> float | None:
-    """How long the recording is [s]: that of its reference sources, as far as they were tidied."""
-    ends = {r["source"]: meta_of(r)["to_s"] for r in files if r["layer"] == "tidy" and r["part"] == "test"}
-    if plan.test.window is not None and ends:
-        a, b = plan.test.window
-        return float(min(b - a, max(ends.values())))
-    wanted = [ends[s.name] for s in plan.reference if s.name in ends] or list(ends.values())
-    return max(wanted, default=None)
-
-
-def _tidy_rows(
-    campaign: str,
-    test: str,
-    member: Member,
-    result: TidyResult,
-    store: Path,
-    now: datetime,
-    base: str,
-    verdict: Mapping[str, Any],
-) -> list[Row]:
-    rows: list[Row] = []
-    for file in result.files:
-        meta: dict[str, Any] = {"channels": file.columns, "to_s": file.to_s, "base": base}
-        meta |= {"held": list(file.held)} if file.held else {}
-        meta |= {"levels": file.levels} if file.levels else {}
-        meta |= {"notes": list(result.notes)} if result.notes and file is result.files[-1] else {}
-        meta |= {"verdict": dict(verdict)} if verdict else {}
-        if file is result.files[-1]:
-            meta |= {"samples": result.samples, "flags": dict(result.flags), "problems": result.problems}
-            meta |= {"filled": sorted(result.filled)}
-        rows.append(
-            {
-                "campaign": campaign,
-                "test": test,
-                "source": member[0],
-                "stream": member[1],
-                "layer": "tidy",
-                "part": file.part,
-                "key": file.key,
-                "path": file.path,
-                "source_path": None,
-                "sha256": None,
-                "bytes": (store / file.path).stat().st_size,
-                "rows": file.rows,
-                "columns": json.dumps(meta, sort_keys=True),
-                "losses": json.dumps(
-                    [dataclasses.asdict(x) for x in result.losses] if file is result.files[-1] else []
-                ),
-                "added_at": now,
-            }
-        )
-    return rows
-
-
-def _count(note: TestNote, files: Sequence[Row], test: str) -> None:
-    for row in files:
-        meta = meta_of(row)
-        note.samples += meta.get("samples", 0)
-        for flag, count in meta.get("flags", {}).items():
-            note.flags[flag] = note.flags.get(flag, 0) + count
-        note.losses += [loss_row(p, test=test) for p in meta.get("problems", [])]
-        note.notes += said_of_repeats(test, row["source"], meta, row["rows"])
-        note.notes += [f"{test}, {row['source']}: {n}" for n in meta.get("notes", [])]
-        for item in json.loads(row["losses"]) if row["losses"] not in (None, "", "[]") else ():
-            note.losses.append(loss_row(item["reason"], test=test, source=row["source"], loss=Loss(**item)))
 
 
 def _add(layer: TidyLayer, test: str, table: str, rows: list[Row]) -> None:
