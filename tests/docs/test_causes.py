@@ -9,7 +9,7 @@ from thermodata.effect import all_effects, effects
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.model import EffectSpec
 
-PAGE = Path(__file__).parents[2] / "docs" / "method.md"
+PAGE = Path(__file__).parents[2] / "docs" / "model.md"
 IN_FILES = {"prediction"}
 ROW = re.compile(r"^\| (\d+) \| ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
 

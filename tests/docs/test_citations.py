@@ -25,8 +25,8 @@ CODE = [
 
 
 def literature() -> set[str]:
-    """The keys that docs/method.md lists."""
-    return set(re.findall(r'<a id="ref-([\w-]+)"></a>\*\*\[\1\]\*\*', (DOCS / "method.md").read_text("utf-8")))
+    """The keys that docs/literature.md lists."""
+    return set(re.findall(r'<a id="ref-([\w-]+)"></a>\*\*\[\1\]\*\*', (DOCS / "literature.md").read_text("utf-8")))
 
 
 def anchors(page: Path) -> set[str]:

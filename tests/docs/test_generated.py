@@ -80,8 +80,8 @@ def test_an_effect_may_state_them_and_may_have_no_docstring() -> None:
 
 
 def test_sources_become_links() -> None:
-    assert linked("[golub1973]; docs/method.md#the-model") == (
-        "[golub1973](method.md#ref-golub1973); [method: the model](method.md#the-model)"
+    assert linked("[golub1973]; docs/model.md#the-model") == (
+        "[golub1973](literature.md#ref-golub1973); [model: the model](model.md#the-model)"
     )
 
 

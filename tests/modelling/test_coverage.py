@@ -16,7 +16,7 @@ SCRIPT = Path(__file__).parents[1] / "benchmarks" / "coverage.py"
 
 
 def test_intervals_hold_the_truth_on_simulated_machines() -> None:
-    """200 machines: docs/method.md. Of these six a Bartlett window over the residual's correlations reaches 86 %."""
+    """200 machines: docs/model.md. Of these six a Bartlett window over the residual's correlations reaches 86 %."""
     words = [sys.executable, str(SCRIPT), "--seeds", "0:6", "--check", "0.90:0.99"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

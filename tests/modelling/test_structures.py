@@ -1,4 +1,4 @@
-"""The model structures of the five source papers (docs/method.md#literature), each as a model file."""
+"""The model structures of the five source papers (docs/literature.md), each as a model file."""
 
 from __future__ import annotations
 

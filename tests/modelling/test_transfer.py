@@ -131,7 +131,7 @@ def test_a_third_lag_that_the_data_cannot_identify_is_refused(fine: Dataset, coa
 
 
 def test_arx_is_scored_in_free_run_and_that_shows(fine: Dataset, spec: Spec) -> None:
-    """One step ahead it looks perfect; in free run it is far behind (docs/method.md#fitting: 63 at 1 s)."""
+    """One step ahead it looks perfect; in free run it is far behind (docs/model.md#fitting: 63 at 1 s)."""
     effect = {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "arx", "orders": [1, 2]}
     fitted = fit_model(spec(effect), fine)
     assert 0 < _unseen(fitted, fine) < 90

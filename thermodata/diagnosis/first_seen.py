@@ -11,7 +11,7 @@ from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
 NAMED = 4
-# [s]: what a lag of such a length is on a machine tool (docs/method.md, "Bounds of the effects")
+# [s]: what a lag of such a length is on a machine tool (docs/model.md, "Bounds of the effects")
 SMALL_S, LARGE_S = 900.0, 5400.0
 
 

@@ -26,7 +26,7 @@ bounds; *gains* are solved linearly. A model file names an effect as `{effect: N
 in [method.md](method.md).
 
 Two effects more belong to every model and need no plugin: `transfer_function` (identified, or given by its
-coefficients) and `prediction` (another program's model); see [method.md](method.md#the-model).
+coefficients) and `prediction` (another program's model); see [model.md](model.md#the-model).
 """
 
 
@@ -104,7 +104,7 @@ def _words(d: Description) -> tuple[str, str | None]:
 
 def linked(source: str) -> str:
     """A source with its `[keys]` and `docs/...` headings as links of Markdown, seen from the folder docs."""
-    keyed = re.sub(r"\[([a-z0-9-]+)\]", r"[\1](method.md#ref-\1)", source)
+    keyed = re.sub(r"\[([a-z0-9-]+)\]", r"[\1](literature.md#ref-\1)", source)
     return re.sub(
         r"docs/([\w-]+)\.md#([\w-]+)", lambda m: f"[{m[1]}: {m[2].replace('-', ' ')}]({m[1]}.md#{m[2]})", keyed
     )

@@ -25,7 +25,7 @@ class ModelOutput(OfTests):
 
     name = NAME
     family = "model"
-    source = "docs/method.md#the-model"
+    source = "docs/model.md#the-model"
 
     def __init__(self, response: FittedResponse, label: str, gain: str = GAIN) -> None:
         self.response = response

@@ -3,7 +3,7 @@
     dead time    u(t - L)               the heat has a way to go
     sensor lag   u + tau du/dt          the sensor shows F_tau{u} of what it measures
 
-Source: docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects
+Source: docs/model.md#the-model; bounds: docs/model.md#bounds-of-the-effects
 """
 
 from __future__ import annotations

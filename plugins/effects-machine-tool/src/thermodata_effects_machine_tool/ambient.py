@@ -19,7 +19,7 @@ class AmbientFrame(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] from the test's start.
-    Source: [straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/method.md#bounds-of-the-effects
+    Source: [straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "ambient_frame"
@@ -27,7 +27,7 @@ class AmbientFrame(Lagged):
     meaning = "the frame follows the hall's air: k F{dT}; daily"
     equation = "d = k F_tau{dT}"
     telltale = "a daily swing that goes on while the machine rests; told apart by a test at rest of 24 h or more (ETVE)"
-    source = "[straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[straka2021] Z_amb; [iso230-3] ETVE test; bounds: docs/model.md#bounds-of-the-effects"
     needs = _HALL
     params = (tau(240, 5, 1440, reach=(1, 1440)),)
     gains = (gain("um/K", 0.1, 15, "displacement at rest a kelvin of the hall"),)
@@ -39,7 +39,7 @@ class AmbientSkin:
         d = k (F_tau_fast{dT} - F_tau_slow{dT})
 
     k [um/K], tau_fast and tau_slow [min], dT [K] of the hall.
-    Source: [mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "ambient_skin"
@@ -50,7 +50,7 @@ class AmbientSkin:
     telltale = (
         "a bump of minutes after a door opens, gone once the frame has followed; told apart by a pulse of the door"
     )
-    source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects"
     needs = _HALL
     params = (
         tau(15, 5, 40, "tau_fast", "time constant of thin parts"),
@@ -73,7 +73,7 @@ class VerticalGradient(Lagged):
         d = k F_tau{dT_top - dT_bottom}
 
     k [um/K], tau [min], temperatures [K].
-    Source: [mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "vertical_gradient"
@@ -81,7 +81,7 @@ class VerticalGradient(Lagged):
     meaning = "the column tilts with the gradient of the air: k F{dT top - dT bottom}"
     equation = "d = k F_tau{dT_top - dT_bottom}"
     telltale = "a tilt: the same course in X and Y, larger than in Z; told apart by switching fans on"
-    source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("top", "temperature", ("hall.top",)), Need("bottom", "temperature", ("hall.bottom",)))
     params = (tau(60, 2, 360),)
     gains = (gain("um/K", 2, 30, "displacement at rest a kelvin between top and bottom"),)
@@ -97,7 +97,7 @@ class Sun(Lagged):
         d = k F_tau{G / 500 W/m2}
 
     k [um] at 500 W/m2, tau [min], irradiance G [W/m2].
-    Source: [mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "sun"
@@ -105,7 +105,7 @@ class Sun(Lagged):
     meaning = "sun on the machine: k F{irradiance / 500 W/m2}; same clock hour"
     equation = "d = k F_tau{G / 500 W/m2}"
     telltale = "comes at the same hour of the clock on clear days; told apart by shading the window"
-    source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("irradiance", "irradiance", ("hall.*",)),)
     params = (tau(60, 5, 360, reach=(1, 720)),)
     gains = (gain("um", 1, 15, "displacement at rest at 500 W/m2"),)
@@ -121,7 +121,7 @@ class Floor(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K].
-    Source: [mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "floor"
@@ -129,7 +129,7 @@ class Floor(Lagged):
     meaning = "the foundation follows the floor's temperature: k F{dT}; looks like drift"
     equation = "d = k F_tau{dT}"
     telltale = "looks like drift over one test; told apart by several days at rest"
-    source = "[mayr2012] on the environment; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on the environment; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("floor",)),)
     params = (tau(1440, 720, 4320, reach=(30, 4320)),)
     gains = (gain("um/K", 0.1, 30, "displacement at rest a kelvin of the floor"),)

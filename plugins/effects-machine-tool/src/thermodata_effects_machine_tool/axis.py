@@ -34,7 +34,7 @@ class FeedScrew(Lagged):
 
     k [um/K] ([um] at 10 m/min), tau [min], p [1], dT [K], v [m/min].
     Source: [straka2021] inputs dyn (nut) and stat (bearing house); bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "feed_screw"
@@ -45,7 +45,7 @@ class FeedScrew(Lagged):
         "follows the feed of one axis; nothing remains where a linear scale closes the loop; told apart by several "
         "feeds"
     )
-    source = "[straka2021] inputs dyn (nut) and stat (bearing house); bounds: docs/method.md#bounds-of-the-effects"
+    source = "[straka2021] inputs dyn (nut) and stat (bearing house); bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.nut", "axis.{a}.screw", "axis.{a}.bearing"), True),
         Need("feed", "feed", ("axis.{a}",), True),
@@ -66,7 +66,7 @@ class FeedMotor(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the motor.
-    Source: [straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects
+    Source: [straka2021] input syst (feed motor); bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "feed_motor"
@@ -74,7 +74,7 @@ class FeedMotor(Lagged):
     meaning = "heat of the axis motor into screw and slide: k F{dT of the motor}"
     equation = "d = k F_tau{dT}"
     telltale = "twin of feed_screw: the same axis moves; told apart by a sensor at the nut"
-    source = "[straka2021] input syst (feed motor); bounds: docs/method.md#bounds-of-the-effects"
+    source = "[straka2021] input syst (feed motor); bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.motor",)),)
     params = (tau(60, 30, 180, reach=(1, 360)),)
     gains = (gain("um/K", 0.2, 4, "displacement at rest a kelvin of the motor"),)
@@ -86,7 +86,7 @@ class Guideway(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the guideway.
-    Source: as feed_screw, for a slower and larger body; bounds: docs/method.md#bounds-of-the-effects
+    Source: as feed_screw, for a slower and larger body; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "guideway"
@@ -97,7 +97,7 @@ class Guideway(Lagged):
         "follows the feed of one axis, slower than its screw, and remains where a linear scale closes the loop; told "
         "apart by a sensor at the nut"
     )
-    source = "as feed_screw, for a slower and larger body; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as feed_screw, for a slower and larger body; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.guide",)),)
     params = (tau(60, 2, 720),)
     gains = (gain("um/K", 0.2, 20, "displacement at rest a kelvin of the guideway"),)
@@ -109,7 +109,7 @@ class ScrewGrowth:
         d = alpha x F_tau{dT} + k0 F_tau{dT}
 
     alpha [um/m/K], x [m], k0 [um/K], tau [min], dT [K].
-    Source: steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects
+    Source: steel expands by about 12 um/m/K; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "screw_growth"
@@ -118,7 +118,7 @@ class ScrewGrowth:
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
     equation = "d = alpha x F_tau{dT} + k0 F_tau{dT}"
     telltale = "grows with the position of the axis; told apart by measuring at two positions"
-    source = "steel expands by about 12 um/m/K; bounds: docs/method.md#bounds-of-the-effects"
+    source = "steel expands by about 12 um/m/K; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("axis.{a}.screw", "axis.{a}.nut")),
         Need("position", "position", ("axis.{a}",)),
@@ -141,7 +141,7 @@ class TableBearing(Lagged):
         d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing
 
     k [um/K] ([um] at 1000 rpm), tau [min], p [1], dT [K], n [rpm].
-    Source: [mares2021] turning; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mares2021] turning; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "table_bearing"
@@ -149,7 +149,7 @@ class TableBearing(Lagged):
     meaning = "growth of the table with its bearing: k F{dT}, or k F{(n/1000 rpm)^p} without a sensor"
     equation = "d = k F_tau{dT}, or k F_tau{(|n| / 1000 rpm)^p} where no sensor is at the bearing"
     telltale = "grows with the radius at which it is measured; told apart by measuring at two radii"
-    source = "[mares2021] turning; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mares2021] turning; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("table.bearing", "table"), True),
         Need("speed", "rotational_speed", ("table",), True),
@@ -170,7 +170,7 @@ class RotaryAxis(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K].
-    Source: as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects
+    Source: as feed_motor, for a turning axis; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "rotary_axis"
@@ -179,7 +179,7 @@ class RotaryAxis(Lagged):
     meaning = "growth with the temperature of a rotary axis: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone"
-    source = "as feed_motor, for a turning axis; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as feed_motor, for a turning axis; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("rotary.{a}",)),)
     params = (tau(60, 5, 360, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
@@ -191,7 +191,7 @@ class RotaryFriction(Lagged):
         d = k F_tau{(|n| / 10 rpm)^p}
 
     k [um] at 10 rpm, tau [min], p [1], n [rpm].
-    Source: as spindle_friction, for a slow axis; bounds: docs/method.md#bounds-of-the-effects
+    Source: as spindle_friction, for a slow axis; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "rotary_friction"
@@ -200,7 +200,7 @@ class RotaryFriction(Lagged):
     meaning = "friction heat of a rotary axis from its speed, where no sensor sees it: k F{(n/10 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10 rpm)^p}"
     telltale = "follows the axis while all linear axes stand; told apart by moving it alone at two speeds"
-    source = "as spindle_friction, for a slow axis; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as spindle_friction, for a slow axis; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("rotary.{a}",)),)
     params = (tau(60, 5, 360), exponent(1.0))
     gains = (gain("um", 0.1, 60, "displacement at rest at 10 rpm"),)
@@ -216,7 +216,7 @@ class TurretHeat(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K].
-    Source: as feed_motor, for a turret; bounds: docs/method.md#bounds-of-the-effects
+    Source: as feed_motor, for a turret; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "turret_heat"
@@ -225,7 +225,7 @@ class TurretHeat(Lagged):
     meaning = "growth with the temperature of a turret: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "follows the driven tools while the spindle stands; told apart by driving them alone"
-    source = "as feed_motor, for a turret; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as feed_motor, for a turret; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("turret",)),)
     params = (tau(40, 5, 240, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin"),)
@@ -237,7 +237,7 @@ class TurretFriction(Lagged):
         d = k F_tau{(|n| / 10000 rpm)^p}
 
     k [um] at 10000 rpm, tau [min], p [1], n [rpm].
-    Source: as spindle_friction, for driven tools; bounds: docs/method.md#bounds-of-the-effects
+    Source: as spindle_friction, for driven tools; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "turret_friction"
@@ -246,7 +246,7 @@ class TurretFriction(Lagged):
     meaning = "friction heat of driven tools from their speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
     telltale = "follows the driven tools while the spindle stands; told apart by driving them alone at two speeds"
-    source = "as spindle_friction, for driven tools; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as spindle_friction, for driven tools; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("turret",)),)
     params = (tau(40, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)

@@ -20,7 +20,7 @@ class Lag(Lagged):
         d = k F_tau{u}
 
     k [um per unit of u], tau [min], u of any quantity.
-    Source: [ljung1999] first-order transfer function; docs/method.md#the-model
+    Source: [ljung1999] first-order transfer function; docs/model.md#the-model
     """
 
     name = "lag"
@@ -28,7 +28,7 @@ class Lag(Lagged):
     meaning = "one first-order lag of any channel: k F{u}"
     equation = "d = k F_tau{u}"
     telltale = "whatever goes with the channel; told apart by declaring where the channel sits (at:)"
-    source = "[ljung1999] first-order transfer function; docs/method.md#the-model"
+    source = "[ljung1999] first-order transfer function; docs/model.md#the-model"
     needs = _ANY
     params = (tau(60, 1, 1440),)
     gains = (gain("um/u", 0, float("inf"), "displacement at rest a unit of the driver"),)
@@ -68,7 +68,7 @@ class Step:
         d = A H(t - at)
 
     A [um], at [min] from the test's start, H the unit step.
-    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
+    Source: docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "step"
@@ -76,7 +76,7 @@ class Step:
     meaning = "a step or slip of a probe at one moment: A H(t - at); belongs to one test (tests: [...])"
     equation = "d = A H(t - at)"
     telltale = "a jump between two samples that no command explains, and it stays; told apart by repeating the test"
-    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
+    source = "docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = "it is a slip of one probe in one test, which the control does not have"
     needs = ()
     params = (Param("at", "min", 60.0, 0.0, 2880.0, "moment of the step, from the test's start"),)
@@ -92,7 +92,7 @@ class Drift:
         d = k t
 
     k [um/h], t [h] from the test's start.
-    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
+    Source: docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "drift"
@@ -100,7 +100,7 @@ class Drift:
     meaning = "a straight drift of a probe: k t"
     equation = "d = k t"
     telltale = "a straight line whatever the machine does; told apart by a test at rest"
-    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
+    source = "docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = "it is the drift of a probe and grows without end, which the control does not have"
     needs = ()
     params = ()
@@ -116,7 +116,7 @@ class WarmStart:
         d = A exp(-t / tau)
 
     A [um], tau [min], t from the test's start.
-    Source: docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects
+    Source: docs/model.md#the-model; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "warm_start"
@@ -124,7 +124,7 @@ class WarmStart:
     meaning = "the machine was not at rest when the test began: A exp(-t/tau); size differs a test (gain_by: test)"
     equation = "d = A exp(-t / tau)"
     telltale = "a course at the start of each test that fades whatever follows; told apart by soaking for 12 h before"
-    source = "docs/method.md#the-model; bounds: docs/method.md#bounds-of-the-effects"
+    source = "docs/model.md#the-model; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = "it is what was left when a test began; a control goes on from its last state instead"
     needs = ()
     params = (tau(60, 5, 720),)

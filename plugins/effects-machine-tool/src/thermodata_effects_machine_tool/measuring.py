@@ -24,7 +24,7 @@ class RunoutAlias:
 
     A [um], n [rpm], f_s [Hz] the probe's sampling rate, f_a [Hz] the alias; 0 where the mandrel stands.
     Source: sampling of a sine: what a mean over 10 s leaves of it; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "runout_alias"
@@ -35,7 +35,7 @@ class RunoutAlias:
     telltale = (
         "an offset at whole multiples of the sampling rate, such as 6000 rpm and 10 Hz; told apart by 1 % of speed"
     )
-    source = "sampling of a sine: what a mean over 10 s leaves of it; bounds: docs/method.md#bounds-of-the-effects"
+    source = "sampling of a sine: what a mean over 10 s leaves of it; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = "it is the run-out of a mandrel as a probe sees it, which the control does not have"
     needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params: tuple[Param, ...] = (Param("rate", "Hz", 10.0, 0.5, 1000.0, "sampling rate of the probe"),)
@@ -53,7 +53,7 @@ class SensorDrift:
         d = k F_tau{t}
 
     k [um/h], tau [min] of the effect that the sensor drives, t [h] from the test's start.
-    Source: docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects
+    Source: docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "sensor_drift"
@@ -62,7 +62,7 @@ class SensorDrift:
     meaning = "a sensor drifts, and its effect follows: k F{t}; belongs to one test (tests: [...])"
     equation = "d = k F_tau{t}"
     telltale = "a straight line that begins slowly, whatever the machine does; told apart by a second sensor"
-    source = "docs/method.md#artefacts; bounds: docs/method.md#bounds-of-the-effects"
+    source = "docs/artefacts.md; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = "it is the drift of a sensor and grows without end"
     needs: tuple[Need, ...] = ()
     params: tuple[Param, ...] = (tau(60, 1, 1440),)

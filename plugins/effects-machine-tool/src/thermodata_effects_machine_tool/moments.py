@@ -31,7 +31,7 @@ class ToolChange:
 
     k [um/K], tau [min], dT [K] of the spindle or of the tool's heat.
     Source: [mares2017] eq. 9, e3, with a state that each change resets; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "tool_change"
@@ -40,7 +40,7 @@ class ToolChange:
     meaning = "a tool warms with the spindle, and each change puts a cold one in: k F{dT}, from 0 at the flag"
     equation = "d = k x, tau dx/dt + x = dT, x = 0 at each change"
     telltale = "a drop at the tool change and a new rise after it; told apart by the log of tool numbers"
-    source = "[mares2017] eq. 9, e3, with a state that each change resets; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mares2017] eq. 9, e3, with a state that each change resets; bounds: docs/model.md#bounds-of-the-effects"
     not_in_control = _IN_CONTROL
     needs = (Need("temperature", "temperature", ("spindle", "tool")), Need("change", "state", ("tool",)))
     params: tuple[Param, ...] = (tau(10, 1, 120),)
@@ -59,7 +59,7 @@ class Lubrication:
         d = k sum exp(-(t - t_i) / tau), t_i where the pump starts
 
     k [um] a pulse, tau [min].
-    Source: docs/method.md#bounds-of-the-effects
+    Source: docs/model.md#bounds-of-the-effects
     """
 
     name = "lubrication"
@@ -68,7 +68,7 @@ class Lubrication:
     meaning = "each pulse of oil moves the axis, and that fades: k sum exp(-(t - t_i)/tau)"
     equation = "d = k sum exp(-(t - t_i) / tau), t_i where the pump starts"
     telltale = "the same small course again and again; told apart by changing the interval"
-    source = "docs/method.md#bounds-of-the-effects"
+    source = "docs/model.md#bounds-of-the-effects"
     not_in_control = _IN_CONTROL
     needs = (Need("pump", "state", ("lubrication",)),)
     params: tuple[Param, ...] = (tau(10, 0.5, 120),)
@@ -87,7 +87,7 @@ class Homing:
         d = A N(t), N the commands so far
 
     A [um] a command.
-    Source: docs/method.md#bounds-of-the-effects
+    Source: docs/model.md#bounds-of-the-effects
     """
 
     name = "homing"
@@ -96,7 +96,7 @@ class Homing:
     meaning = "each homing or servo off leaves the axis elsewhere: A N(t); size differs a test (gain_by: test)"
     equation = "d = A N(t), N the commands so far"
     telltale = "a jump at a command that stays; told apart by repeating the command"
-    source = "docs/method.md#bounds-of-the-effects"
+    source = "docs/model.md#bounds-of-the-effects"
     not_in_control = _IN_CONTROL
     needs = (Need("command", "state", ("axis.{a}", "cnc")),)
     params: tuple[Param, ...] = ()

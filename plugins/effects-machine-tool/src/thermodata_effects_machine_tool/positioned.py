@@ -23,7 +23,7 @@ class ScaleGrowth:
 
     alpha [um/m/K], x [m], k0 [um/K] of the point where the scale is fixed, tau [min], dT [K] of the scale.
     Source: steel scales expand by about 11 um/m/K, glass ones by 8; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "scale_growth"
@@ -32,7 +32,7 @@ class ScaleGrowth:
     meaning = "growth of the linear scale, with position: alpha x F{dT} and its fixed point's k0 F{dT}"
     equation = "d = alpha x F_tau{dT} + k0 F_tau{dT}"
     telltale = "slow, and grows with the position of the axis though a scale closes the loop; told apart by a laser"
-    source = "steel scales expand by about 11 um/m/K, glass ones by 8; bounds: docs/method.md#bounds-of-the-effects"
+    source = "steel scales expand by about 11 um/m/K, glass ones by 8; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("axis.{a}.scale",)), Need("position", "position", ("axis.{a}",)))
     params = (tau(60, 1, 720),)
     gains = (gain("um/m/K", 0, 11, "expansion", "alpha"), gain("um/K", 0, 11, "part of the fixed point", "fixed_end"))
@@ -53,7 +53,7 @@ class Overhang(Lagged):
 
     k [um/m/K], tau [min], dT [K], z [m] by which the ram or quill stands out.
     Source: geometry of a warm bar: expansion times length; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "overhang"
@@ -62,7 +62,7 @@ class Overhang(Lagged):
     meaning = "growth or tilt of what hangs over, with its length: k F{dT z}"
     equation = "d = k F_tau{dT z}"
     telltale = "grows with the overhang; told apart by the same heat at two positions"
-    source = "geometry of a warm bar: expansion times length; bounds: docs/method.md#bounds-of-the-effects"
+    source = "geometry of a warm bar: expansion times length; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("ram", "headstock", "column", "spindle")),
         Need("position", "position", ("axis.z", "ram")),

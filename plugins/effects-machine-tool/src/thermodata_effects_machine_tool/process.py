@@ -20,7 +20,7 @@ class ToolElongation(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the tool.
-    Source: [mares2017] eq. 9, e3; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mares2017] eq. 9, e3; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "tool_elongation"
@@ -28,7 +28,7 @@ class ToolElongation(Lagged):
     meaning = "elongation of the tool: k F{dT tool}; at the tool centre point, not at the stator"
     equation = "d = k F_tau{dT}"
     telltale = "at the tool centre point, not at the spindle's stator; told apart by a second probe at the stator"
-    source = "[mares2017] eq. 9, e3; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mares2017] eq. 9, e3; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("tool",)),)
     params = (tau(3, 1, 10, reach=(1, 60)),)
     gains = (gain("um/K", 0.5, 3, "displacement at rest a kelvin of the tool"),)
@@ -40,7 +40,7 @@ class CuttingPower(Lagged):
         d = k F_tau{P}
 
     k [um/kW], tau [min], P [kW].
-    Source: [mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mares2017] eq. 8, gamma1; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "cutting_power"
@@ -49,7 +49,7 @@ class CuttingPower(Lagged):
     meaning = "heat of cutting from the spindle's power: k F{P}"
     equation = "d = k F_tau{P}"
     telltale = "follows the load; told apart by the same path as an air cut"
-    source = "[mares2017] eq. 8, gamma1; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mares2017] eq. 8, gamma1; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("power", "power", ("{s}spindle",)),)
     params = (tau(30, 1, 240),)
     gains = (gain("um/kW", 5, 300, "displacement at rest a kilowatt"),)
@@ -61,7 +61,7 @@ class CuttingLoad(Lagged):
         d = k F_tau{load / 100 %}
 
     k [um] at full load, tau [min], load [%].
-    Source: as cutting_power, for a spindle of a few kilowatts; bounds: docs/method.md#bounds-of-the-effects
+    Source: as cutting_power, for a spindle of a few kilowatts; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "cutting_load"
@@ -70,7 +70,7 @@ class CuttingLoad(Lagged):
     meaning = "heat of cutting from the spindle's load: k F{load/100 %}"
     equation = "d = k F_tau{load / 100 %}"
     telltale = "twin of cutting_power; told apart from other heat by the same path as an air cut"
-    source = "as cutting_power, for a spindle of a few kilowatts; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as cutting_power, for a spindle of a few kilowatts; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("load", "load", ("{s}spindle",)),)
     params = (tau(30, 1, 240),)
     gains = (gain("um", 5, 300, "displacement at rest at full load"),)
@@ -86,7 +86,7 @@ class Coolant(Lagged):
         d = k F_tau{on}, or k F_tau{q / 10 l/min}
 
     k [um], tau [min], on [0 or 1], flow q [l/min].
-    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "coolant"
@@ -95,7 +95,7 @@ class Coolant(Lagged):
     meaning = "coolant switched on and off: k F{state}, or k F{flow / 10 l/min}"
     equation = "d = k F_tau{on}, or k F_tau{q / 10 l/min}"
     telltale = "follows the switch of the coolant; told apart by coolant without cutting"
-    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("state", "state", ("coolant",), True), Need("flow", "flow", ("coolant",), True))
     params = (tau(20, 5, 90, reach=(1, 360)),)
     gains = (gain("um", 0.5, 30, "displacement at rest with the coolant on"),)
@@ -111,7 +111,7 @@ class CoolantTemperature(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the fluid.
-    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "coolant_temperature"
@@ -120,7 +120,7 @@ class CoolantTemperature(Lagged):
     meaning = "parts that the coolant washes follow its temperature: k F{dT}; a line at 5-40 min"
     equation = "d = k F_tau{dT}"
     telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
-    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("coolant",)),)
     params = (tau(15, 1, 240),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant"),)
@@ -132,7 +132,7 @@ class ChillerTemperature(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the fluid.
-    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "chiller_temperature"
@@ -140,7 +140,7 @@ class ChillerTemperature(Lagged):
     meaning = "what the cooling circuit holds follows its temperature: k F{dT}; a line at 5-40 min"
     equation = "d = k F_tau{dT}"
     telltale = "a ripple with the cycle of the chiller, 5 to 40 min; told apart by a step of its set point"
-    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("chiller",)),)
     params = (tau(15, 1, 240),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the fluid"),)
@@ -152,7 +152,7 @@ class Hydraulics(Lagged):
         d = k F_tau{dT}, or k F_tau{on}
 
     k [um/K] ([um] with the pump on), tau [min], dT [K], on [0 or 1].
-    Source: [mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "hydraulics"
@@ -160,7 +160,7 @@ class Hydraulics(Lagged):
     meaning = "parts near tank and pump: k F{dT}, or k F{pump on}; pump cycle"
     equation = "d = k F_tau{dT}, or k F_tau{on}"
     telltale = "follows the cycle of the pump; told apart by a test with the pump off"
-    source = "[mayr2012] on fluids; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on fluids; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("hydraulics",), True), Need("state", "state", ("hydraulics",), True))
     params = (tau(45, 2, 360),)
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the tank (um with the pump on)"),)
@@ -172,7 +172,7 @@ class Workpiece(Lagged):
         d = k F_tau{dT}
 
     k [um/K] = expansion [um/m/K] times length [m], tau [min], dT [K].
-    Source: metals expand by 11 to 24 um/m/K; bounds: docs/method.md#bounds-of-the-effects
+    Source: metals expand by 11 to 24 um/m/K; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "workpiece"
@@ -181,7 +181,7 @@ class Workpiece(Lagged):
     meaning = "growth of the part: k F{dT}; only with a part"
     equation = "d = k F_tau{dT}"
     telltale = "only with a part on the table; told apart by a part of little expansion"
-    source = "metals expand by 11 to 24 um/m/K; bounds: docs/method.md#bounds-of-the-effects"
+    source = "metals expand by 11 to 24 um/m/K; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("workpiece",)),)
     params = (tau(30, 1, 360),)
     gains = (gain("um/K", 0.5, 50, "displacement at rest a kelvin of the part"),)

@@ -22,7 +22,7 @@ class SpindleBearing(Lagged):
 
     k [um/K], tau [min], dT [K] of the bearing.
     Source: [straka2021], [horejs2022] transfer functions; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_bearing"
@@ -31,7 +31,7 @@ class SpindleBearing(Lagged):
     meaning = "growth of the spindle with its bearing temperature: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "heating and cooling with the spindle, slower than the bearing itself; told apart by a stop while warm"
-    source = "[straka2021], [horejs2022] transfer functions; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[straka2021], [horejs2022] transfer functions; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
@@ -44,7 +44,7 @@ class SpindleBearing2:
 
     k_fast and k_slow [um/K], tau_fast and tau_slow [min], dT [K].
     Source: [straka2021], [horejs2022] functions of second order; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_bearing_2"
@@ -54,7 +54,7 @@ class SpindleBearing2:
     meaning = "growth of the spindle in two modes: k1 F_fast{dT} + k2 F_slow{dT}; two slopes in cooling"
     equation = "d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}"
     telltale = "two slopes in one cooling; told apart by a long cooling"
-    source = "[straka2021], [horejs2022] functions of second order; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[straka2021], [horejs2022] functions of second order; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
     params = (
         tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
@@ -78,7 +78,7 @@ class SpindleMotor(Lagged):
 
     k [um/K], tau [min], dT [K] of the winding.
     Source: [horejs2022] motor temperatures of SP1 to SP3; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_motor"
@@ -86,7 +86,7 @@ class SpindleMotor(Lagged):
     meaning = "growth with the temperature of the motor winding: k F{dT}; large at low speed"
     equation = "d = k F_tau{dT}"
     telltale = "large at low speed, where the bearings stay cool; told apart by 500 against 9000 rpm"
-    source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[horejs2022] motor temperatures of SP1 to SP3; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("{s}spindle.motor",)),)
     params = (tau(40, 10, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 5, "displacement at rest a kelvin of the winding"),)
@@ -98,7 +98,7 @@ class SpindleGearbox(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of the gearbox or its oil.
-    Source: as spindle_motor, for a larger body; bounds: docs/method.md#bounds-of-the-effects
+    Source: as spindle_motor, for a larger body; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_gearbox"
@@ -106,7 +106,7 @@ class SpindleGearbox(Lagged):
     meaning = "heat of the gearbox into the headstock: k F{dT of the gearbox}; goes on after a stop"
     equation = "d = k F_tau{dT}"
     telltale = "changes with the gear at one speed, slower than the bearings; told apart by one speed in two gears"
-    source = "as spindle_motor, for a larger body; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as spindle_motor, for a larger body; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("{s}spindle.gearbox",)),)
     params = (tau(60, 5, 360),)
     gains = (gain("um/K", 0.1, 10, "displacement at rest a kelvin of the gearbox"),)
@@ -118,7 +118,7 @@ class SpindleFriction(Lagged):
         d = k F_tau{(|n| / 10000 rpm)^p}
 
     k [um] at 10000 rpm, tau [min], p [1], n [rpm].
-    Source: [mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on spindles; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_friction"
@@ -127,7 +127,7 @@ class SpindleFriction(Lagged):
     meaning = "friction heat of the spindle from its speed, where no sensor sees it: k F{(n/10000 rpm)^p}"
     equation = "d = k F_tau{(|n| / 10000 rpm)^p}"
     telltale = "not linear in the speed; told apart by three speeds"
-    source = "[mayr2012] on spindles; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on spindles; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params = (tau(45, 2, 360), exponent())
     gains = (gain("um", 0.5, 60, "displacement at rest at 10000 rpm"),)
@@ -143,7 +143,7 @@ class CentrifugalShift:
         d = k (n / 10000 rpm)^2
 
     k [um] at 10000 rpm, n [rpm].
-    Source: [abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects
+    Source: [abele2010] on spindles at speed; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "centrifugal_shift"
@@ -151,7 +151,7 @@ class CentrifugalShift:
     meaning = "shift of the shaft under centrifugal load, at once and reversible: k (n/10000 rpm)^2"
     equation = "d = k (n / 10000 rpm)^2"
     telltale = "a jump within a minute of a change of speed that goes back with it; told apart by short pulses of speed"
-    source = "[abele2010] on spindles at speed; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[abele2010] on spindles at speed; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("speed", "rotational_speed", ("{s}spindle",)),)
     params = ()
     gains = (gain("um", 0.5, 30, "displacement at 10000 rpm"),)
@@ -171,7 +171,7 @@ class SpindleHeatingCooling:
 
     d [um], k [um/K], tau_on and tau_off [min], dT [K], n [rpm].
     Source: [horejs2010] separate functions for heating and cooling; bounds:
-    docs/method.md#bounds-of-the-effects
+    docs/model.md#bounds-of-the-effects
     """
 
     name = "spindle_heating_cooling"
@@ -181,7 +181,7 @@ class SpindleHeatingCooling:
     meaning = "heating that differs from cooling: k F{dT} with tau_on while the spindle turns, else tau_off"
     equation = "tau dd/dt + d = k dT, tau = tau_on while |n| > 1 rpm, else tau_off"
     telltale = "a lobe in cooling only; told apart by a stop while warm"
-    source = "[horejs2010] separate functions for heating and cooling; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[horejs2010] separate functions for heating and cooling; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("{s}spindle.bearing",)),
         Need("speed", "rotational_speed", ("{s}spindle",)),
@@ -216,7 +216,7 @@ class SpeedDependentGain:
         d = k F_tau{dT n / 10000 rpm}
 
     k [um/K] at 10000 rpm, tau [min], dT [K], n [rpm].
-    Source: [horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects
+    Source: [horejs2022] spindle SP3; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "speed_dependent_gain"
@@ -226,7 +226,7 @@ class SpeedDependentGain:
     meaning = "the gain of the bearing temperature depends on the speed: k F{dT (n/10000 rpm)}"
     equation = "d = k F_tau{dT n / 10000 rpm}"
     telltale = "the same temperature acts otherwise at another speed; told apart by one temperature at two speeds"
-    source = "[horejs2022] spindle SP3; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[horejs2022] spindle SP3; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("temperature", "temperature", ("{s}spindle.bearing",)),
         Need("speed", "rotational_speed", ("{s}spindle",)),

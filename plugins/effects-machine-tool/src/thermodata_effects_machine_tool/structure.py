@@ -16,7 +16,7 @@ class ColumnBending(Lagged):
         d = k F_tau{dT_warm - dT_cold}
 
     k [um/K], tau [min], temperatures [K] of rear and front, or left and right.
-    Source: [mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects
+    Source: [mayr2012] on structures; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "column_bending"
@@ -24,7 +24,7 @@ class ColumnBending(Lagged):
     meaning = "the column bends with the difference of its sides: k F{dT rear - dT front} or left - right"
     equation = "d = k F_tau{dT_warm - dT_cold}"
     telltale = "a tilt: in Y (or X) more than in Z; told apart by sensors on both sides at once"
-    source = "[mayr2012] on structures; bounds: docs/method.md#bounds-of-the-effects"
+    source = "[mayr2012] on structures; bounds: docs/model.md#bounds-of-the-effects"
     needs: tuple[Need, ...] = (
         Need("warm_side", "temperature", ("column.rear", "column.left")),
         Need("cold_side", "temperature", ("column.front", "column.right")),
@@ -43,14 +43,14 @@ class RamBending(ColumnBending):
         d = k F_tau{dT_warm - dT_cold}
 
     k [um/K], tau [min], temperatures [K] of rear and front, left and right, or top and bottom.
-    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    Source: as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "ram_bending"
     family = "ram"
     meaning = "the ram bends with the difference of its sides: k F{dT rear - dT front}, left - right or top - bottom"
     telltale = "grows with how far the ram is out; told apart by sensors on both sides at once"
-    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("warm_side", "temperature", ("ram.rear", "ram.left", "ram.top")),
         Need("cold_side", "temperature", ("ram.front", "ram.right", "ram.bottom")),
@@ -63,14 +63,14 @@ class CrossbeamBending(ColumnBending):
         d = k F_tau{dT_warm - dT_cold}
 
     k [um/K], tau [min], temperatures [K] of top and bottom, or rear and front.
-    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    Source: as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "crossbeam_bending"
     family = "crossbeam"
     meaning = "the crossbeam bends with the difference of its sides: k F{dT top - dT bottom} or rear - front"
     telltale = "largest in the middle of the beam; told apart by sensors on both sides at once"
-    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("warm_side", "temperature", ("crossbeam.top", "crossbeam.rear")),
         Need("cold_side", "temperature", ("crossbeam.bottom", "crossbeam.front")),
@@ -83,14 +83,14 @@ class BedBending(ColumnBending):
         d = k F_tau{dT_warm - dT_cold}
 
     k [um/K], tau [min], temperatures [K] of top and bottom, rear and front, or left and right.
-    Source: as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects
+    Source: as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "bed_bending"
     family = "bed"
     meaning = "the bed bends with the difference of its sides: k F{dT top - dT bottom}, rear - front or left - right"
     telltale = "tilts what stands on the bed; told apart by sensors on both sides at once"
-    source = "as column_bending, of another beam; bounds: docs/method.md#bounds-of-the-effects"
+    source = "as column_bending, of another beam; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
         Need("warm_side", "temperature", ("bed.top", "bed.rear", "bed.left")),
         Need("cold_side", "temperature", ("bed.bottom", "bed.front", "bed.right")),
@@ -103,7 +103,7 @@ class ProbeTemperature(Lagged):
         d = k F_tau{dT}
 
     k [um/K], tau [min], dT [K] of probe or fixture.
-    Source: thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects
+    Source: thermal expansion of the fixture; bounds: docs/model.md#bounds-of-the-effects
     """
 
     name = "probe_temperature"
@@ -111,7 +111,7 @@ class ProbeTemperature(Lagged):
     meaning = "growth of the probe or its fixture, in all axes: k F{dT}"
     equation = "d = k F_tau{dT}"
     telltale = "in all axes alike; told apart by a fixture of little expansion"
-    source = "thermal expansion of the fixture; bounds: docs/method.md#bounds-of-the-effects"
+    source = "thermal expansion of the fixture; bounds: docs/model.md#bounds-of-the-effects"
     needs = (Need("temperature", "temperature", ("probe", "fixture")),)
     params = (tau(15, 1, 120, reach=(1, 360)),)
     gains = (gain("um/K", 0.1, 2, "displacement at rest a kelvin of the fixture"),)
