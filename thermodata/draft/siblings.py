@@ -40,9 +40,9 @@ def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
 
 def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
     """Each spindle by its name, where a machine has several: the milling spindle of a machine that has a counter
-    spindle or a main one, and those that the control counts, S1 and S2, where it counts two speeds."""
+    spindle, a main one, or the speed of another one, and those that the control counts, S1 and S2, where it counts two speeds."""
     said = [places_in(_own(c)) for c in channels]
-    several = any(s & {"counter spindle", "main spindle"} for s in said)
+    several = any(s & {"counter spindle", "main spindle"} for s in said) or _mills_beside_a_spindle(channels, said)
     counted = {n for c in channels if c.said.quantity == "rotational_speed" and (n := _count(c)) is not None}
     # 'S3 counter spindle' tells whose number 3 is
     names = dict(_ORDER) | {
@@ -60,6 +60,14 @@ def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
             name = names.get(number)
         made.append(channel if name is None else _of_spindle(channel, name))
     return made
+
+
+def _mills_beside_a_spindle(channels: Sequence[DraftChannel], said: Sequence[frozenset[str]]) -> bool:
+    """Whether one speed is a milling spindle's, and another one that of a spindle of no such name."""
+    turning = [s for c, s in zip(channels, said, strict=True) if c.said.quantity == "rotational_speed"]
+    return any("milling spindle" in s for s in turning) and any(
+        "spindle" in s and "milling spindle" not in s for s in turning
+    )
 
 
 def _of_spindle(channel: DraftChannel, name: str) -> DraftChannel:

@@ -66,13 +66,13 @@ _QUANTITY_WORDS: dict[str, str] = {
 
 _PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
-    "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. hsp. spi. spindl",
-    "main spindle": "main~spindle hauptspindel broche~principale mandrino~principale hlavni~vret husillo~principal "
+    "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. spi. spindl",
+    "main spindle": "main~spindle hauptspindel hsp. broche~principale mandrino~principale hlavni~vret husillo~principal "
     "主主轴 第一主轴 メインスピンドル 主スピンドル 메인스핀들 wrzeciono~glowne главн~шпиндел",
-    "counter spindle": "counter~spindle counterspindle sub~spindle subspindle gegenspindel abgreifspindel "
+    "counter spindle": "counter~spindle counterspindle sub~spindle subspindle gegenspindel gsp. abgreifspindel "
     "contre~broche contrebroche reprise~broche broche~de~reprise contromandrino contro~mandrino "
     "contrahusillo contra~husillo subhusillo protivret proti~vret przeciwwrzecion противошпиндел 副主轴 "
-    "背主轴 サブスピンドル 背面主軸 서브스핀들 서브~스핀들",
+    "背主轴 第二主轴 サブスピンドル 背面主軸 対向主軸 第二主軸 サブ主軸 서브스핀들 서브~스핀들 서브주축",
     "milling spindle": "milling~spindle mill~spindle frasspindel fraesspindel broche~de~fraisage broche~fraisage "
     "mandrino~fresa mandrino~di~fresatura mandrino~fresatura husillo~de~fresado husillo~fresado frezovaci~vret "
     "wrzeciono~frez фрезерн~шпиндел 铣主轴 动力主轴 ミーリング主軸 フライス主軸 밀링~스핀들 밀링스핀들",
