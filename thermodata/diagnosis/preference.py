@@ -43,12 +43,25 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
             or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
+            or (_is_cause_of_mode(best, other) and other.evidence >= CAUSE_SHARE * best.evidence)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
             or _at_once(best, other)
         ):
             return other if not fewer else preferred([other, *(s for s in ranked if s is not other and s is not best)])
     return best
+
+
+def _is_cause_of_mode(own: Scored, other: Scored) -> bool:
+    """Whether one is another mode of what the model has, and the other, by its channel and more, a cause that acts
+    alike: the air up there, beside the air down here, is the difference between both."""
+    mode, cause = own.candidate, other.candidate
+    more = set(mode.channels) < set(cause.channels) and cause.family not in UNNAMED
+    return mode.kin == "same" and cause.kin in ("near", "related", None) and more and _likeness(own, other) > ALIKE
+
+
+def _likeness(own: Scored, other: Scored) -> float:
+    return abs(float(own.shape @ other.shape))
 
 
 def _at_once(own: Scored, other: Scored) -> bool:
@@ -108,7 +121,7 @@ def what_warms_it(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
     better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
-    return better or _is_its_name(own, best) or _at_once(own, best)
+    return better or _is_its_name(own, best) or _at_once(own, best) or _is_cause_of_mode(own, best)
 
 
 def _is_its_name(own: Scored, best: Scored) -> bool:

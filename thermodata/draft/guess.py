@@ -242,8 +242,9 @@ def _place(found: Guess, own: str, text: str) -> Guess:
         questions.append("a limit, or a reading?")
     elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
         questions.append("a difference, not the quantity itself?")
-    if found.basis == ("unit",) and place.sure and quantity not in ("position", "voltage"):
-        found = replace(found, basis=("name", "unit"), sure=True)  # degC at a bearing: the name need not say T
+    if found.basis == ("unit",) and place.at is not None and quantity not in ("position", "voltage"):
+        # degC at a bearing: the name need not say T
+        found = replace(found, basis=("name", "unit"), sure=found.sure or place.sure)
     sure = found.sure and (place.sure or place.at is None) and not questions
     return replace(found, at=place.at, axis=letter, sure=sure, questions=tuple(dict.fromkeys(questions)))
 
