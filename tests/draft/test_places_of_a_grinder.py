@@ -104,9 +104,7 @@ def test_several_spindles_are_told_apart_by_their_names_or_numbers(tmp_path: Pat
     assert at[:3] == ["spindle", "milling_spindle", "counter_spindle"]
     assert at[3:6] == ["counter_spindle.motor", "milling_spindle.motor", "spindle.motor"]
     assert "# ? at: milling_spindle.bearing.front or .rear?" in both["Frasspindel_Lager"]
-    short = _draft(
-        tmp_path / "f", "Zeit;HSP Drehzahl [1/min];GSP Drehzahl [1/min];Frässpindel Drehzahl [1/min]", say
-    )
+    short = _draft(tmp_path / "f", "Zeit;HSP Drehzahl [1/min];GSP Drehzahl [1/min];Frässpindel Drehzahl [1/min]", say)
     at = [line.partition("at: ")[2].partition("}")[0] for line in short.values()]
     assert at == ["spindle", "counter_spindle", "milling_spindle"]
     speeds = "Zeit;主軸回転数[min-1];ミーリング主軸回転数[min-1];対向主軸回転数[min-1];ミーリング主軸動力[kW]"

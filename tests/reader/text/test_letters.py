@@ -6,6 +6,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import decode, decode_head
+from thermodata.reader.text.encoding import find_encoding
 
 WESTERN = {
     "French": "Pièce Entrée Poupée Température Palier.arrière Glissière.Z Écrou.Y Bâti Extérieur "
@@ -67,3 +68,10 @@ def test_a_long_word_of_such_letters_takes_no_longer_than_others() -> None:
     """Nothing but these letters, a megabyte of them: each piece is looked at once."""
     data = b"T;" + b"ab\xe8re" * 200_000
     assert decode_head(data) is not None
+
+
+def test_what_both_write_alike_is_read_as_western() -> None:
+    """German letters and degrees are one in both: no German is told that his log is read as Central European."""
+    encoding, note = find_encoding("Zeit;Kühlaggregat [°C];Führung [µm]\n".encode("cp1252"))
+    assert encoding == "cp1252"
+    assert note is not None and "cp1250" not in note

@@ -25,6 +25,8 @@ def _single_byte(data: bytes) -> tuple[str, bytes | None]:
     undefined_1252 = any(b in data for b in (b"\x8d", b"\x8f", b"\x9d"))
     if undefined_1250 != undefined_1252:
         return ("cp1252" if undefined_1250 else "cp1250"), None
+    if data.decode("cp1250", "replace") == data.decode("cp1252", "replace"):
+        return "cp1252", None  # German, or nothing but degrees: nobody is told of Central Europe
     western, word = western_not_central(data)
     return ("cp1252" if western > 0 else "cp1250"), (word if western == 0 else None)
 
