@@ -40,7 +40,8 @@ def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
 
 def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
     """Each spindle by its name, where a machine has several: the milling spindle of a machine that has a counter
-    spindle, a main one, or the speed of another one, and those that the control counts, S1 and S2, where it counts two speeds."""
+    spindle, a main one, or the speed of another one, and those that the control counts, S1 and S2, where it counts two
+    speeds."""
     said = [places_in(_own(c)) for c in channels]
     several = any(s & {"counter spindle", "main spindle"} for s in said) or _mills_beside_a_spindle(channels, said)
     counted = {n for c in channels if c.said.quantity == "rotational_speed" and (n := _count(c)) is not None}

@@ -67,8 +67,8 @@ _QUANTITY_WORDS: dict[str, str] = {
 _PLACE_WORDS: dict[str, str] = {
     "spindle": "mot~s. current~s. curr~s. load~s. s~load. s~temp. s~mot. s~current. spindel "
     "spindle vreten 主轴 主軸 电主轴 spdl. spnd. spin. sp. spi. spindl",
-    "main spindle": "main~spindle hauptspindel hsp. broche~principale mandrino~principale hlavni~vret husillo~principal "
-    "主主轴 第一主轴 メインスピンドル 主スピンドル 메인스핀들 wrzeciono~glowne главн~шпиндел",
+    "main spindle": "main~spindle hauptspindel hsp. broche~principale mandrino~principale hlavni~vret "
+    "husillo~principal 主主轴 第一主轴 メインスピンドル 主スピンドル 메인스핀들 wrzeciono~glowne главн~шпиндел",
     "counter spindle": "counter~spindle counterspindle sub~spindle subspindle gegenspindel gsp. abgreifspindel "
     "contre~broche contrebroche reprise~broche broche~de~reprise contromandrino contro~mandrino "
     "contrahusillo contra~husillo subhusillo protivret proti~vret przeciwwrzecion противошпиндел 副主轴 "

@@ -74,4 +74,5 @@ def test_what_both_write_alike_is_read_as_western() -> None:
     """German letters and degrees are one in both: no German is told that his log is read as Central European."""
     encoding, note = find_encoding("Zeit;Kühlaggregat [°C];Führung [µm]\n".encode("cp1252"))
     assert encoding == "cp1252"
-    assert note is not None and "cp1250" not in note
+    assert note is not None
+    assert "cp1250" not in note
