@@ -12,18 +12,15 @@ from thermodata.diagnosis.artefact import (
     Step,
     _step_score,
     as_artefacts,
-    beyond_slopes,
     find_steps,
     is_a_step,
     is_at_once,
-    most_sudden,
     noise_with_treads,
-    size_of_step,
-    suddenly,
     tread_of_response,
 )
-from thermodata.diagnosis.commanded import over_three, tells, through_zero
+from thermodata.diagnosis.commanded import tells, through_zero
 from thermodata.diagnosis.investigate import _without_steps
+from thermodata.diagnosis.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 
@@ -248,6 +245,15 @@ def test_a_command_that_makes_steps_elsewhere_explains_one(quantity: str) -> Non
     """A temperature jumps where one body takes the place of another."""
     shifting = [jumps_of(1.0, of=5.0), jumps_of(1.0, 0.0, of=5.0)]
     assert in_tests(*shifting, quantity=quantity) == []
+
+
+def test_a_motor_that_cools_once_its_axis_rests_excuses_no_slip() -> None:
+    """It falls fast from the stop on, and nowhere else: no other body has taken its place."""
+    at = 200
+    cooling = np.where(np.arange(400) < at, 1.0, np.exp(-(np.arange(400) - at) / 12))
+    still = (rough(400), cooling)
+    assert np.ptp(cooling[at : at + 3]) > 0.1, "as far as a command has to change"
+    assert in_tests(slipped(still, at + 1), jumps_of(of=0.0), quantity="temperature") == [("t0", 5)]
 
 
 @pytest.mark.parametrize("quantity", ["position", "pressure"])

@@ -14,10 +14,11 @@ from functools import partial
 import numpy as np
 
 from thermodata.calibration.tread import tread_of
-from thermodata.diagnosis.commanded import Commands, over_three
+from thermodata.diagnosis.commanded import Commands
 from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
 from thermodata.diagnosis.windows import in_windows
-from thermodata.plugin import Bool1D, Float1D
+from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
@@ -32,7 +33,6 @@ LEAST_UM = 0.5  # and than this
 SHARP = 0.4  # least share of a step that happens between two samples: halves where a mean parts it
 WITHIN = 0.7  # and within three intervals, beyond what the steeper of the slopes beside it makes
 SEEN = 0.3  # the same of the response, and its inverse at most: a model jumps, too, where its drivers do
-BESIDE = 5  # intervals that a slope beside a step is taken over
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,56 +149,6 @@ def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
 def is_at_once(size: float, in_residual: float, in_response: float) -> bool:
     """Whether a step of a size is more than a bend and is the displacement's own, by what `beyond_slopes` has of it."""
     return in_residual >= WITHIN * abs(size) and SEEN * abs(size) <= in_response <= abs(size) / SEEN
-
-
-def size_of_step(x: Float1D, t: Float1D, i: int, side: int) -> float:
-    """How far the lines through the samples just before and after the interval before sample i lie apart in its middle.
-    The samples at both its ends are left out: one of them is the mean of both levels, where a step parts it."""
-    many = min(BESIDE + 1, side - 1)
-    at = (t[i - 1] + t[i]) / 2
-    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
-    return float(np.polyfit(t[after] - at, x[after], 1)[1] - np.polyfit(t[before] - at, x[before], 1)[1])
-
-
-def beyond_slopes(x: Float1D, t: Float1D, i: int, sign: float, side: int) -> float:
-    """What x (shape (m,)) changes by over the three intervals around the one before sample i, in the direction of sign,
-    beyond what the steeper of the slopes just before and after them makes in that time.
-
-    A bend leaves nothing, however sharp: of its two slopes the steeper is taken off. Nor does a ramp, where it lasts as
-    long as the slopes are taken over. side: samples that there are before and after, at least. NaN where a hole is.
-    """
-    many = min(BESIDE + 1, side - 1)  # samples
-    rise = float(over_three(x[i - 2 : i + 2], t[i - 2 : i + 2])[2])
-    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
-    steeper = max(np.sign(sign) * np.polyfit(t[s] - t[i], x[s], 1)[0] for s in (before, after))
-    return float(np.sign(sign) * rise - steeper * (t[i + 1] - t[i - 2]))
-
-
-def most_sudden(x: Float1D, t: Float1D, among: Bool1D, side: int) -> tuple[int, float]:
-    """(sample before which x, shape (m,), changes most suddenly of those in `among`, shape (m,); how many times as
-    suddenly as it does anywhere else: not within half a side, where the same change is seen)."""
-    sudden = suddenly(x, t, side)
-    i = int(np.argmax(np.where(among, sudden, 0.0)))
-    elsewhere = np.abs(np.arange(len(x)) - i) > side // 2
-    most = float(sudden[elsewhere].max(initial=0.0))
-    return i, float(sudden[i]) / max(most, 1e-9) if among[i] else 0.0
-
-
-def suddenly(x: Float1D, t: Float1D, side: int) -> Float1D:
-    """`beyond_slopes` before each sample, in the direction of its own rise, shape (m,); 0 at ends and holes."""
-    from numpy.lib.stride_tricks import sliding_window_view
-
-    many = min(BESIDE + 1, side - 1)
-    y, at = sliding_window_view(x, many), sliding_window_view(t, many)
-    dt = at - at.mean(axis=1)[:, None]
-    slope = np.einsum("ij,ij->i", dt, y) / np.maximum(np.einsum("ij,ij->i", dt, dt), 1e-300)
-    inner = np.arange(many + 1, len(x) - many)
-    rise = over_three(x, t)[inner]
-    sign = np.sign(rise)
-    steeper = np.maximum(sign * slope[inner - 1 - many], sign * slope[inner + 1])
-    beyond = np.zeros(len(x))
-    beyond[inner] = np.abs(rise) - steeper * (t[inner + 1] - t[inner - 2])
-    return np.maximum(np.nan_to_num(beyond), 0.0)
 
 
 def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.sudden import BESIDE, HOLE_STEPS, over_three, suddenly
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
@@ -27,7 +28,6 @@ MOVED = 0.1  # share of a command's range over all tests, in the power by which 
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
 ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
-HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Commands:
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
         found = {n: c.quantity for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING}
-        self._commands = [_courses(problem.blocks, n, hides=found[n] in COMMANDS) for n in sorted(found)]
+        self._commands = [_courses(problem.blocks, n, told=found[n] in COMMANDS) for n in sorted(found)]
 
     def explain(self, block: int, i: int) -> bool:
         """Whether a command makes the step before sample i of a block."""
@@ -115,28 +115,17 @@ def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
     return slope, 1 - float(np.sum((y - slope * x) ** 2)) / max(float(y @ y), 1e-300)
 
 
-def over_three(values: Float1D, t_s: Float1D) -> Float1D:
-    """What changes over the interval before each sample and its two neighbours, shape (m,); NaN at ends and holes.
-
-    What happens between two samples is whole in it, even where a mean over both parts it, or a clock is off by one.
-    """
-    change = np.full(len(values), np.nan)
-    if len(values) >= 4:
-        step = float(np.median(np.diff(t_s)))
-        whole = t_s[3:] - t_s[:-3] < (2 + HOLE_STEPS) * step
-        change[2:-1] = np.where(whole, values[3:] - values[:-3], np.nan)
-    return change
-
-
-def _courses(blocks: Sequence[Block], name: str, *, hides: bool) -> list[_Course | None]:
-    """Of one command, None for each block that lacks it. hides: whether it may do something while nobody logs it, as a
-    command does and a temperature, which all heat moves, does not."""
+def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course | None]:
+    """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
+    temperature: it changes where that is sudden, and does nothing while nobody logs it."""
     held = [_held(b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
     span = {p: float(np.ptp(every**p)) for p in POWERS}
-    return [_course(b, v, hole & hides, span) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
+    return [
+        _course(b, v, hole & told, span, told) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)
+    ]
 
 
 def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
@@ -150,9 +139,11 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
 
 
-def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float]) -> _Course:
+def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float], told: bool) -> _Course:
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
-    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > MOVED * span[p]) for p in POWERS}
+    # a motor that cools once its axis rests is no other body; and a body expands by its temperature, not by the square
+    moved = change if told else {1: suddenly(value, block.t_s, BESIDE + 2), 2: np.zeros(len(value))}
+    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * span[p]) for p in POWERS}
     # a hole begins after the last logged sample and ends before the next one
     hole = old.copy()
     hole[1:] |= old[:-1]

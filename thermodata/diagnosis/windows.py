@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.commanded import HOLE_STEPS
 from thermodata.diagnosis.problem import Block, Problem
+from thermodata.diagnosis.sudden import HOLE_STEPS
 from thermodata.plugin import Float1D, Int1D
 
 LEAST_WINDOWS = 12  # of a test, below which there are only holes

@@ -1,0 +1,74 @@
+"""What changes between two samples, beyond what the slopes beside it make in that time."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from thermodata.plugin import Bool1D, Float1D
+
+HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
+BESIDE = 5  # intervals that a slope beside a step is taken over
+
+
+def over_three(values: Float1D, t_s: Float1D) -> Float1D:
+    """What changes over the interval before each sample and its two neighbours, shape (m,); NaN at ends and holes.
+
+    What happens between two samples is whole in it, even where a mean over both parts it, or a clock is off by one.
+    """
+    change = np.full(len(values), np.nan)
+    if len(values) >= 4:
+        step = float(np.median(np.diff(t_s)))
+        whole = t_s[3:] - t_s[:-3] < (2 + HOLE_STEPS) * step
+        change[2:-1] = np.where(whole, values[3:] - values[:-3], np.nan)
+    return change
+
+
+def beyond_slopes(x: Float1D, t: Float1D, i: int, sign: float, side: int) -> float:
+    """What x (shape (m,)) changes by over the three intervals around the one before sample i, in the direction of sign,
+    beyond what the steeper of the slopes just before and after them makes in that time.
+
+    A bend leaves nothing, however sharp: of its two slopes the steeper is taken off. Nor does a ramp, where it lasts as
+    long as the slopes are taken over. side: samples that there are before and after, at least. NaN where a hole is.
+    """
+    many = min(BESIDE + 1, side - 1)  # samples
+    rise = float(over_three(x[i - 2 : i + 2], t[i - 2 : i + 2])[2])
+    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
+    steeper = max(np.sign(sign) * np.polyfit(t[s] - t[i], x[s], 1)[0] for s in (before, after))
+    return float(np.sign(sign) * rise - steeper * (t[i + 1] - t[i - 2]))
+
+
+def suddenly(x: Float1D, t: Float1D, side: int) -> Float1D:
+    """`beyond_slopes` before each sample, in the direction of its own rise, shape (m,); 0 at ends and holes."""
+    many = min(BESIDE + 1, side - 1)
+    if len(x) <= 2 * many + 1:
+        return np.zeros(len(x))
+    y, at = sliding_window_view(x, many), sliding_window_view(t, many)
+    dt = at - at.mean(axis=1)[:, None]
+    slope = np.einsum("ij,ij->i", dt, y) / np.maximum(np.einsum("ij,ij->i", dt, dt), 1e-300)
+    inner = np.arange(many + 1, len(x) - many)
+    rise = over_three(x, t)[inner]
+    sign = np.sign(rise)
+    steeper = np.maximum(sign * slope[inner - 1 - many], sign * slope[inner + 1])
+    beyond = np.zeros(len(x))
+    beyond[inner] = np.abs(rise) - steeper * (t[inner + 1] - t[inner - 2])
+    return np.maximum(np.nan_to_num(beyond), 0.0)
+
+
+def most_sudden(x: Float1D, t: Float1D, among: Bool1D, side: int) -> tuple[int, float]:
+    """(sample before which x, shape (m,), changes most suddenly of those in `among`, shape (m,); how many times as
+    suddenly as it does anywhere else: not within half a side, where the same change is seen)."""
+    sudden = suddenly(x, t, side)
+    i = int(np.argmax(np.where(among, sudden, 0.0)))
+    elsewhere = np.abs(np.arange(len(x)) - i) > side // 2
+    most = float(sudden[elsewhere].max(initial=0.0))
+    return i, float(sudden[i]) / max(most, 1e-9) if among[i] else 0.0
+
+
+def size_of_step(x: Float1D, t: Float1D, i: int, side: int) -> float:
+    """How far the lines through the samples just before and after the interval before sample i lie apart in its middle.
+    The samples at both its ends are left out: one of them is the mean of both levels, where a step parts it."""
+    many = min(BESIDE + 1, side - 1)
+    at = (t[i - 1] + t[i]) / 2
+    before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
+    return float(np.polyfit(t[after] - at, x[after], 1)[1] - np.polyfit(t[before] - at, x[before], 1)[1])
