@@ -421,6 +421,32 @@ def test_a_twin_that_foretells_left_out_tests_much_better_is_taken(changed: dict
 
 
 @pytest.mark.parametrize(
+    ("mode", "cause", "gives"),
+    [
+        ({}, {}, True),
+        ({}, {"kin": None}, True),
+        ({}, {"evidence": 80.1}, True),
+        ({}, {"evidence": 79.9}, False),
+        ({}, {"shape": (0.81, (1 - 0.81**2) ** 0.5)}, True),
+        ({}, {"shape": (0.79, (1 - 0.79**2) ** 0.5)}, False),
+        ({}, {"channels": ("T_low", "T_down")}, False),  # it reads something else
+        ({}, {"family": "generic"}, False),  # it has no name
+        ({}, {"kin": "same"}, False),  # it is another mode itself
+        ({"kin": "near"}, {}, False),  # a cause of its own, by fewer channels
+    ],
+)
+def test_a_mode_of_the_model_gives_way_to_a_cause_that_reads_it_too(
+    mode: dict[str, Any], cause: dict[str, Any], gives: bool
+) -> None:
+    """The air up there, beside the air down here in the model, is the layers between both."""
+    air = scored("air", **{"family": "ambient", "channels": ("T_up",), "kin": "same", "evidence": 100.0, **mode})
+    layers = {"family": "ambient", "channels": ("T_up", "T_down"), "kin": "near", "evidence": 99.0, **cause}
+    other = scored("layers", **layers)
+    assert name(preferred([air, other])) == ("layers" if gives else "air")
+    assert gives_way(air, other, Ranked(None, (air, other))) is gives  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
     ("own", "other", "gives"),
     [
         ({}, {}, True),

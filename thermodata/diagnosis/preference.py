@@ -43,7 +43,7 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
         if (
             (fewer and other.evidence >= FEWER_SHARE * best.evidence)
             or (best.candidate.within and other.evidence >= CAUSE_SHARE * best.evidence)
-            or (_is_cause_of_mode(best, other) and other.evidence >= CAUSE_SHARE * best.evidence)
+            or _is_cause_of_mode(best, other)
             or (named and other.evidence >= NAMED_SHARE * best.evidence)
             or (elsewhere and other.evidence >= ALIKE_SHARE * best.evidence)
             or _at_once(best, other)
@@ -53,15 +53,13 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
 
 
 def _is_cause_of_mode(own: Scored, other: Scored) -> bool:
-    """Whether one is another mode of what the model has, and the other, by its channel and more, a cause that acts
-    alike: the air up there, beside the air down here, is the difference between both."""
+    """Whether one is another mode of what the model has, and the other, by its channel and more, a cause that is nearly
+    as likely and acts alike: the air up there, beside the air down here, is the difference between both."""
     mode, cause = own.candidate, other.candidate
     more = set(mode.channels) < set(cause.channels) and cause.family not in UNNAMED
-    return mode.kin == "same" and cause.kin in ("near", "related", None) and more and _likeness(own, other) > ALIKE
-
-
-def _likeness(own: Scored, other: Scored) -> float:
-    return abs(float(own.shape @ other.shape))
+    apart = mode.kin == "same" and cause.kin in ("near", "related", None)
+    likely = other.evidence >= CAUSE_SHARE * own.evidence
+    return apart and more and likely and abs(float(own.shape @ other.shape)) > ALIKE
 
 
 def _at_once(own: Scored, other: Scored) -> bool:
