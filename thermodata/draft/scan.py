@@ -15,6 +15,7 @@ from thermodata.draft.raw_file import RawFile, claimant, described_files, sample
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Recording
+from thermodata.reader.stores import within_stores
 from thermodata.schema.lines import is_text
 
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
@@ -112,9 +113,10 @@ def _try(error: Exception) -> str:
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:
+    in_store = within_stores(folder)
     for path in sorted(folder.rglob("*"), key=lambda p: natural(p.relative_to(folder).as_posix())):
         inside = PurePosixPath(path.relative_to(folder).as_posix())
-        hidden = any(p.startswith((".", "~$")) or p.endswith(".store") for p in inside.parts)
+        hidden = any(p.startswith((".", "~$")) for p in inside.parts) or in_store(path)
         if not hidden and path.is_file() and not path.is_symlink() and path.suffix.lower() not in _NOT_LOGS:
             yield inside
 
