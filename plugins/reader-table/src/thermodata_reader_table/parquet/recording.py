@@ -16,8 +16,12 @@ _ROWS = 250_000
 
 
 def describe(path: Path, source: Source) -> Recording:
-    """The one stream of a file, by its schema and first rows. FormatError: damaged, or no time."""
+    """The one stream of a file, by its schema and first rows. FormatError: damaged, no time, or a long
+    table."""
+    from thermodata_reader_table.parquet.long import refuse
+
     table = Table(path, source)
+    refuse(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(
@@ -43,4 +47,4 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
         yield Block(STREAM, t_ns[good], values)
     if missing:
-        yield Loss(path.name, None, None, missing / at, f"{missing} rows without a time")
+        yield Loss(path.name, None, None, missing / at, f"{missing} row{'s' * (missing != 1)} without a time")
