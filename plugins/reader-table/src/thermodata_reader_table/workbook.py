@@ -18,6 +18,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.text.layout import Layout, find, one_clock
+from thermodata.reader.text.on_its_side import refuse_sideways
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
@@ -109,6 +110,8 @@ def read(path: Path, source: Source) -> Read:
     refused: dict[str, ThermodataError] = {}
     for sheet, rows in book.sheets.items():
         try:
+            if not (source.table or {}).get("time"):
+                refuse_sideways(rows, f"{path.name} sheet '{sheet}'")
             tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
         except ThermodataError as error:
             refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
