@@ -16,6 +16,7 @@ from thermodata.draft.raw_file import RawFile, claimant, described_files, sample
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Recording
+from thermodata.reader.counted import counted
 from thermodata.reader.stores import within_stores
 from thermodata.schema.lines import is_text
 
@@ -158,7 +159,7 @@ def _damage(file: RawFile) -> str:
         wrong = [n for n in file.recording.notes if re.search(r"cut|damag|end|incomplete|lost|truncat|missing|past", n)]
         return wrong[0] if wrong else "it does not end as it should"
     lost = file.sample.losses
-    return f"{lost} loss{'es' * (lost != 1)} in what was read of it" if lost else ""
+    return f"{counted(lost, 'loss')} in what was read of it" if lost else ""
 
 
 def _sampled(folder: Path, logs: Mapping[str, RawFile], tell: Progress) -> list[RawFile]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
@@ -47,4 +48,4 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
         yield Block(STREAM, t_ns[good], values)
     if missing:
-        yield Loss(path.name, None, None, missing / at, f"{missing} row{'s' * (missing != 1)} without a time")
+        yield Loss(path.name, None, None, missing / at, f"{counted(missing, 'row')} without a time")
