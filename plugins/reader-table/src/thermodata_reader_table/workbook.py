@@ -17,6 +17,7 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.layout import Layout, find, one_clock
 from thermodata.reader.text.on_its_side import refuse_sideways
 from thermodata.reader.zone import NAT
@@ -215,7 +216,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         if not good.all():
             bad = int((~good).sum())
             where = path.name if len(found.streams) == 1 else f"{path.name} {stream.name}"
-            yield Loss(where, None, None, bad / t_ns.size, f"{bad} rows without a time")
+            yield Loss(where, None, None, bad / t_ns.size, f"{counted(bad, 'row')} without a time")
     yield from found.losses
 
 
