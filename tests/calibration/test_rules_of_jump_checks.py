@@ -136,3 +136,31 @@ def test_a_plateau_lasts_two_fifths_to_two_and_a_half_of_a_dwell(dwell: float, f
 
 def test_without_a_plateau_between_two_moves_the_dwell_is_taken_as_declared() -> None:
     assert failed(judged(dwells=(500.0, 500.0))) == []
+
+
+@pytest.mark.parametrize(
+    ("gain", "noise_um", "unit", "fails"),
+    [
+        (5001.0, 5.01, "V", True),
+        (4999.0, 5.01, "V", False),
+        (5001.0, 4.99, "V", False),
+        (5001.0, 5.01, "mV", False),  # of a bridge without an amplifier
+        (0.19, 0.0004, "Volts", True),
+        (0.21, 0.0004, "Volts", False),
+        (0.19, 0.0006, "Volts", False),
+        (1.0, 0.5, "mm", False),
+    ],
+)
+def test_a_probe_that_no_maker_sells(gain: float, noise_um: float, unit: str, fails: bool) -> None:
+    moves = (10_000.0, -10_000.0) if gain > 1 else (100.0, -100.0)
+    found = judged({"gain": -gain, "noise_um": noise_um, "span_um": 1e4}, moves=moves, unit=unit)
+    assert failed(found) == (["probe_um_per_v"] if fails else [])
+
+
+def test_moves_in_mm_for_um_are_asked() -> None:
+    changed = {"gain": -79997.0, "noise_um": 61.0, "span_um": 50_000.0}
+    wrong = judged(changed, moves=(10_000.0, -10_000.0))["probe_um_per_v"]
+    assert (wrong["threshold"], wrong["value"]) == (5000.0, 79997.0)
+    assert "um rather than mm" in str(wrong["advice"])
+    assert "mm rather than um" in str(judged({"gain": 0.08, "noise_um": 6e-5})["probe_um_per_v"]["advice"])
+    assert "probe_um_per_v" not in judged(changed, moves=(10_000.0, -10_000.0), gain="80 mm/V")  # a data sheet knows

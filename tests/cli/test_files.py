@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.reader import registry
+
 from .conftest import Said, write_campaign
 
 Say = Callable[..., Said]
@@ -95,6 +97,28 @@ def test_sniff_takes_folders(say: Say, tmp_path: Path) -> None:
     assert said.code == 0
     assert {r["reader"] for r in json.loads(said.out)} == {"table"}
     assert len(say("sniff", tmp_path / "raw").out.splitlines()) > 7
+
+
+def test_sniff_passes_stores_over(say: Say, tmp_path: Path) -> None:
+    for name in ("a.csv", "thermodata.store/lock.csv", "kept/catalog.duckdb", "kept/raw/b.csv"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        csv(tmp_path / name)
+    found = json.loads(say("sniff", tmp_path, tmp_path / "thermodata.store", "--json").out)
+    assert [r["file"] for r in found] == [str(tmp_path / "a.csv")]
+    assert "1 files, " in say("init", tmp_path).err
+
+
+def test_a_reader_that_does_not_load_shows_in_the_exit_code(
+    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = csv(tmp_path / "a.csv")
+    good = registry.readers()
+    monkeypatch.setattr(registry, "_all", lambda: (good, {"cnc": "ImportError: no part"}))
+    del good["cnc"]
+    said = say("sniff", log, "--json")
+    assert said.code == 3
+    assert json.loads(said.out)[0]["others"]["cnc"] == "does not load: ImportError: no part"
+    assert say("init", tmp_path).code == 3
 
 
 @pytest.mark.parametrize(

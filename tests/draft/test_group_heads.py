@@ -74,3 +74,11 @@ def test_words_that_tell_of_the_readings_are_asked(name: str, asked: bool) -> No
     said = guess(name, None, "str")
     assert said.quantity == "label"
     assert any("count like all others" in q for q in said.questions) is asked
+
+
+@pytest.mark.parametrize(
+    "head", ["Spostamenti", "Verplaatsingen", "Yer değiştirmeler", "Verlagerungen", "Przemieszczenia"]
+)
+def test_a_head_of_displacements_in_the_plural_says_so(head: str) -> None:
+    found = guess(f"{head}/Asse Y", "mm")
+    assert (found.quantity, found.axis, found.at) == ("displacement", "Y", "tcp")

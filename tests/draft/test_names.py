@@ -398,3 +398,10 @@ def test_an_f_at_the_end_is_asked_where_the_values_may_be_fahrenheit() -> None:
 
     assert asked(71.0, 89.0)
     assert not asked(21.0, 38.0), "of the front"
+
+
+@pytest.mark.parametrize("name", ["__index_level_0__", "Unnamed: 0"])
+def test_numbers_of_rows_are_no_level(name: str) -> None:
+    found = guess(name, None, "int64", values_of(np.arange(300.0)))
+    assert found.quantity is None
+    assert "pandas" in found.comment()

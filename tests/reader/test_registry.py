@@ -44,6 +44,14 @@ class Stumbling(Fake):
         raise IndexError("too short")
 
 
+class Lazy(Fake):
+    def __init__(self) -> None:
+        super().__init__("lazy", b"")
+
+    def sniff(self, head: Head) -> str | None:
+        raise ModuleNotFoundError("No module named 'parts'")
+
+
 class General(Fake):
     gives_way = True
 
@@ -51,7 +59,7 @@ class General(Fake):
         super().__init__("general", b"")
 
 
-CLASSES = {"one": One, "two": Two, "stumbling": Stumbling, "general": General}
+CLASSES = {"one": One, "two": Two, "stumbling": Stumbling, "lazy": Lazy, "general": General}
 
 
 @pytest.fixture
@@ -112,6 +120,26 @@ def test_a_reader_that_does_not_import_is_a_warning(install) -> None:  # type: i
     assert "No module named" in registry.failed_readers()["missing"]
     with pytest.raises(UsageError, match="does not load"):
         registry.reader("missing")
+
+
+def test_a_reader_whose_parts_do_not_import_is_told_once_and_loads_for_no_file(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "lazy")
+    logs = [write(tmp_path, b"A")] * 3
+    with pytest.warns(UserWarning, match="does not load") as told:
+        found = [registry.claims(log) for log in logs]
+    assert found == [{"one": "starts with b'A'"}] * 3
+    assert len(told) == 1
+    assert "read by another reader" in str(told[0].message)
+    assert list(registry.readers()) == ["one"]
+    assert "No module named 'parts'" in registry.failed_readers()["lazy"]
+
+
+def test_a_sniff_that_fails_is_told_once_a_file(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    install("one", "stumbling")
+    log = write(tmp_path, b"A")
+    with pytest.warns(UserWarning, match=r"stumbling.*x\.dat") as told:
+        explain(log)  # which asks twice
+    assert len(told) == 1
 
 
 def test_an_unknown_name_is_answered_with_the_installed_ones(install) -> None:  # type: ignore[no-untyped-def]

@@ -98,7 +98,9 @@ def test_brackets_without_end_are_refused_and_end_no_process() -> None:
     assert isinstance(outcome("a: " + "- " * 100_000 + "x"), str)
 
 
-@pytest.mark.parametrize(("value", "hint"), [("%", 'put what begins with % in quotes, as "%"'), ("[", "indentation")])
+@pytest.mark.parametrize(
+    ("value", "hint"), [("%", 'put what begins with % in quotes, as "%"'), ("[", "the bracket that opens in line 2")]
+)
 def test_a_sign_that_needs_quotes_is_said_to(value: str, hint: str) -> None:
     with pytest.raises(SpecError, match=r"not valid YAML") as told:
         lines.parse_document(f"channels:\n  load: {{unit: {value}, at: axis.y}}\n", Path("c.yaml"))

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from thermodata.calibration.platinum import CURVE, degrees
 from thermodata.calibration.result import CalibrationResult, Sign
 from thermodata.calibration.scaling import Raw, apply_scaling
 from thermodata.errors import CalibrationError, UsageError
@@ -146,6 +147,8 @@ def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: 
                 hint="declare the channel's unit, or use the calibration of the right sensor",
             ) from error
         values = values * factor + shift if (factor, shift) != (1.0, 0.0) else values
+        if (r0_ohm := calibration.detail.get(CURVE)) is not None:
+            values = degrees(values, float(r0_ohm))
         unit = calibration.unit_out
     offset = calibration.offset
     written = str(calibration.detail.get("offset_unit") or "")
@@ -184,6 +187,8 @@ def _to_calibrate(quantity: str, ratio: str) -> str:
     gain = f"(kind: scale, gain: ... {ratio})"
     if quantity == "displacement":
         return f"add 'calibration:' with a jump test (kind: jump) or the data sheet's gain {gain}, or correct the unit"
+    if quantity == "temperature" and ratio.rpartition("/")[2] == "ohm":
+        return "correct the quantity, or add 'calibration:' with the sensor's curve (kind: pt100, or pt1000)"
     return f"correct the unit or the quantity, or add 'calibration:' with the sensor's gain {gain}"
 
 

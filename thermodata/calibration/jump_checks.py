@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.calibration.jump_fit import JumpFit
+from thermodata.calibration.jump_plausible import probe_exists
 from thermodata.calibration.plateaus import Plateau
 from thermodata.calibration.result import Check, check
 from thermodata.calibration.static import ratio_units
@@ -91,6 +92,9 @@ def rows(
         )
     if spec.gain is not None:
         table.append(_data_sheet(spec, fit, unit))
+    probe = probe_exists(spec, moves, fit, unit)
+    if probe is not None:
+        table.append(probe)
     dwell = float(np.median([p.to_s - p.from_s for p in plateaus[1:-1]])) if len(plateaus) > 2 else spec.dwell
     table.append(
         check(

@@ -10,17 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thermodata.calibration.quality_edges import without_pauses
 from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible, sentinels
 from thermodata.calibration.quality_range import Limits
+from thermodata.calibration.quality_spike import spikes
 from thermodata.calibration.quality_step import offset_steps, stood_before
 from thermodata.calibration.quality_time import TimeFlags, time_flags
-from thermodata.calibration.quality_value import (
-    RunStats,
-    held_runs,
-    run_stats,
-    spikes,
-    true_runs,
-)
+from thermodata.calibration.quality_value import RunStats, held_runs, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.schema.places import is_at_tool
@@ -127,7 +123,7 @@ def _column(
             flags[start:stop] |= np.uint16(flag)
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
         if column.quantity in _INERT:
-            events += _mark_spikes(name, x, flags, t_ns, stats[name])
+            events += _mark_spikes(name, x, flags, t_ns, stats[name], time)
         if column.quantity == "temperature" and not is_at_tool(column.at):
             for step in list(offset_steps(x, t_ns, flags, time.flags, stats[name])):
                 neighbours = [
@@ -206,8 +202,11 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
     return events
 
 
-def _mark_spikes(name: str, x: Float1D, flags: Array, t_ns: Int1D, stats: RunStats) -> list[QualityEvent]:
+def _mark_spikes(
+    name: str, x: Float1D, flags: Array, t_ns: Int1D, stats: RunStats, time: TimeFlags
+) -> list[QualityEvent]:
     hit, many = spikes(x, stats)
+    hit = without_pauses(hit, x, (time.flags & np.uint16(Flag.GAP)) != 0)
     where = np.flatnonzero(hit)
     if many and len(where):
         return [

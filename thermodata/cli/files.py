@@ -23,16 +23,17 @@ _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 @command("init")
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
 @click.option("--force", is_flag=True, help="Draft anew: an existing campaign.yaml is kept as campaign.1.yaml.")
-def init_command(session: Session, folder: Path, force: bool) -> None:
+def init_command(session: Session, folder: Path, force: bool) -> int:
     """Draft campaign.yaml and a first model.yaml from the raw files of FOLDER.
 
     It groups files into sources and tests, reads signals and units, guesses quantities and places, takes conditions
     from the names, finds jump tests, and says how sure it is; what only you know is marked '# ?'. What is there is
-    never overwritten.
+    never overwritten. Exit code 3 where a reader does not load: its files are missing, or read by another one.
     """
     from thermodata.draft.answer import as_json
     from thermodata.draft.make import draft_files
     from thermodata.draft.write import one_line
+    from thermodata.reader.registry import failed_readers
 
     made = draft_files(folder, force=force, progress=_progress(session))
     for before, after in made.kept:
@@ -62,6 +63,7 @@ def init_command(session: Session, folder: Path, force: bool) -> None:
     )
     answer = as_json(draft, made.campaign, made.files, made.questions, _first_model(made))
     session.answer(answer, lambda: str(made.campaign))
+    return 3 if failed_readers() else 0
 
 
 @command("first-model")
@@ -115,10 +117,11 @@ def _progress(session: Session) -> Callable[[int, int, str], None] | None:
 def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     """Say which reader claims each FILE, and why the others do not.
 
-    What to declare is said where that helps. FILE may be a folder: then all files in it. Exit code 2 where none or
-    several readers claim a file.
+    What to declare is said where that helps. FILE may be a folder: then all files in it, but for stores. Exit code 2
+    where none or several readers claim a file, 3 where a reader does not load, so that another may claim its files.
     """
     from thermodata.reader.explain import explain
+    from thermodata.reader.registry import failed_readers
 
     found = [explain(path) for path in _each(files)]
     if not found:
@@ -136,19 +139,25 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
         for e in found
     ]
     session.answer(rows, lambda: "\n\n".join(map(_explained, rows)) if len(rows) <= 5 else _summary(rows))
-    return 0 if all(e.reader for e in found) else 2
+    return 2 if not all(e.reader for e in found) else 3 if failed_readers() else 0
 
 
 def _each(given: tuple[Path, ...]) -> list[Path]:
-    """Files as given; of a folder all below it, without hidden ones and links."""
+    """Files as given; of a folder all below it, without hidden ones, links and what a store holds."""
+    from thermodata.reader.stores import is_store, within_stores
+
     found: list[Path] = []
     for path in given:
         if path.is_dir():
+            if is_store(path):
+                continue
+            in_store = within_stores(path)
             found += sorted(
                 p
                 for p in path.rglob("*")
                 if p.is_file()
                 and not p.is_symlink()
+                and not in_store(p)
                 and not any(part.startswith(".") for part in p.relative_to(path).parts)
             )
         else:

@@ -13,6 +13,7 @@ from functools import lru_cache
 from thermodata.draft import units
 from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
+from thermodata.draft.doubted_units import doubted
 from thermodata.draft.naming import words
 from thermodata.draft.place import Place, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
@@ -24,6 +25,7 @@ from thermodata.schema.quantity import is_unit, normal_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
+_OF_ROWS = re.compile(r"__index_level_\d+__|Unnamed: 0")  # what pandas calls its numbers of rows
 _NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
@@ -35,7 +37,6 @@ _IMPLIED = {
     "torque": "N m",
     "voltage": "V",
 }
-_NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
 _COLDEST_K = 250.0  # of a machine and its hall; 235 is 23.5 degC in tenths
 _STATUS = re.compile(
     r"(?i)(data ?|sensor ?|mess)?(status|quality|qualität|zustand|stav|état|estado|stato|validity|gültig)"
@@ -92,6 +93,8 @@ def guess_of(signal: Signal, values: Values | None = None) -> Guess:
 @lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
+    if _OF_ROWS.fullmatch(name):
+        return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
     if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
@@ -119,16 +122,8 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
-    found = _by_its_f(_unit(found, unit, written, values), bare, known, values)
-    return _small(_place(found, own, text), own, values)
-
-
-def _by_its_f(found: Guess, name: str, known: str | None, values: Values | None) -> Guess:
-    """With a question where a temperature that no unit is told of ends with an F, and never is as cold as a hall."""
-    warm = values is not None and values.n > 0 and values.low >= _NO_HALL_C
-    if known or found.quantity != "temperature" or not units.may_be_fahrenheit(name) or not warm:
-        return found
-    return replace(found, sure=False, questions=(*found.questions, f"unit: degF, or degC? ({range_text(values)})"))
+    found = _small(_place(_unit(found, unit, written, values), own, text), own, values)
+    return found if known or values is None else doubted(found, bare, values)
 
 
 def _small(found: Guess, own: str, values: Values | None) -> Guess:

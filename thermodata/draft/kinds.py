@@ -11,6 +11,7 @@ from thermodata.draft.axis import axis_of
 from thermodata.draft.moved import Moved, moved_in
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
+from thermodata.draft.roles import said_by_name
 from thermodata.draft.said_by_names import Said, said_by
 from thermodata.draft.vocabulary import says
 
@@ -46,11 +47,6 @@ _KINDS: tuple[tuple[str, str], ...] = (
         "shift. schicht smena. "
         "kombin combin production produktion 混合 综合",
     ),
-)
-_ROLES: tuple[tuple[str, str], ...] = (
-    ("locked", "locked secret geheim blind. zamcen"),
-    ("verification", "verif valid overe pruf check. 验证"),
-    ("calibration", "train. training identif fit. ident. 辨识 建模"),
 )
 # a day is a date, unless the data show the loads of a working day
 _DAYS = "day. tag. ^den. dny."
@@ -89,8 +85,8 @@ _TURNS = "rotary drehtisch rundtisch rundachse otocn 转台 [bc]~axis achse~[bc]
 @dataclass(frozen=True, slots=True)
 class Kind:
     """kind: as in a campaign file; comment: how sure; question: what to look at, or None; conditions: condition ->
-    value with unit; doubts: of the conditions; role_hint: what the name says of the role, which is never taken; start:
-    date and time by the name, where no recording has its own."""
+    value with unit; doubts: of the conditions; role_hint: what role_by says of the role, which is never taken;
+    start: date and time by the name, where no recording has its own."""
 
     kind: str
     comment: str
@@ -99,6 +95,7 @@ class Kind:
     doubts: tuple[str, ...] = ()
     role_hint: str | None = None
     start: str | None = None
+    role_by: str = "the name"
 
 
 def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
@@ -121,7 +118,7 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     by_data = _by_data(moved)
     if by_name is None and by_data == "mixed" and says(_DAYS, text):
         by_name = "mixed"
-    hint = next((role for role, listed in _ROLES if says(listed, text)), None)
+    hint = said_by_name(text)
     kind, comment, question = _decided(by_name, by_data, moved)
     if by_name is None and by_data == "etve" and says(_FLUIDS, text):
         kind, comment = "other", ""

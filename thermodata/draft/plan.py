@@ -19,6 +19,7 @@ from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.orientation import why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.raw_file import RawFile
+from thermodata.draft.roles import said_by_list
 from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
@@ -159,7 +160,10 @@ def _test(
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
     conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else [])]
-    for key, value in (table.rows.get(test, {}) if table else {}).items():
+    listed = table.rows.get(test, {}) if table else {}
+    if (role := said_by_list(listed)) is not None:
+        kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
+    for key, value in listed.items():
         if key in conditions and conditions[key].split()[0] != value.split()[0]:
             doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
             continue

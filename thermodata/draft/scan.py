@@ -11,10 +11,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.draft.file_copies import copies_in
 from thermodata.draft.raw_file import RawFile, claimant, described_files, sample_of_file
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Recording
+from thermodata.reader.counted import counted
+from thermodata.reader.stores import within_stores
 from thermodata.schema.lines import is_text
 
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
@@ -46,11 +49,15 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     ignored: list[tuple[str, str]] = []
     failed: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
+    copies = copies_in(folder, paths)
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
         if not is_text(str(path)):
             ignored.append((str(path), "its name is no UTF-8: no campaign file can say it; give it another name"))
+            continue
+        if path in copies:
+            ignored.append((str(path), f"a copy of {copies[path]}: their bytes are equal"))
             continue
         try:
             like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
@@ -101,7 +108,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
-        tuple(dict.fromkeys(p for p, _ in ignored)),
+        tuple(dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in copies)),  # a log is no list of tests
         tuple(failed),
     )
 
@@ -112,9 +119,10 @@ def _try(error: Exception) -> str:
 
 
 def _files(folder: Path) -> Iterator[PurePosixPath]:
+    in_store = within_stores(folder)
     for path in sorted(folder.rglob("*"), key=lambda p: natural(p.relative_to(folder).as_posix())):
         inside = PurePosixPath(path.relative_to(folder).as_posix())
-        hidden = any(p.startswith((".", "~$")) or p.endswith(".store") for p in inside.parts)
+        hidden = any(p.startswith((".", "~$")) for p in inside.parts) or in_store(path)
         if not hidden and path.is_file() and not path.is_symlink() and path.suffix.lower() not in _NOT_LOGS:
             yield inside
 
@@ -150,7 +158,8 @@ def _damage(file: RawFile) -> str:
     if file.recording.complete is False:
         wrong = [n for n in file.recording.notes if re.search(r"cut|damag|end|incomplete|lost|truncat|missing|past", n)]
         return wrong[0] if wrong else "it does not end as it should"
-    return f"{file.sample.losses} losses in what was read of it" if file.sample.losses else ""
+    lost = file.sample.losses
+    return f"{counted(lost, 'loss')} in what was read of it" if lost else ""
 
 
 def _sampled(folder: Path, logs: Mapping[str, RawFile], tell: Progress) -> list[RawFile]:

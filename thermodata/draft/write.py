@@ -178,7 +178,7 @@ def _test(t: DraftTest) -> str:
 
 
 def _test_comment(t: DraftTest) -> str:
-    hint = f"role: {t.kind.role_hint}, as the name says?" if t.kind.role_hint else ""
+    hint = f"role: {t.kind.role_hint}, as {t.kind.role_by} says?" if t.kind.role_hint else ""
     asked = [*filter(None, (hint, t.kind.question)), *t.doubts]
     said = f"kind {t.kind.comment}" if t.kind.comment else ""
     if t.measuring:

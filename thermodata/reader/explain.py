@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
+from thermodata.reader.archives import packed
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
@@ -40,6 +41,7 @@ _MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"\xff\xfe\0\0", "text in UTF-32: save it as UTF-8"),
     (b"\0\0\xfe\xff", "text in UTF-32: save it as UTF-8"),
 )
+_ARCHIVE = "a ZIP archive of files"
 # The first lines of what is text, and no table whatever is declared
 _TEXTS: tuple[tuple[re.Pattern[str], str], ...] = (
     (re.compile(r"(?i)\s*<(?:!doctype\s+html|html|table)\b"), "an HTML page, whatever it is called: save it as XLSX"),
@@ -101,6 +103,8 @@ def looks_for(name: str) -> str:
 def _kind(start: Head) -> str:
     if not start.size_bytes:
         return "an empty file"
+    if (inside := packed(start.start)) is not None:
+        return f"{_ARCHIVE} ({inside}, ...): unpack it first"
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what
@@ -152,7 +156,8 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
         return "no reader is installed"
     kind = _kind(start)
     text = decode_head(start.start)
-    if kind.startswith(tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)) or kind == _no_table(text or ""):
+    says = tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)
+    if kind.startswith((_ARCHIVE, *says)) or kind == _no_table(text or ""):
         return None  # it says already what to do
     able = next((name for name, why in others.items() if "can read it" in why), None)
     if able:

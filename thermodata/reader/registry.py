@@ -13,6 +13,8 @@ from thermodata.plugin import HEAD_BYTES, Head, Reader
 GROUP = "thermodata.reader"
 INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"
 
+_told: set[str] = set()  # warnings of files, which are asked more than once
+
 
 def installed() -> dict[str, EntryPoint]:
     """Entry points by name, without importing any of them; UsageError where two share a name."""
@@ -49,8 +51,16 @@ def _all() -> tuple[dict[str, Reader], dict[str, str]]:
             good[name] = _load(point)
         except Exception as error:  # a plugin may fail in any way; it must not take the house with it
             bad[name] = f"{type(error).__name__}: {error}"
-            warnings.warn(f"reader '{name}' ({point.value}) does not load: {bad[name]}", stacklevel=3)
+            _warn_of(name, point.value, bad[name])
     return good, bad
+
+
+def _warn_of(name: str, where: str, error: str) -> None:
+    warnings.warn(
+        f"reader '{name}' ({where}) does not load: {error}; its files are left unread, or read by another reader: "
+        "install it anew before you trust what is read",
+        stacklevel=4,
+    )
 
 
 def readers() -> dict[str, Reader]:
@@ -77,6 +87,7 @@ def distribution_version(name: str) -> str:
 def reload() -> None:
     """Look again at what is installed."""
     _all.cache_clear()
+    _told.clear()
     _versions.cache_clear()
 
 
@@ -109,10 +120,17 @@ def all_claims(path: Path | str) -> dict[str, str]:
     for name, each in readers().items():
         try:
             reason = each.sniff(start)
+        except ImportError as error:  # what it imports when it is first asked is missing: it loads for no file
+            good, bad = _all()
+            del good[name]
+            bad[name] = f"{type(error).__name__}: {error}"
+            _warn_of(name, installed()[name].value if name in installed() else "", bad[name])
+            continue
         except Exception as error:  # a sniff that stumbles over a foreign file claims nothing
-            warnings.warn(
-                f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}", stacklevel=2
-            )
+            said = f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}"
+            if said not in _told:
+                _told.add(said)
+                warnings.warn(said, stacklevel=2)
             continue
         if reason is not None:
             found[name] = reason

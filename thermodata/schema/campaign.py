@@ -16,6 +16,7 @@ from thermodata.schema.campaign_channels import (
     Channel,
     JumpCalibration,
     LinearCalibration,
+    PlatinumCalibration,
     ScaleCalibration,
     Sensor,
 )
@@ -143,6 +144,7 @@ __all__ = [
     "Measuring",
     "Moment",
     "Overrule",
+    "PlatinumCalibration",
     "Role",
     "ScaleCalibration",
     "Seconds",

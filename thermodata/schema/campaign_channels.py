@@ -148,4 +148,16 @@ class LinearCalibration(Strict):
     offset: Value = 0
 
 
-Calibration = Annotated[JumpCalibration | ScaleCalibration | LinearCalibration, Field(discriminator="kind")]
+class PlatinumCalibration(Strict):
+    """`calibrations.*` of a platinum thermometer that is logged in ohm: the curve of IEC 60751. Leads are taken away
+    before it, by a linear calibration: calibration: [leads, pt].
+
+    kind: by its resistance at 0 degC: pt100, pt200, pt500, pt1000
+    """
+
+    kind: Literal["pt100", "pt200", "pt500", "pt1000"]
+
+
+Calibration = Annotated[
+    JumpCalibration | ScaleCalibration | LinearCalibration | PlatinumCalibration, Field(discriminator="kind")
+]

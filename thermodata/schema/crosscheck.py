@@ -8,6 +8,7 @@ from pathlib import PurePosixPath, PureWindowsPath
 from thermodata.errors import SpecError, nearest
 from thermodata.schema.campaign import Campaign, JumpCalibration
 from thermodata.schema.lines import Document, Place
+from thermodata.schema.zone_names import meant_zone
 
 
 def check_campaign(campaign: Campaign, document: Document) -> None:
@@ -108,7 +109,7 @@ def _timezone(name: str, document: Document, place: Place) -> None:
     try:
         ZoneInfo(name)
     except (KeyError, ValueError, OSError):
-        close = nearest(name, sorted(available_timezones()))
+        close = meant_zone(name, sorted(available_timezones()))
         raise SpecError(
             f"no time zone '{name}'",
             where=document.where(place),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any, TypeVar, get_args
 
@@ -40,6 +41,8 @@ def _as_error(document: Document, problems: list[SpecError]) -> SpecError:
 
 def _problems(model: type[BaseModel], document: Document, error: ValidationError) -> Iterator[SpecError]:
     seen: set[tuple[Place, str]] = set()
+    in_list: Counter[tuple[Place, str]] = Counter()
+    found: list[tuple[tuple[Place, str] | None, SpecError]] = []
     # a misspelt key is why another is missing: say it first
     details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
     for detail in details:
@@ -52,7 +55,17 @@ def _problems(model: type[BaseModel], document: Document, error: ValidationError
         if (place, kind) in seen:
             continue
         seen.add((place, kind))
-        yield _one(model, document, place, detail, tags)
+        # what all values of a list lack is said of the first
+        alike = (place[:-1], str(detail["msg"]).partition(";")[0]) if place and isinstance(place[-1], int) else None
+        if alike is not None:
+            in_list[alike] += 1
+            if in_list[alike] > 1:
+                continue
+        found.append((alike, _one(model, document, place, detail, tags)))
+    for alike, problem in found:
+        if alike is not None and (more := in_list[alike] - 1):
+            problem.what = f"{more + 1} values of '{dotted_place(alike[0])}': {problem.what.partition(': ')[2]}"
+        yield problem
     if not seen:
         detail = details[0]
         place, tags = _real_place(document.data, detail["loc"], detail["type"])
@@ -101,7 +114,7 @@ def _other_branch(kind: str, value: Any, tags: tuple[str, ...]) -> bool:
     if isinstance(value, dict):
         return kind in ("string_type", "list_type", "float_type", "int_type", "tuple_type") and bool(tags)
     if isinstance(value, list):
-        return kind in ("string_type", "dict_type", "model_type") and bool(tags)
+        return kind in ("string_type", "dict_type", "model_type", "literal_error") and bool(tags)
     return kind in ("model_type", "list_type", "dict_type") and bool(tags) and value is not None
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 import yaml
 
 from thermodata.errors import SpecError
+from thermodata.schema.yaml_faults import advice
 
 MAX_BYTES = 16 * 1024 * 1024
 MAX_NODES = 500_000
@@ -61,7 +61,6 @@ class SlowLoader(yaml.SafeLoader):
 
 # the parser in C takes byte order marks and tabs where the other one refuses them
 _LOOSE = "\ufeff\t"
-_NO_TOKEN = re.compile(r"character '(.+)' that cannot start any token")  # as YAML says of 'unit: %'
 FastLoader: type[Any] | None = None
 if hasattr(yaml, "CSafeLoader"):
 
@@ -121,15 +120,11 @@ def parse_document(text: str, path: Path) -> Document:
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
-        problem = str(getattr(error, "problem", None) or type(error).__name__)
-        sign = _NO_TOKEN.search(problem)
         raise SpecError(
             "not valid YAML",
             where=f"{path.name}{line}",
-            got=problem,
-            hint=f'put what begins with {sign[1]} in quotes, as "{sign[1]}"'
-            if sign and sign[1] != "\\t"
-            else "check indentation, quotes and brackets near that line",
+            got=str(getattr(error, "problem", None) or type(error).__name__),
+            hint=advice(error, text),
         ) from None
 
 

@@ -224,6 +224,15 @@ def test_a_header_with_fewer_cells_than_its_rows_is_refused(tmp_path: Path) -> N
     assert "declare table: {header_rows: 1}" in str(refused.value.hint)
 
 
+def test_decimal_commas_between_commas_are_named(tmp_path: Path) -> None:
+    rows = "".join(f"2026-03-02 07:{k:02d}:00,{20 + k},9,0,4\n" for k in range(20))
+    with pytest.raises(FormatError) as refused:
+        read(tmp_path, "Time,T [°C],dZ [um]\n" + rows)
+    assert str(refused.value.hint).startswith(
+        "has 2 columns a decimal comma? then export with ';' between cells; else "
+    )
+
+
 def test_last_columns_without_a_name_are_read_where_the_header_is_declared(tmp_path: Path) -> None:
     assert "column 5" in [s.name for s in read(tmp_path, _NODES, header_rows=1).recording.signals]
 

@@ -65,4 +65,4 @@ def test_a_footer_below_a_sheet_and_the_empty_row_above_it_are_no_losses(
     path = workbook(tmp_path / "x.xlsx", {"a": sheet(rows, styles)})
     data = load(Reader(), path, Source(timezone="UTC", table={"time": {"unit": "excel"}}))
     assert data.t_ns["table"].size == 40
-    assert [loss.reason for loss in data.losses] == ["1 rows without a time"]
+    assert [loss.reason for loss in data.losses] == ["1 row without a time"]

@@ -192,3 +192,34 @@ def test_no_footer_takes_more_steps_than_it_has_bytes(tmp_path: Path, monkeypatc
     with pytest.raises(ValueError, match="ends within a field"):
         check_footer(path, ())
     assert taken[0] > 1000
+
+
+def _long(path: Path, *, melted: bool, names: tuple[str, str] = ("name", "value")) -> Path:
+    stamps = np.datetime64("2026-03-02T07:00", "ns") + np.arange(2000) * np.timedelta64(60, "s")
+    tags = np.array(["T_bearing", "speed"])
+    order = np.repeat(tags, 2000) if melted else np.tile(tags, 2000)
+    t = np.tile(stamps, 2) if melted else np.repeat(stamps, 2)
+    pq.write_table(pa.table({"time": t, names[0]: order, names[1]: np.arange(4000.0)}), path)
+    return path
+
+
+@pytest.mark.parametrize("melted", [True, False])
+def test_a_long_table_is_refused_with_what_to_do(tmp_path: Path, melted: bool) -> None:
+    with pytest.raises(FormatError, match="a long table: each row names what it measures") as caught:
+        Reader().describe(_long(tmp_path / "a.parquet", melted=melted), Source())
+    assert "'name' holds T_bearing, speed" in str(caught.value)
+    assert "pivot" in str(caught.value)
+    assert "cnc" not in str(caught.value), "which reads no Parquet"
+
+
+def test_a_long_table_of_other_heads_is_refused_by_its_rows(tmp_path: Path) -> None:
+    path = _long(tmp_path / "a.parquet", melted=False, names=("which", "reads"))
+    with pytest.raises(FormatError, match="a long table"):
+        Reader().describe(path, Source())
+
+
+def test_a_table_with_a_label_is_none(tmp_path: Path) -> None:
+    t = np.datetime64("2026-03-02T07:00", "ns") + np.arange(90) * np.timedelta64(60, "s")
+    program = np.repeat(["O1001", "O1002", "O1003"], 30)
+    pq.write_table(pa.table({"time": t, "program": program, "value": np.arange(90.0)}), tmp_path / "a.parquet")
+    assert [s.name for s in Reader().describe(tmp_path / "a.parquet", Source()).signals] == ["program", "value"]

@@ -1,6 +1,7 @@
 """What labs write in Dutch, by the keys of the vocabulary."""
 
 WORDS = {
+    "displacement": "verplaatsing",
     "front": "voor. vooraan voorzijde voorkant voorste",
     "rear": "achter. achteraan achterzijde achterkant achterste",
     "upper": "boven. bovenaan bovenzijde bovenkant bovenste",

@@ -11,7 +11,7 @@ WORDS = {
     "flow": "portata",
     "humidity": "umidita",
     "irradiance": "irraggiamento soleggiamento",
-    "displacement": "spostamento deriva. allungamento deformazione correnti~parassite",
+    "displacement": "spostament deriva. allungamento deformazione correnti~parassite",
     "tilt": "inclinazione rollio beccheggio imbardata",
     "voltage": "tensione",
     "state": "stato. acceso. spento. aperto. aperta. chiuso. chiusa. attivo. attiva. marcia.",

@@ -13,7 +13,7 @@ WORDS = {
     "pressure": "basinc",
     "humidity": "nem. nemi.",
     "irradiance": "gunes~isin isinim",
-    "displacement": "yer~degistirme yerdegistirme deplasman sapma. uzama.",
+    "displacement": "yer~degistirme yer~degistirmeler yerdegistirme deplasman sapma. uzama.",
     "tilt": "egim",
     "voltage": "gerilim. gerilimi.",
     "state": "durum acik. kapali. calisiyor",

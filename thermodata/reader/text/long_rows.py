@@ -38,12 +38,30 @@ _MOST_NAMES = 200  # that one column may hold
 _SHARED = 0.6  # of the rows: no more times than this, where each is told of several names
 
 
-def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str, times: Sequence[int] = ()) -> None:
-    """FormatError for a table in which a column names what another one holds the value of: by its header, where that
-    column has several names, or by its rows, where each time comes once for each of several names."""
+_HINT = (
+    "with a column of dates and times, and columns called tag and value, the reader cnc takes it apart; else "
+    "pivot it: a column a name"
+)
+
+
+def name_column(names: Sequence[str]) -> int | None:
+    """The column that names what another one holds the value of, by the header of both; None where none does."""
     bare = [re.sub(r"[\s_.#()-]", "", name).casefold() for name in names]
     tag = next((i for i, n in enumerate(bare) if n in NAME_WORDS), None)
-    if tag is None or not any(n in VALUE_WORDS for n in bare):
+    return tag if any(n in VALUE_WORDS for n in bare) else None
+
+
+def refuse_long(
+    names: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    where: str,
+    times: Sequence[int] = (),
+    hint: str = _HINT,
+) -> None:
+    """FormatError for a table in which a column names what another one holds the value of: by its header, where that
+    column has several names, or by its rows, where each time comes once for each of several names."""
+    tag = name_column(names)
+    if tag is None:
         tag = next((i for i in range(len(names)) if i not in times and _names_rows(rows, i, times)), None)
     if tag is None:
         return
@@ -56,8 +74,7 @@ def refuse_long(names: Sequence[str], rows: Sequence[Sequence[str]], where: str,
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + ", ".join(list(said)[:4]) + (", ..." if len(said) > 4 else ""),
-        hint="with a column of dates and times, and columns called tag and value, the reader cnc takes it apart; else "
-        "pivot it: a column a name",
+        hint=hint,
     )
 
 

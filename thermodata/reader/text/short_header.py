@@ -35,6 +35,12 @@ def refuse_short_header(head: Sequence[str], first: int, width: int, delimiter: 
         where=f"{where} line {at + 1}, rows from line {first + 1}",
         expected=f"as many cells between {shown} in both",
         got=f"{longest} in the header, {width} in the rows: '{head[first][:80]}'",
-        hint=f"put cells that hold {shown} in quotes, or export with another delimiter; if only the last columns have "
-        f"no name, declare table: {{header_rows: {at + 1}}}",
+        hint=f"{_decimals(delimiter, width - longest)}put cells that hold {shown} in quotes, or export with another "
+        f"delimiter; if only the last columns have no name, declare table: {{header_rows: {at + 1}}}",
     )
+
+
+def _decimals(delimiter: str, more: int) -> str:
+    """What is said first where numbers may have a decimal comma between commas."""
+    asked = f"has {more} column{'s' * (more != 1)} a decimal comma? then export with ';' between cells; else "
+    return asked if delimiter == "," else ""

@@ -8,7 +8,7 @@ from pathlib import Path
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
-from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration
+from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
 from thermodata.schema.quantity import linear_conversion
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import derive
@@ -27,6 +27,7 @@ def evaluate(
     left without values.
     """
     from thermodata.calibration.jump import evaluate_jump
+    from thermodata.calibration.platinum import evaluate_platinum
     from thermodata.calibration.static import evaluate_linear, evaluate_scale
 
     results: dict[str, CalibrationResult] = {}
@@ -63,6 +64,8 @@ def evaluate(
                 )
         elif isinstance(spec, LinearCalibration):
             results[name] = evaluate_linear(name, spec, _unit_of(campaign, name))
+        elif isinstance(spec, PlatinumCalibration):
+            results[name] = evaluate_platinum(name, spec)
         else:
             results[name] = evaluate_scale(name, spec, of_displacement=_is_of_displacement(campaign, name))
     return results, problems

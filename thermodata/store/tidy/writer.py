@@ -17,6 +17,7 @@ from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.writer import group_rows
 from thermodata.store.tidy.between import Sampler, Verdict
 from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.cut_start import driven_before
 from thermodata.store.tidy.event import Event
 from thermodata.store.tidy.on_change import told
 from thermodata.store.tidy.overrule import overrule, overruled, rules_of
@@ -77,6 +78,7 @@ def write_member(
     here = [series.as_written(b) for b in series.plan.bound.values() if (b.source, b.stream) == member]
     held = tuple(b.name for b in here if b.is_held)
     result.notes += told([b.name for b in here if b.on_change])
+    result.notes += driven_before(series, member, here, rows.start, rows.stop)
     verdict = (verdict or Verdict()).of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)

@@ -17,7 +17,9 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.layout import Layout, find, one_clock
+from thermodata.reader.text.on_its_side import refuse_sideways
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
@@ -109,6 +111,8 @@ def read(path: Path, source: Source) -> Read:
     refused: dict[str, ThermodataError] = {}
     for sheet, rows in book.sheets.items():
         try:
+            if not (source.table or {}).get("time"):
+                refuse_sideways(rows, f"{path.name} sheet '{sheet}'")
             tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
         except ThermodataError as error:
             refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
@@ -212,7 +216,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         if not good.all():
             bad = int((~good).sum())
             where = path.name if len(found.streams) == 1 else f"{path.name} {stream.name}"
-            yield Loss(where, None, None, bad / t_ns.size, f"{bad} rows without a time")
+            yield Loss(where, None, None, bad / t_ns.size, f"{counted(bad, 'row')} without a time")
     yield from found.losses
 
 

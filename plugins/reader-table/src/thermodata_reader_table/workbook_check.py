@@ -47,6 +47,15 @@ def check_size(path: Path) -> dict[str, int]:
         raise FormatError(
             "not a readable workbook", where=path.name, expected="an XLSX (ZIP) file", got=str(error)
         ) from None
+    if not any(m.filename.lstrip("/").startswith(("xl/", "[Content_Types]")) for m in members):
+        names = [m.filename for m in members[:3]] + ["..."] * (len(members) > 3)
+        raise FormatError(
+            "not a readable workbook",
+            where=path.name,
+            expected="an XLSX file",
+            got=f"a ZIP archive of {', '.join(names)}",
+            hint="unpack it, and name the files in it",
+        )
     unpacked, odd = 0, dict.fromkeys(_ODD, 0)
     with path.open("rb") as file:
         _check_rows(file, members, path)

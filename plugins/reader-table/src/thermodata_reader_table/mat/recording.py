@@ -8,6 +8,7 @@ from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.mat.files import opened
@@ -62,5 +63,9 @@ def _blocks(stream: TimedStream, source: Source, where: str) -> Iterator[Block |
         yield Block(stream.name, t_ns if whole else t_ns[good], values)
     if missing:
         yield Loss(
-            f"{where} {stream.time.path}", None, None, missing / stream.time.length, f"{missing} rows without a time"
+            f"{where} {stream.time.path}",
+            None,
+            None,
+            missing / stream.time.length,
+            f"{counted(missing, 'row')} without a time",
         )

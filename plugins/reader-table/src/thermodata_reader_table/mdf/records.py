@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss
 from thermodata.reader import time_units
+from thermodata.reader.counted import counted
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.mdf.groups import File, Group
@@ -38,7 +39,7 @@ def group_blocks(file: File, group: Group, rows: int | None) -> Iterator[Block |
         fraction = abs(group.rows - done) / max(group.rows, done, 1)
         yield Loss(where, last, None, min(1.0, fraction), reason)
     if missing:
-        yield Loss(where, None, None, missing / max(done, 1), f"{missing} rows without a time")
+        yield Loss(where, None, None, missing / max(done, 1), f"{counted(missing, 'row')} without a time")
 
 
 def _block(file: File, group: Group, piece: Any) -> tuple[Block, int]:

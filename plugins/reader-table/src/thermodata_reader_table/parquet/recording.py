@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
@@ -16,8 +17,12 @@ _ROWS = 250_000
 
 
 def describe(path: Path, source: Source) -> Recording:
-    """The one stream of a file, by its schema and first rows. FormatError: damaged, or no time."""
+    """The one stream of a file, by its schema and first rows. FormatError: damaged, no time, or a long
+    table."""
+    from thermodata_reader_table.parquet.long import refuse
+
     table = Table(path, source)
+    refuse(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(
@@ -43,4 +48,4 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
         yield Block(STREAM, t_ns[good], values)
     if missing:
-        yield Loss(path.name, None, None, missing / at, f"{missing} rows without a time")
+        yield Loss(path.name, None, None, missing / at, f"{counted(missing, 'row')} without a time")

@@ -1,0 +1,49 @@
+"""A file that was copied in its folder is left out of a draft, and said; equal logs of two tests are not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+
+import pytest
+
+from thermodata.draft.file_copies import copies_in
+
+from .conftest import Said
+
+LOG = "time [s];T_front [degC]\n" + "".join(f"{i};{20 + i / 10:.1f}\n" for i in range(60))
+
+
+@pytest.mark.parametrize(
+    ("original", "copy", "is_one"),
+    [
+        ("day 2 数控.csv", "day 2 数控 - 副本.csv", True),
+        ("run1.csv", "run1 (2).csv", True),
+        ("run1.csv", "Kopie von run1.csv", True),
+        ("run1.csv", "run1_copy.csv", True),
+        ("run1.csv", "run12.csv", False),
+        ("run1.csv", "run2.csv", False),
+        ("run1.csv", "run1_b.csv", False),
+        ("run1.csv", "run1 copy.txt", False),
+        ("a/run1.csv", "b/run1 copy.csv", False),
+        ("run1.csv", "run1.1.csv", False),
+    ],
+)
+def test_a_copy_is_told_by_its_name_and_its_bytes(tmp_path: Path, original: str, copy: str, is_one: bool) -> None:
+    paths = [PurePosixPath(p) for p in (copy, original)]
+    for path in paths:
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).write_text(LOG)
+    assert copies_in(tmp_path, paths) == ({paths[0]: paths[1]} if is_one else {})
+    (tmp_path / copy).write_text(LOG.replace("20.0", "20.1"))
+    assert copies_in(tmp_path, paths) == {}
+
+
+def test_a_draft_keeps_the_original_and_names_the_copy(tmp_path: Path, say: Callable[..., Said]) -> None:
+    for i in (1, 2, 3):
+        (tmp_path / f"day {i}.csv").write_text(LOG.replace("20.0", f"2{i}.0"))
+    (tmp_path / "day 2 - Kopie.csv").write_text(LOG.replace("20.0", "22.0"))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert text.count("  - {id:") == 3
+    assert "# not used: day 2 - Kopie.csv: a copy of day 2.csv: their bytes are equal" in text

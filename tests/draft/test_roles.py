@@ -1,0 +1,44 @@
+"""Roles that a list of the tests says are offered beside each test, and never taken."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.roles import said_by_list
+
+from .conftest import Said
+
+
+@pytest.mark.parametrize(
+    ("cells", "found"),
+    [
+        ({"verwendung": "Kalibrierung"}, ("calibration", "verwendung")),
+        ({"verwendung": "gesperrt"}, ("locked", "verwendung")),
+        ({"uso": "verifica"}, ("verification", "uso")),
+        ({"uso": "taratura", "tipo": "mandrino"}, ("calibration", "uso")),
+        ({"usage": "Validierung"}, ("verification", "usage")),
+        ({"note": "checked after calibration of the probes"}, None),
+        ({"note": "calibration check"}, None),
+        ({"a": "calibration", "b": "verification"}, None),
+        ({"speed": "8000 rpm"}, None),
+    ],
+)
+def test_a_role_by_a_cell(cells: dict[str, str], found: tuple[str, str] | None) -> None:
+    assert said_by_list(cells) == found
+
+
+def test_a_list_of_tests_offers_their_roles(tmp_path: Path, say: Callable[..., Said]) -> None:
+    for i in (1, 2, 3):
+        rows = "".join(f"{k};{20 + i + k / 10:.1f}\n" for k in range(60))
+        (tmp_path / f"Versuch {i}.csv").write_text("time [s];T_front [degC]\n" + rows)
+    (tmp_path / "Versuchsliste.csv").write_text(
+        "Nr.;Verwendung\nVersuch 1;Kalibrierung\nVersuch 2;Validierung\nVersuch 3;gesperrt\n"
+    )
+    assert say("init", tmp_path).code == 0
+    lines = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if x.startswith("  - {id:")]
+    assert all("role: none" in x for x in lines)
+    for line, role in zip(lines, ("calibration", "verification", "locked"), strict=True):
+        assert f"? role: {role}, as the table's 'verwendung' says?" in line

@@ -1,0 +1,23 @@
+"""Archives of files that are no file themselves: a workbook is a ZIP as well, but its parts are XML."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import PurePosixPath
+
+_ZIP = b"PK\x03\x04"
+_PARTS = ("", ".xml", ".rels", ".vml", ".bin", ".png", ".jpg", ".jpeg", ".emf", ".wmf", ".gif")  # of Office files
+
+
+def packed(start: bytes) -> str | None:
+    """The first file of a ZIP archive that holds files rather than the parts of one; None for all else. start: the
+    first bytes of a file. What stands behind them is not asked: a workbook that is packed unchanged has its own parts
+    there."""
+    if start[:4] != _ZIP or len(start) < 30:
+        return None
+    flags, length = struct.unpack("<H", start[6:8])[0], struct.unpack("<H", start[26:28])[0]
+    name = start[30 : 30 + length].decode("utf-8" if flags & 0x800 else "cp437", "replace")
+    part = name.startswith("[") or PurePosixPath(name).suffix.lower() in _PARTS  # [trash]/0000.dat
+    if part or not name.isprintable():
+        return None
+    return name
