@@ -35,3 +35,24 @@ def test_when_a_log_without_dates_began_is_asked_where_it_is_not_as_long_as_the_
 
 def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> None:
     assert asked(tmp_path, 1800, dated=False) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "question", "declared"),
+    [
+        ("Start time: 2026-06-01 13:07:00", None, {}),
+        ("Start time: 06/01/2026 13:07:00", "start: dmy or mdy?", {"time": {"start": "unknown"}}),
+        ("Exported: 2026-06-02 09:00:00", "start: head or none?", {"time": {"start": "unknown"}}),
+    ],
+)
+def test_a_start_above_the_rows_is_taken_or_asked(
+    tmp_path: Path, line: str, question: str | None, declared: dict[str, dict[str, str]]
+) -> None:
+    rows = "\n".join([line, "", "t [s],Disp Z [um]", *(f"{x},{x / 999:.3f}" for x in range(0, 7200, 10)), ""])
+    (tmp_path / "daq_one.csv").write_text(rows)
+    (source,) = draft_files(tmp_path).draft.sources
+    assert source.table == declared
+    assert [q for q in source.questions if "start:" in q] == [
+        q for q in source.questions if q.startswith(question or "-")
+    ]
+    assert any("did it begin" in q or "timezone?" in q for q in source.questions) == ("Start" in line)

@@ -12,6 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
+from thermodata.reader.text.begin import Begin, declared_start, find_begin, first_times
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.foreign_texts import refuse_foreign
@@ -78,7 +79,8 @@ def bare_line(line: str) -> str:
 class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
-    parts its cells: lines are looked at, and read, with tabs in their place."""
+    parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
+    its head says so."""
 
     name: str
     sample: Sample
@@ -93,10 +95,11 @@ class Table:
     quality: Pairs
     notes: tuple[str, ...]
     blanks: bool = False
+    begin: Begin | None = None
 
     @property
     def absolute(self) -> bool:
-        return self.groups[0].absolute
+        return self.begin is not None or self.groups[0].absolute
 
     @property
     def cut(self) -> bool:
@@ -252,7 +255,13 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
-    notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
+    begin, doubt = None, None
+    if not any(g.absolute for g in groups):
+        above = [[line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first]]
+        timed = groups[0]
+        first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
+        begin, doubt = find_begin(above, first_rows, declared_start(said), where)
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), doubt]
     return Table(
         name=where,
         sample=first,
@@ -265,8 +274,9 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         decimal_declared=declared is not None,
         header=header,
         quality=quality,
-        notes=notes,
+        notes=tuple(dict.fromkeys(note for note in found if note)),
         blanks=blanks,
+        begin=begin,
     )
 
 

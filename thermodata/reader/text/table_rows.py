@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import column_times
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.footer import is_footer
@@ -47,7 +48,7 @@ class RowReader:
         self.losses = Losses(table.name, max(size, 1))
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
-        self.clocks = [_Clock(timed, timed.stated or source.timezone) for timed in table.groups]
+        self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False
@@ -199,30 +200,46 @@ class RowReader:
 class _Clock:
     """The times of a group's rows, chunk after chunk."""
 
-    def __init__(self, timed: TimedGroup, timezone: str | None) -> None:
-        self.timed = timed
+    def __init__(self, timed: TimedGroup, timezone: str | None, begin: Begin | None = None) -> None:
+        self.timed, self.begin, self.timezone = timed, begin, timezone
         epoch = EPOCHS.get(timed.group.epoch or "")
         local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
+        local = local or (begin is not None and begin.of_day)
         self.epoch = epoch
         self.clock = LocalClock(timezone if local else None)
         self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
         self.counted = 0
+        self._first: int | None = None
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
-        if self.timed.group.counted:
-            return self._counted(rows, peek)
-        ns = self._written(rows)
+        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows)
         if peek:
             return ns
         if self.timed.of_day:
-            return self.days.relative(ns)
+            ns = self._of_day(ns)
+            if self.begin is None:
+                return ns
+        if self.begin is not None and not self.begin.of_day:
+            return self.begin.utc(ns, self.timezone)
         good = ns != NAT
         if good.all():
             return self.clock.utc(ns)
         result = np.full(ns.size, NAT, np.int64)
         result[good] = self.clock.utc(ns[good])
         return result
+
+    def _of_day(self, ns: Int1D) -> Int1D:
+        """Times of day or durations, shape (n,), counted from the first row; from their zero, and from the date above
+        the rows, where the file says when it began."""
+        good = ns != NAT
+        if self._first is None and good.any():
+            self._first = int(ns[good][0])
+        since = self.days.relative(ns)
+        if self.begin is None:
+            return since
+        zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
+        return np.where(since == NAT, NAT, since + np.int64(zero))
 
     def _counted(self, rows: Rows, peek: bool) -> Int1D:
         """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
