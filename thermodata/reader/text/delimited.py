@@ -20,6 +20,7 @@ from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.table import Table, open_table
 from thermodata.reader.text.table_rows import RowReader
+from thermodata.reader.time_units import EPOCHS
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
@@ -83,7 +84,9 @@ def describe(table: Table, source: Source) -> Recording:
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     """What the zone of local times had to decide; whether daylight saving changes between first and last row."""
     timed = table.groups[0]
-    if timed.zoned or (timed.group.epoch is not None) or (table.begin is not None and not table.begin.local):
+    epoch = EPOCHS.get(timed.group.epoch or "")
+    utc = epoch is not None and not epoch.local
+    if timed.zoned or utc or (table.begin is not None and not table.begin.local):
         return []
     if timed.stated is not None:
         said = [] if source.timezone in (None, timed.stated) else [f"the declared {source.timezone} is not used"]

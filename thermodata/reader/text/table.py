@@ -228,7 +228,9 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
-    times = {i: TIME if g.formats else "float64" for g in groups for i in g.group.time}
+    times = {
+        i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
+    }
     kinds: list[str | None] = []
     for i, (name, unit) in enumerate(zip(layout.names, layout.units, strict=True)):
         column = cells_of[name]
@@ -349,6 +351,14 @@ def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
         return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
     read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
     return [r for r, good in zip(body, read.tolist(), strict=True) if good]
+
+
+def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
+    """The dtype of times that are numbers: counts of nanoseconds or ticks since a date are too long for a float64."""
+    if timed.group.epoch is None:
+        return "float64"
+    whole = [c for c in map(clean, cells) if c.lstrip("-").isdecimal()]  # a few cells may be torn
+    return "int64" if 2 * len(whole) > len(cells) and dtype_of(whole) == "int64" else "float64"
 
 
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -260,8 +259,12 @@ class _Clock:
     def _written(self, rows: Rows) -> Int1D:
         group = self.timed.group
         if not self.timed.formats:
-            values: Any = rows.columns[group.time[0]].values
-            if self.epoch is not None:
-                return to_ns(values, self.epoch.seconds, self.epoch.zero_s)
-            return to_ns(values, group.seconds or 1.0)
+            cells = rows.columns[group.time[0]]
+            if self.epoch is None:
+                return to_ns(cells.values, group.seconds or 1.0)
+            ns = to_ns(cells.values, self.epoch.seconds, self.epoch.zero_s)
+            if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
+                ns[cells.empty] = NAT
+                ns[[row for row, _ in cells.odd]] = NAT
+            return ns
         return column_times([rows.times[i] for i in group.time], self.timed.formats)
