@@ -15,6 +15,7 @@ from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text.begin import Begin, declared_start, find_begin, first_times
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
+from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
 from thermodata.reader.text.foreign_texts import refuse_foreign
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
@@ -39,12 +40,13 @@ _FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to lo
 @dataclass(frozen=True, slots=True)
 class TimedGroup:
     """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
-    that their headers say, None where they say none."""
+    that their headers say, None where they say none; once: the date stands in some rows only, for those behind it."""
 
     stream: str
     group: Group
     formats: tuple[TimeFormat, ...]
     stated: str | None = None
+    once: bool = False
 
     @property
     def of_day(self) -> bool:
@@ -263,7 +265,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         timed = groups[0]
         first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
         begin, doubt = find_begin(above, first_rows, declared_start(said), where)
-    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), doubt]
+    midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
     return Table(
         name=where,
         sample=first,
@@ -323,7 +326,11 @@ def _timed(
 
     columns = [[r[i] for r in _still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]
-    return TimedGroup(name, group, find_formats(names, columns, group.form, where, more), stated_zone(names))
+    once = len(columns) > 1 and is_once(columns[0])
+    if once:
+        columns[0] = [c for c in columns[0] if clean(c)]
+    forms = find_formats(names, columns, group.form, where, more)
+    return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
 
 
 def _still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
@@ -347,6 +354,10 @@ def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
     """The rows whose times can be read."""
     if not timed.formats:
         return list(body)
+    if timed.once:
+        date = timed.group.time[0]
+        days = filled([r[date] for r in body])
+        body = [[*r[:date], day, *r[date + 1 :]] for r, day in zip(body, days, strict=True)]
     if len(body) < _FEW_ROWS:
         return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
     read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
@@ -367,6 +378,8 @@ def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGr
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
         yield "names that repeat are numbered: #2, #3, ..."
+    if any(g.once for g in groups):
+        yield NOTE
     for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
         if "DD/MM" in text or "MM/DD" in text:
             yield f"dates read as {text}"

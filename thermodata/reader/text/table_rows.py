@@ -8,8 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.arrow import values
 from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import column_times
+from thermodata.reader.text.days import Days, have_days
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.grid import Rows
@@ -126,7 +128,10 @@ class RowReader:
             self.stopped = True
             reason = f"another header begins here, nothing after it is read: '{text[:120]}'; split the file there"
             rows = rows.before(number)
-            return rows, [*(t for t in told if t.line < number), _Complaint(number, reason, len(text))]
+            return rows, [
+                *(t for t in told if t.line < number),
+                _Complaint(number, reason, len(text)),
+            ]
         return rows, told
 
     # ---- a group ---------------------------------------------------------------------------------
@@ -207,12 +212,13 @@ class _Clock:
         self.epoch = epoch
         self.clock = LocalClock(timezone if local else None)
         self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
+        self.joined_days = Days()
         self.counted = 0
         self._first: int | None = None
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
-        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows)
+        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
         if peek:
             return ns
         if self.timed.of_day:
@@ -240,6 +246,19 @@ class _Clock:
         zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
         return np.where(since == NAT, NAT, since + np.int64(zero))
 
+    def _joined(self, rows: Rows, peek: bool) -> Int1D:
+        """Dates and times of day, shape (n,): of rows without a date too, where the table has such."""
+        import pyarrow.compute as pc
+
+        forms, (date, *others) = self.timed.formats, self.timed.group.time
+        clock_ns = column_times([rows.times[i] for i in others], forms[1:])
+        cells = rows.times[date]
+        empty = np.zeros(rows.n, bool)
+        if self.timed.once:
+            empty = values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
+        days = replace(self.joined_days) if peek else self.joined_days
+        return days.join(column_times([cells], forms[:1]), clock_ns, empty)
+
     def _counted(self, rows: Rows, peek: bool) -> Int1D:
         """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
         numbers = [
@@ -256,8 +275,10 @@ class _Clock:
             self.counted += int((~words).sum()) + lost.size
         return np.where(words, NAT, ns)
 
-    def _written(self, rows: Rows) -> Int1D:
+    def _written(self, rows: Rows, peek: bool) -> Int1D:
         group = self.timed.group
+        if have_days(self.timed.formats):
+            return self._joined(rows, peek)
         if not self.timed.formats:
             cells = rows.columns[group.time[0]]
             if self.epoch is None:

@@ -14,6 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.date_parts import column_times, declared_parts
+from thermodata.reader.text.days import NOTE, filled, is_once
 from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
@@ -28,6 +29,8 @@ from thermodata.reader.text.time_formats import (
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
+
+_HALF_DAY_S = 43_200.0
 
 
 @dataclass
@@ -138,6 +141,9 @@ class Table:
             parts = [[_part(cell) for cell in cells] for cells in columns]
             forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
             return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
+        if len(columns) == 2 and is_once(columns[0]):
+            columns = [tuple(_with_midnights(filled(columns[0]), columns[1])), columns[1]]
+            self.notes.append(NOTE)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
@@ -209,6 +215,21 @@ def _seconds(cell: Any) -> Any:
     if isinstance(cell, dt.time):
         return (dt.datetime.combine(dt.date.min, cell) - dt.datetime.min).total_seconds()
     return cell.total_seconds() if isinstance(cell, dt.timedelta) else cell
+
+
+def _with_midnights(days: list[Any], clocks: tuple[Any, ...]) -> list[Any]:
+    """Days that stand for the rows behind them too, the next one where the clock goes back by half a day or more."""
+    out: list[Any] = []
+    before, nights = None, 0
+    for k, (day, clock) in enumerate(zip(days, clocks, strict=True)):
+        seconds = _seconds(clock.time() if isinstance(clock, dt.datetime) else clock)
+        if k and day != days[k - 1]:
+            nights = 0
+        elif isinstance(seconds, float) and before is not None and seconds - before < -_HALF_DAY_S:
+            nights += 1
+        before = seconds if isinstance(seconds, float) else before
+        out.append(day + dt.timedelta(days=nights) if nights and isinstance(day, dt.date) else day)
+    return out
 
 
 def _part(cell: Any) -> str:
