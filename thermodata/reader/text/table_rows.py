@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,11 +53,13 @@ class RowReader:
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False
+        self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
 
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
         data, line = chunk.data, chunk.line
+        self._read = chunk.size
         told = [_Complaint(number, ODD, 0) for number in chunk.odd]
         if chunk.last and data and not data.endswith(b"\n"):
             cut = data.rfind(b"\n") + 1
@@ -130,9 +132,14 @@ class RowReader:
             rows = rows.before(number)
             return rows, [
                 *(t for t in told if t.line < number),
-                _Complaint(number, reason, len(text)),
+                _Complaint(number, reason, self._left(data, lines[: number - line])),
             ]
         return rows, told
+
+    def _left(self, data: bytes, before: Sequence[bytes]) -> int:
+        """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""
+        behind = len(data) - sum(len(line) + 1 for line in before)
+        return max(1, self.losses.file_size - self._read + behind)
 
     # ---- a group ---------------------------------------------------------------------------------
 
