@@ -93,6 +93,7 @@ def test_the_order_of_day_and_month_is_asked_and_answered(tmp_path: Path, start:
     [
         ["Exported: 02.03.2026 07:00:00"],
         ["Report date: 02.03.2026 07:00"],
+        ["Export started: 02.03.2026 07:00"],
         ["Date: 02.03.2026", "Time: 07:00:00"],
         ["Recording date: 02.03.2026", "Recording time: 07:00:00"],  # which may be how long it took
     ],
