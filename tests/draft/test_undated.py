@@ -35,3 +35,38 @@ def test_when_a_log_without_dates_began_is_asked_where_it_is_not_as_long_as_the_
 
 def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> None:
     assert asked(tmp_path, 1800, dated=False) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "question", "declared"),
+    [
+        ("Start time: 2026-06-01 13:07:00", None, {}),
+        ("Start time: 06/01/2026 13:07:00", "start: dmy or mdy?", {"time": {"start": "unknown"}}),
+        ("Exported: 2026-06-02 09:00:00", "start: head or none?", {"time": {"start": "unknown"}}),
+    ],
+)
+def test_a_start_above_the_rows_is_taken_or_asked(
+    tmp_path: Path, line: str, question: str | None, declared: dict[str, dict[str, str]]
+) -> None:
+    rows = "\n".join([line, "", "t [s],Disp Z [um]", *(f"{x},{x / 999:.3f}" for x in range(0, 7200, 10)), ""])
+    (tmp_path / "daq_one.csv").write_text(rows)
+    (source,) = draft_files(tmp_path).draft.sources
+    assert source.table == declared
+    assert [q for q in source.questions if "start:" in q] == [
+        q for q in source.questions if q.startswith(question or "-")
+    ]
+    assert any("did it begin" in q or "timezone?" in q for q in source.questions) == ("Start" in line)
+
+
+@pytest.mark.parametrize(("day", "hint"), [("2026-06-01", "mdy"), ("2026-01-06", "dmy"), ("2026-09-09", "")])
+def test_the_dates_of_another_source_say_which_order_fits(tmp_path: Path, day: str, hint: str) -> None:
+    head = ["Start time: 06/01/2026 13:07:00", "", "t [s],Disp Z [um]"]
+    rows = "\n".join([*head, *(f"{x},{x / 999:.3f}" for x in range(0, 7200, 10)), ""])
+    (tmp_path / "one_daq.csv").write_text(rows)
+    at = np.datetime64(f"{day}T13:00:00") + np.arange(0, 7200, 10).astype("timedelta64[s]")
+    air = "\n".join(["time,Hall air [degC]", *(f"{x}Z,{20 + i / 400:.2f}" for i, x in enumerate(at)), ""])
+    (tmp_path / "one_hall.csv").write_text(air)
+    draft = draft_files(tmp_path).draft
+    (asked,) = [q for s in draft.sources for q in s.questions if q.startswith("start:")]
+    assert ("fits the dates of" in asked) == bool(hint)
+    assert f"; {hint} fits" in asked or not hint

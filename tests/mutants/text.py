@@ -6,14 +6,19 @@ from mutant import Mutant
 
 # the tests that stand beside a module
 BESIDE = {
+    "begin.py": ("head_start",),
+    "clock_pattern.py": ("clock_pattern",),
     "clock_letters.py": ("time_formats",),
     "columns.py": ("columns",),
+    "days.py": ("days",),
     "delimited.py": ("delimited",),
     "delimiter.py": ("delimiter",),
     "described.py": ("described",),
     "footer.py": ("footer",),
     "foreign_texts.py": ("foreign_texts",),
     "grid.py": ("three_ways", "rows_width"),
+    "head_start.py": ("head_start",),
+    "head_words.py": ("head_start",),
     "header.py": ("delimited",),
     "header_rows.py": ("preambles",),
     "layout.py": ("delimited",),
@@ -23,6 +28,7 @@ BESIDE = {
     "locate.py": ("locate",),
     "losses.py": ("losses", "delimited"),
     "number.py": ("number",),
+    "odd_clocks.py": ("clock_pattern",),
     "quality_columns.py": ("quality_columns",),
     "odd_rows.py": ("three_ways", "rows_width"),
     "rows.py": ("three_ways", "rows_width"),
@@ -137,6 +143,23 @@ MUTANTS = [
     ),
     text("time_formats.py", "zoned * 2 > len(some)", "zoned > 0", "one zone makes all local times bad"),
     text("time_formats.py", "_FEW, _MANY = 40, 4000", "_FEW, _MANY = 40, 40", "one day above 12 is not seen"),
+    # ---- a start above the rows
+    text("begin.py", "said.says < Says.RECORDED or not", "not", "the date of an export is the start"),
+    text("begin.py", "or not first.near_zero)):", ")):", "rows that begin late count from the start"),
+    text("begin.py", "if said.several or not first.ns:", "if not first.ns:", "of two starts one is taken"),
+    text("begin.py", "    if said.either:\n        raise _which_order(said, where)\n", "", "day and month are guessed"),
+    text("head_words.py", "if Says.MADE in known else", "if False else", "a word for a start outdoes an export"),
+    text("head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
+    text("head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
+    # ---- days and midnights
+    text("days.py", "(empty[good] | over)", "True", "a clock that is set back passes midnight"),
+    text("days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"),
+    text(
+        "days.py", "bool(back[k]) or count > 0, 0", "bool(back[k]), count", "a new date keeps the midnights before it"
+    ),
+    text("clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
+    text("clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
+    text("odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),
     # ---- clocks
     text("local_clock.py", "(ahead < -self._cycle // 2)", "(ahead < 0)", "each step back is a midnight"),
     text("local_clock.py", "_DAY = 24 *", "_DAY = 12 *", "days have twelve hours"),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Array, Int1D
+from thermodata.store.ingest.repeated_times import said_of_repeats
 from thermodata.store.raw import order as order_module
 from thermodata.store.raw import repeats as repeats_module
 from thermodata.store.raw.order import Order, find_order
@@ -128,3 +129,10 @@ def test_nobody_looks_for_copies_without_end(monkeypatch: pytest.MonkeyPatch) ->
     assert len(found(t, t).cut) == 20
     monkeypatch.setattr(repeats_module, "_MOST_COPIES", 5)
     assert len(found(t, t).cut) == 5
+
+
+@pytest.mark.parametrize(("to_s", "advice"), [(5990.0, ", which is about 10 s by their number"), (-28800.0, "")])
+def test_a_period_is_only_told_where_time_goes_on(to_s: float, advice: str) -> None:
+    meta = {"samples": 600, "flags": {"duplicate_time": 599}, "to_s": to_s}
+    (said,) = said_of_repeats("t1", "log", meta, 600)
+    assert f"{{period: ...}}}}{advice}, and in the test" in said

@@ -72,6 +72,23 @@ def _by_stem(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
                 rest = f"{_literal(sep)}*{_literal(cut[0][2])}{paths[0].suffix}"
                 where = f"{folder}{_literal(cut[0][0])}{{test}}{rest}"
                 yield Naming(ids, where if same else None, i + j + (0.2 if n == 0 else 1.5), True)
+    for n, strip in enumerate((_PART_WORD, _PART_NUMBER)):
+        bare = [strip.sub("", s) or s for s in stems]
+        if bare != stems and folder is not None and len(suffixes) == 1:
+            yield from _before_parts(bare, trail, folder, paths[0].suffix, 0.2 if n == 0 else 1.5)
+
+
+def _before_parts(stems: Sequence[str], shared: int, folder: str, suffix: str, cost: float) -> Iterator[Naming]:
+    """The same of stems without the numbers of parts, where only some files have one: V1_Weg beside V2_Weg_1. shared:
+    pieces at their end that all share with it."""
+    pieces = [_PIECE.split(s) for s in stems]
+    fewest = min(map(len, pieces))
+    trail = next((i for i in range(fewest) if len({p[-1 - i].lower() for p in pieces}) > 1), fewest)
+    for j in range(shared + 1, min(trail, 4) + 1):
+        cut = [_cut(s, 0, j) for s in stems]
+        if all(c[1] for c in cut) and len({c[2] for c in cut}) == 1:
+            where = f"{folder}{{test}}{_literal(cut[0][2])}*{suffix}"
+            yield Naming(tuple(c[1] for c in cut), where, j + cost, True)
 
 
 def _may_cut(pieces: Sequence[str], lead: int, trail: int) -> bool:

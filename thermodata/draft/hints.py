@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Sequence
+from datetime import UTC, datetime
 
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
@@ -12,6 +14,7 @@ _SAID = re.compile(
     r"(?<![A-Za-z0-9.,])(\d{1,3}(?:[.,]\d+)?) ?(h|hrs?|hours?|std|stunden|hod|min)(?![A-Za-z])", re.IGNORECASE
 )
 _UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0, "ms": 1e-3}
+_DAY_NS = 86_400 * 10**9
 _NEAR = 0.25  # a test that is called 5 h may run for 6
 
 
@@ -23,8 +26,11 @@ def said_s(text: str) -> float | None:
     return float(match[1].replace(",", ".")) * (60.0 if match[2].lower() == "min" else 3600.0)
 
 
-def hinted(ask: str, group: Group) -> str:
-    """A question, with what the names of the files say to it where it is for the unit of a time or a period."""
+def hinted(ask: str, group: Group, groups: Sequence[Group] = ()) -> str:
+    """A question, with what the names of the files say to it where it is for the unit of a time or a period; with what
+    other sources say of the same tests where it is for the order of day and month of a start."""
+    if ask.startswith("start: dmy or mdy"):
+        return ask + _near_others(group, groups)
     if ask.startswith("format"):
         return ask + _settled_by_others(group)
     if not ask.startswith(("unit of the time", "period")):
@@ -35,6 +41,30 @@ def hinted(ask: str, group: Group) -> str:
         return ask
     unit, many = fits.most_common(1)[0]
     return f"{ask}; '{named.sheet or named.path.stem}' fits {unit} ({many} of {len(group.files)} names state a length)"
+
+
+def _near_others(group: Group, groups: Sequence[Group]) -> str:
+    """Which order of day and month puts the starts of a source, which are read as dmy meanwhile, near those of others
+    in the same tests, where only one does."""
+    for other in (g for g in groups if g is not group):
+        fits: Counter[str] = Counter()
+        for test, files in group.tests.items():
+            there = [f.start_ns for f in other.tests.get(test, ()) if f.start_ns is not None and not f.asked]
+            for start in (f.start_ns for f in files if f.asked and f.start_ns is not None):
+                for order, ns in (("dmy", start), ("mdy", _swapped(start))):
+                    fits[order] += any(abs(ns - at) < _DAY_NS for at in there)
+        best = [order for order, many in fits.items() if many]
+        if len(best) == 1:
+            return f"; {best[0]} fits the dates of '{other.source}'"
+    return ""
+
+
+def _swapped(ns: int) -> int:
+    """A time whose day and month are taken for each other; the same where they can't be."""
+    moment = datetime.fromtimestamp(ns // 10**9, UTC)
+    if moment.day > 12:
+        return ns
+    return round(moment.replace(day=moment.month, month=moment.day).timestamp()) * 10**9
 
 
 def _settled_by_others(group: Group) -> str:

@@ -63,7 +63,9 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.source,
             g.reader,
             g.template,
-            tuple(q for q in (*(hinted(a, g) for a in g.asks), *_of_clocks(g, groups, aligned), *g.questions) if q),
+            tuple(
+                q for q in (*(hinted(a, g, groups) for a in g.asks), *_of_clocks(g, groups, aligned), *g.questions) if q
+            ),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),

@@ -17,10 +17,12 @@ from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
+from thermodata.reader.text.begin import NOT_TAKEN
 
 _MOST_QUESTIONS = 4
 _ASSUMED = "counted as 1 s each|taken as seconds from a start|changes its distance from them"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
+_START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +124,13 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
+        asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
     return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+
+
+def _asked_start(note: str) -> str:
+    """The question of a note on a date above rows that may have begun then."""
+    return f"start: head or none? {note.split(NOT_TAKEN)[0].rstrip(', ')}: did its rows begin then?"
 
 
 def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:

@@ -73,6 +73,7 @@ EPOCHS = {
     "unix_ns": Epoch(1e-9, 0, False),
     "labview": Epoch(1.0, -2082844800, False),
     "filetime": Epoch(1e-7, -11644473600, False),
+    "ticks": Epoch(1e-7, -62135596800, True),  # of .NET, which programs mostly take in local time
 }
 _REACH_S = 9e9
 
@@ -122,7 +123,7 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
 
 def found_epoch(values: Array) -> str | None:
     """Which count from a date numbers without a unit are, where their size leaves no other sense: MATLAB's datenum
-    (from 1862 to 2135), Unix time or LabVIEW's seconds since 1904 (2000 to 2035 both)."""
+    (from 1862 to 2135), Unix time, LabVIEW's seconds since 1904, Windows' FILETIME, .NET's ticks (2000 to 2035 all)."""
     full = values.astype(np.float64)
     full = full[np.isfinite(full)]
     if not full.size:
@@ -134,6 +135,8 @@ def found_epoch(values: Array) -> str | None:
         ("labview", 3.0e9, 4.2e9),
         ("unix_ms", 9.4e11, 2.1e12),
         ("unix_us", 9.4e14, 2.1e15),
+        ("filetime", 1.259e17, 1.37e17),
+        ("ticks", 6.308e17, 6.42e17),
         ("unix_ns", 9.4e17, 2.1e18),
     ):
         if first <= low <= high <= last and (unit != "datenum" or high - low < 4000):

@@ -18,6 +18,8 @@ class TimeColumn(Strict):
         is written
     format: as strptime writes it, where day and month cannot be told apart; or unknown
     period: of rows without a time column: 60 s from row to row; or unknown
+    start: of rows without a date, from the lines above them ('Start time: 04/07/2026 08:07'): dmy, mdy or ymd, where
+        day and month cannot be told apart; head: they begin then, though no word says so; none: they do not; or unknown
     """
 
     column: int | str | list[int | str] | None = None
@@ -26,6 +28,9 @@ class TimeColumn(Strict):
     format: str | None = None
     # left out where it is not declared: raw data is kept by what its source declares
     period: Seconds | Literal["unknown"] | None = Field(default=None, exclude_if=lambda period: period is None)
+    start: Literal["dmy", "mdy", "ymd", "head", "none", "unknown"] | None = Field(
+        default=None, exclude_if=lambda start: start is None
+    )
 
     @field_validator("period")
     @classmethod

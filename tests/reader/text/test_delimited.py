@@ -82,6 +82,18 @@ def test_a_header_in_another_order_ends_the_reading(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize(("first", "share"), [(100, 0.9), (500, 0.5), (400_000, 0.3)])
+def test_what_stands_behind_another_header_is_told_as_lost(tmp_path: Path, first: int, share: float) -> None:
+    """As a share of the file, wherever it begins: in a first part that is read, or in a later one."""
+    path = tmp_path / "a.csv"
+    behind = round(first * share / (1 - share))
+    at = np.datetime64("2026-03-02T08:00:00") + np.arange(first + behind).astype("timedelta64[s]")
+    lines = [f"{t};20.5;on\n" for t in at.astype(str).tolist()]
+    path.write_text("".join([HEAD, *lines[:first], "time;state;a\n", *lines[first:]]))
+    (loss,) = [p for p in blocks(path, open_table(path, Source()), Source()) if isinstance(p, Loss)]
+    assert loss.fraction == pytest.approx(share, abs=0.02)
+
+
 def test_nothing_of_the_rest_is_read_behind_another_header(tmp_path: Path) -> None:
     """Nor are losses told of rows that are not read."""
     found = read(tmp_path, HEAD + rows(0, 9) + "torn\n" + "time;b;state\n" + rows(9, 20) + "torn;;;;;\n")

@@ -16,6 +16,7 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.cell import Cell, is_clocked, mostly, number_of
+from thermodata.reader.text.clock_pattern import HALF
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.number import text_array
 from thermodata.reader.text.time_pattern import MILLISECONDS, TIME_OF_DAY, TimeFormat
@@ -42,7 +43,7 @@ _PIECES = {
 _TEXTS = {"Y": "year", "y": "year", "m": "month", "d": "day", "H": "hour", "M": "minute", "S": "second"}
 _ORDER = "YmdHMS"
 _MINUTE, _HOUR = 60_000_000_000, 3_600_000_000_000  # ns
-_WHOLE_CLOCK = re.compile(r"^\s*\d{1,2}:\d\d:\d\d\s*([AaPp]\.?[Mm]\.?)?\s*$", re.ASCII)
+_WHOLE_CLOCK = re.compile(rf"^\s*\d{{1,2}}:\d\d:\d\d\s*({HALF})?\s*$", re.ASCII)
 PART = TimeFormat("part", None, "")  # of a time whose first column has the format of all of them
 
 

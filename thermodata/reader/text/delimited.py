@@ -20,6 +20,7 @@ from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.table import Table, open_table
 from thermodata.reader.text.table_rows import RowReader
+from thermodata.reader.time_units import EPOCHS
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
@@ -62,7 +63,10 @@ def describe(table: Table, source: Source) -> Recording:
             notes += _zone_notes(table, source, start)
         elif len(reader.clocks) == 1:
             of_day = reader.clocks[0].days.first_ns
-    notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
+    if table.begin is not None:
+        notes.append(table.begin.note())
+    else:
+        notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
     if table.cut:
@@ -80,7 +84,9 @@ def describe(table: Table, source: Source) -> Recording:
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     """What the zone of local times had to decide; whether daylight saving changes between first and last row."""
     timed = table.groups[0]
-    if timed.zoned or (timed.group.epoch is not None):
+    epoch = EPOCHS.get(timed.group.epoch or "")
+    utc = epoch is not None and not epoch.local
+    if timed.zoned or utc or (table.begin is not None and not table.begin.local):
         return []
     if timed.stated is not None:
         said = [] if source.timezone in (None, timed.stated) else [f"the declared {source.timezone} is not used"]

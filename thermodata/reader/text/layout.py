@@ -11,6 +11,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
 from thermodata.reader.text.described import descriptions
+from thermodata.reader.text.head_words import said_by
 from thermodata.reader.text.header import numbered_rows, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
 from thermodata.reader.text.time_columns import column, time_of
@@ -293,9 +294,14 @@ def _width(body: Sequence[Sequence[Cell]]) -> int:
 
 def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     stamped, dates = _stamped(body, width), _dates(body, width)
+    # a word in the first cell is a label where rows hold none there
+    firsts = [r[0] for r in _second_half(body) if len(r) >= width - 1]
+    labels = mostly(firsts, lambda c: is_number(c) or is_stamp(c), 0.9, len(firsts))
     for i, row in enumerate(body):
         if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
             continue  # a row of a list of channels with their ranges
+        if labels and said_by(str(row[0] if row else "").strip(" :")) is not None:
+            continue  # 'Start date;2026-03-02' above 'Start time;07:00:00'
         following = [r for r in body[i + 1 : i + 11] if any(c not in ("", None) for c in r)]
         if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
             continue

@@ -12,8 +12,10 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
+from thermodata.reader.text.begin import Begin, declared_start, find_begin, first_times
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
+from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
 from thermodata.reader.text.foreign_texts import refuse_foreign
 from thermodata.reader.text.grid import TIME, Grid
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
@@ -38,12 +40,13 @@ _FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to lo
 @dataclass(frozen=True, slots=True)
 class TimedGroup:
     """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
-    that their headers say, None where they say none."""
+    that their headers say, None where they say none; once: the date stands in some rows only, for those behind it."""
 
     stream: str
     group: Group
     formats: tuple[TimeFormat, ...]
     stated: str | None = None
+    once: bool = False
 
     @property
     def of_day(self) -> bool:
@@ -78,7 +81,8 @@ def bare_line(line: str) -> str:
 class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
-    parts its cells: lines are looked at, and read, with tabs in their place."""
+    parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
+    its head says so."""
 
     name: str
     sample: Sample
@@ -93,10 +97,11 @@ class Table:
     quality: Pairs
     notes: tuple[str, ...]
     blanks: bool = False
+    begin: Begin | None = None
 
     @property
     def absolute(self) -> bool:
-        return self.groups[0].absolute
+        return self.begin is not None or self.groups[0].absolute
 
     @property
     def cut(self) -> bool:
@@ -225,7 +230,9 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
-    times = {i: TIME if g.formats else "float64" for g in groups for i in g.group.time}
+    times = {
+        i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
+    }
     kinds: list[str | None] = []
     for i, (name, unit) in enumerate(zip(layout.names, layout.units, strict=True)):
         column = cells_of[name]
@@ -252,7 +259,14 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
-    notes = tuple(dict.fromkeys([*([first.note] if first.note else []), *layout.notes, *_notes(layout, kinds, groups)]))
+    begin, doubt = None, None
+    if not any(g.absolute for g in groups):
+        above = [[line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first]]
+        timed = groups[0]
+        first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
+        begin, doubt = find_begin(above, first_rows, declared_start(said), where)
+    midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
     return Table(
         name=where,
         sample=first,
@@ -265,8 +279,9 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         decimal_declared=declared is not None,
         header=header,
         quality=quality,
-        notes=notes,
+        notes=tuple(dict.fromkeys(note for note in found if note)),
         blanks=blanks,
+        begin=begin,
     )
 
 
@@ -311,7 +326,11 @@ def _timed(
 
     columns = [[r[i] for r in _still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]
-    return TimedGroup(name, group, find_formats(names, columns, group.form, where, more), stated_zone(names))
+    once = len(columns) > 1 and is_once(columns[0])
+    if once:
+        columns[0] = [c for c in columns[0] if clean(c)]
+    forms = find_formats(names, columns, group.form, where, more)
+    return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
 
 
 def _still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
@@ -335,10 +354,22 @@ def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
     """The rows whose times can be read."""
     if not timed.formats:
         return list(body)
+    if timed.once:
+        date = timed.group.time[0]
+        days = filled([r[date] for r in body])
+        body = [[*r[:date], day, *r[date + 1 :]] for r, day in zip(body, days, strict=True)]
     if len(body) < _FEW_ROWS:
         return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
     read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
     return [r for r, good in zip(body, read.tolist(), strict=True) if good]
+
+
+def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
+    """The dtype of times that are numbers: counts of nanoseconds or ticks since a date are too long for a float64."""
+    if timed.group.epoch is None:
+        return "float64"
+    whole = [c for c in map(clean, cells) if c.lstrip("-").isdecimal()]  # a few cells may be torn
+    return "int64" if 2 * len(whole) > len(cells) and dtype_of(whole) == "int64" else "float64"
 
 
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
@@ -347,6 +378,8 @@ def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGr
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
         yield "names that repeat are numbered: #2, #3, ..."
+    if any(g.once for g in groups):
+        yield NOTE
     for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
         if "DD/MM" in text or "MM/DD" in text:
             yield f"dates read as {text}"

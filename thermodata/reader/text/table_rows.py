@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.arrow import values
+from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import column_times
+from thermodata.reader.text.days import Days, have_days
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.grid import Rows
@@ -47,15 +49,17 @@ class RowReader:
         self.losses = Losses(table.name, max(size, 1))
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
-        self.clocks = [_Clock(timed, timed.stated or source.timezone) for timed in table.groups]
+        self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         self.stopped = False
+        self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
 
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
         data, line = chunk.data, chunk.line
+        self._read = chunk.size
         told = [_Complaint(number, ODD, 0) for number in chunk.odd]
         if chunk.last and data and not data.endswith(b"\n"):
             cut = data.rfind(b"\n") + 1
@@ -126,8 +130,16 @@ class RowReader:
             self.stopped = True
             reason = f"another header begins here, nothing after it is read: '{text[:120]}'; split the file there"
             rows = rows.before(number)
-            return rows, [*(t for t in told if t.line < number), _Complaint(number, reason, len(text))]
+            return rows, [
+                *(t for t in told if t.line < number),
+                _Complaint(number, reason, self._left(data, lines[: number - line])),
+            ]
         return rows, told
+
+    def _left(self, data: bytes, before: Sequence[bytes]) -> int:
+        """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""
+        behind = len(data) - sum(len(line) + 1 for line in before)
+        return max(1, self.losses.file_size - self._read + behind)
 
     # ---- a group ---------------------------------------------------------------------------------
 
@@ -199,30 +211,60 @@ class RowReader:
 class _Clock:
     """The times of a group's rows, chunk after chunk."""
 
-    def __init__(self, timed: TimedGroup, timezone: str | None) -> None:
-        self.timed = timed
+    def __init__(self, timed: TimedGroup, timezone: str | None, begin: Begin | None = None) -> None:
+        self.timed, self.begin, self.timezone = timed, begin, timezone
         epoch = EPOCHS.get(timed.group.epoch or "")
         local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
+        local = local or (begin is not None and begin.of_day)
         self.epoch = epoch
         self.clock = LocalClock(timezone if local else None)
         self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
+        self.joined_days = Days()
         self.counted = 0
+        self._first: int | None = None
 
     def times(self, rows: Rows, peek: bool = False) -> Int1D:
         """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
-        if self.timed.group.counted:
-            return self._counted(rows, peek)
-        ns = self._written(rows)
+        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
         if peek:
             return ns
         if self.timed.of_day:
-            return self.days.relative(ns)
+            ns = self._of_day(ns)
+            if self.begin is None:
+                return ns
+        if self.begin is not None and not self.begin.of_day:
+            return self.begin.utc(ns, self.timezone)
         good = ns != NAT
         if good.all():
             return self.clock.utc(ns)
         result = np.full(ns.size, NAT, np.int64)
         result[good] = self.clock.utc(ns[good])
         return result
+
+    def _of_day(self, ns: Int1D) -> Int1D:
+        """Times of day or durations, shape (n,), counted from the first row; from their zero, and from the date above
+        the rows, where the file says when it began."""
+        good = ns != NAT
+        if self._first is None and good.any():
+            self._first = int(ns[good][0])
+        since = self.days.relative(ns)
+        if self.begin is None:
+            return since
+        zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
+        return np.where(since == NAT, NAT, since + np.int64(zero))
+
+    def _joined(self, rows: Rows, peek: bool) -> Int1D:
+        """Dates and times of day, shape (n,): of rows without a date too, where the table has such."""
+        import pyarrow.compute as pc
+
+        forms, (date, *others) = self.timed.formats, self.timed.group.time
+        clock_ns = column_times([rows.times[i] for i in others], forms[1:])
+        cells = rows.times[date]
+        empty = np.zeros(rows.n, bool)
+        if self.timed.once:
+            empty = values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
+        days = replace(self.joined_days) if peek else self.joined_days
+        return days.join(column_times([cells], forms[:1]), clock_ns, empty)
 
     def _counted(self, rows: Rows, peek: bool) -> Int1D:
         """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
@@ -240,11 +282,17 @@ class _Clock:
             self.counted += int((~words).sum()) + lost.size
         return np.where(words, NAT, ns)
 
-    def _written(self, rows: Rows) -> Int1D:
+    def _written(self, rows: Rows, peek: bool) -> Int1D:
         group = self.timed.group
+        if have_days(self.timed.formats):
+            return self._joined(rows, peek)
         if not self.timed.formats:
-            values: Any = rows.columns[group.time[0]].values
-            if self.epoch is not None:
-                return to_ns(values, self.epoch.seconds, self.epoch.zero_s)
-            return to_ns(values, group.seconds or 1.0)
+            cells = rows.columns[group.time[0]]
+            if self.epoch is None:
+                return to_ns(cells.values, group.seconds or 1.0)
+            ns = to_ns(cells.values, self.epoch.seconds, self.epoch.zero_s)
+            if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
+                ns[cells.empty] = NAT
+                ns[[row for row, _ in cells.odd]] = NAT
+            return ns
         return column_times([rows.times[i] for i in group.time], self.timed.formats)

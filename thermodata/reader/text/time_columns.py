@@ -10,9 +10,11 @@ from typing import Any
 from thermodata.errors import FormatError, QuestionError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -28,7 +30,7 @@ from thermodata.reader.text.time_questions import (
 )
 from thermodata.reader.time_units import SECONDS, check_unit
 
-_FRACTION = re.compile(r":\d\d:\d\d[.,:]\d+\s*([AaPp]\.?[Mm]\.?)?$")
+_FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 
 
 def column(wanted: int | str, names: Sequence[str], where: str) -> int:
@@ -88,7 +90,9 @@ def time_of(
                     raise
                 raise question from None
             columns = (worded[0],)
-        asked = joined_question(columns, names, data, where) if not told and not likely else None
+        asked = None
+        if not told and not likely:
+            asked = joined_question(columns, names, data, where) or clock_question(columns, names, data, where)
         if asked is not None:
             raise asked
     cells = [row[columns[0]] for row in data]
@@ -144,7 +148,7 @@ def find_time(
     if dates:
         first = next((i for i in dates if i in words), dates[0])
         sample = filled[first][0]
-        has_clock = ":" in sample if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
+        has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found = (first,) if has_clock or not clocks else (first, clocks[0])
         return (*found, *_parts_of_a_second(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
@@ -169,7 +173,8 @@ def find_time(
 def _tell_the_hour(cells: Sequence[Cell]) -> bool:
     """Whether dates hold a time of day; those of a workbook, one that is not midnight in all of them."""
     return any(
-        ":" in c if isinstance(c, str) else bool(hasattr(c, "hour") and (c.hour or c.minute or c.second)) for c in cells
+        says_the_hour(c) if isinstance(c, str) else bool(hasattr(c, "hour") and (c.hour or c.minute or c.second))
+        for c in cells
     )
 
 

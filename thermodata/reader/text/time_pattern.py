@@ -6,20 +6,21 @@ import re
 from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.clock_pattern import BLANK, CLOCK, HALF
 from thermodata.reader.text.zone_words import ZONE
 
 DAY_NS = 86_400 * 1_000_000_000
 
-# hours to seconds; more digits than nanoseconds are cut
-_TIME = r"(?P<H>\d{1,2}):(?P<M>\d{2})(?::(?P<S>\d{2})(?:[.,:](?P<f>\d{1,9})\d*)?)?(?:\s*(?P<p>[AaPp]\.?[Mm]\.?))?"
 _YEAR = r"(?:(?P<Y>\d{4})|(?P<y>\d{2}))"
 _DATES = {
     "ymd": r"(?P<Y>\d{4})(?P<s>[-/.]) ?(?P<m>\d{1,2})(?P=s) ?(?P<d>\d{1,2})",
     "dmy": rf"(?P<d>\d{{1,2}})(?P<s>[-/.]) ?(?P<m>\d{{1,2}})(?P=s) ?{_YEAR}",
     "cjk": r"(?P<Y>\d{4})[年년] ?(?P<m>\d{1,2})[月월] ?(?P<d>\d{1,2})[日일]",
+    # years of an emperor: R8/03/02, 令和8年3月2日
+    "reiwa": r"(?:R|令和) ?(?P<R>\d{1,2})[-/.年] ?(?P<m>\d{1,2})[-/.月] ?(?P<d>\d{1,2})日?",
     "mdy": rf"(?P<m>\d{{1,2}})(?P<s>[-/.]) ?(?P<d>\d{{1,2}})(?P=s) ?{_YEAR}",
 }
-_BETWEEN = r"(?:,?\s*[T_-]?\s*)"
+_BETWEEN = rf"(?:,?{BLANK}*[T_-]?{BLANK}*)"
 _STRPTIME = {
     "Y": r"(?P<Y>\d{4})",
     "y": r"(?P<y>\d{2})",
@@ -30,7 +31,7 @@ _STRPTIME = {
     "M": r"(?P<M>\d{1,2})",
     "S": r"(?P<S>\d{1,2})",
     "f": r"(?P<f>\d{1,9})",
-    "p": r"(?P<p>[AaPp]\.?[Mm]\.?)",
+    "p": rf"(?P<p>{HALF})",
     "z": ZONE,
     "Z": ZONE,
     "%": "%",
@@ -67,7 +68,7 @@ def _format(role: str, body: str, text: str, zone: bool = True) -> TimeFormat:
     return TimeFormat(role, _compile(body + (f"{ZONE}?" if zone else "")), text, body)
 
 
-TIME_OF_DAY = _format("time", _TIME, "HH:MM:SS")
+TIME_OF_DAY = _format("time", CLOCK, "HH:MM:SS")
 # a duration, which goes on behind 23:59:59: 100:30:00
 ELAPSED = _format(
     "time", r"(?P<E>\d{1,5}):(?P<M>\d{2}):(?P<S>\d{2})(?:[.,](?P<f>\d{1,9})\d*)?", "HHH:MM:SS", zone=False
@@ -93,11 +94,11 @@ _PARTS_OF_A_SECOND = (
         _format("fraction", r"0?[.,](?P<f>\d{1,9})\d*", "0.000...0.999", zone=False),
     ),
 )
-_TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日"}
+_TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": "YYYY年MM月DD日", "reiwa": "Rn/MM/DD"}
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
     # a spreadsheet leaves out the time of day at midnight
-    order: _format("datetime", f"{body}(?:{_BETWEEN}{_TIME})?", f"{_TEXTS[order]} HH:MM:SS")
+    order: _format("datetime", f"{body}(?:{_BETWEEN}{CLOCK})?", f"{_TEXTS[order]} HH:MM:SS")
     for order, body in _DATES.items()
 }
 
@@ -153,10 +154,10 @@ def declared_format(text: str) -> TimeFormat:
     return TimeFormat(role, pattern, text, zoned=bool(used & {"z", "Z"}) or None)
 
 
-_CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", _TIME + ZONE + "?")
+_CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", CLOCK + ZONE + "?")
 _DATE_TEXT = (
     r"(?:\d{4}([-/.]) ?\d{1,2}\1 ?\d{1,2}|\d{1,2}([-/.]) ?\d{1,2}\2 ?(?:\d{4}|\d{2})|"
-    r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일])"
+    r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일]|(?:R|令和) ?\d{1,2}[-/.年] ?\d{1,2}[-/.月] ?\d{1,2}日?)"
 )
 _ANY_DATE = _compile(rf"{_DATE_TEXT}(?:{_BETWEEN}{_CLOCK_TEXT})?")
 

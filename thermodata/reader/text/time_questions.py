@@ -130,6 +130,8 @@ def joined_question(
     form, first = stamps(place)
     if form is not None and "%H" in form:
         return _format_question((place,), form, first, where)
+    if form is not None and (of_day := _joined_clock(place, names, data)) is not None:
+        return _format_question((place, of_day[0]), f"{form} {of_day[1]}", first, where)
     if not mostly([r[place] for r in data], is_clocked, 0.8, len(data)):
         return None
     for i in (i for i, name in enumerate(names) if i != place and is_time_header(name)):
@@ -137,6 +139,22 @@ def joined_question(
         if form is not None and "%H" not in form:
             return _format_question((i, place), form, first, where)
     return None
+
+
+def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[int, str] | None:
+    """(place, format) of a column that is called a time and holds times of day in one number: 070000."""
+    for i in (i for i, name in enumerate(names) if i != day and is_time_header(name)):
+        cells = [str(r[i]).strip() for r in data if r[i] not in ("", None)]
+        for digits, letters in ((6, "%H%M%S"), (4, "%H%M")):
+            pairs = [[int(c[k : k + 2]) for k in range(0, digits, 2)] for c in cells if _is_joined(c, digits)]
+            fit = all(p[0] < 24 and max(p[1:]) < 60 for p in pairs)
+            if cells and len(pairs) == len(cells) and fit:
+                return i, letters
+    return None
+
+
+def _is_joined(cell: str, digits: int) -> bool:
+    return len(cell) == digits and cell.isascii() and cell.isdecimal()
 
 
 def zone_question(names: list[str], data: list[list[Cell]], where: str, columns: Iterable[int]) -> QuestionError | None:

@@ -16,12 +16,14 @@ import numpy as np
 import numpy.typing as npt
 
 from thermodata.plugin import Int1D
+from thermodata.reader.text.clock_pattern import in_24_hours
 from thermodata.reader.text.number import text_array
 from thermodata.reader.text.time_pattern import DATETIME, DAY_NS, TimeFormat
 from thermodata.reader.text.zone_words import offset_ns
 from thermodata.reader.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
+_REIWA = 2018  # the year before its first one
 _S = 1_000_000_000
 _EPOCH = date(1970, 1, 1)
 _DAYS_IN_MONTH = np.array([0, 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
@@ -39,14 +41,16 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
         column = column.combine_chunks()
     if isinstance(column, pa.ChunkedArray):  # pyarrow may return one of no chunks
         column = pa.array([], pa.string())
-    n, start = len(column), column.offset
+    n = len(column)
     result = np.full(n, NAT, np.int64)
     if not n:
         return result
     if form.pattern is None:
         return _by_strptime(column.to_pylist(), form)
+    column = _plain_blanks(column)
     if (iso := _iso(column, form)) is not None:
         return iso
+    start = column.offset
     _, offsets_buffer, data_buffer = column.buffers()
     if data_buffer is None:
         return result
@@ -73,6 +77,18 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     for row in np.flatnonzero(open_rows):
         result[row] = parse_one(bytes(data[offsets[row] : offsets[row + 1]]).decode("utf-8", "replace"), form)
     return result
+
+
+def _plain_blanks(column: Any) -> Any:
+    """Cells with blanks in place of those that do not break: so cells of a width stay bytes of a width."""
+    import pyarrow.compute as pc
+
+    _, _, data = column.buffers()
+    if data is None or not (np.frombuffer(data, np.uint8) > 127).any():
+        return column
+    for blank in ("\u00a0", "\u202f", "\u2009"):
+        column = pc.replace_substring(column, blank, " ")
+    return column
 
 
 def _iso(column: Any, form: TimeFormat) -> Int1D | None:
@@ -135,7 +151,10 @@ def parse_one(cell: str, form: TimeFormat) -> int:
         return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
     if g.get("m") is not None:
-        year = int(g["Y"]) if g.get("Y") else int(g["y"]) + (2000 if int(g["y"]) < CENTURY else 1900)
+        if g.get("R"):
+            year = int(g["R"]) + _REIWA
+        else:
+            year = int(g["Y"]) if g.get("Y") else int(g["y"]) + (2000 if int(g["y"]) < CENTURY else 1900)
         if not 1900 <= year <= 2200:
             return NAT
         try:
@@ -144,10 +163,11 @@ def parse_one(cell: str, form: TimeFormat) -> int:
             return NAT
     if g.get("H") is not None:
         hour, minute, second = int(g["H"]), int(g.get("M") or 0), int(g.get("S") or 0)
-        if g.get("p"):
-            if not 1 <= hour <= 12:
+        if half := g.get("p") or g.get("q"):
+            of_day = in_24_hours(hour, half)
+            if of_day is None:
                 return NAT
-            hour = hour % 12 + (12 if g["p"][0] in "pP" else 0)
+            hour = of_day
         if hour > 23 or minute > 59 or second > 59:
             return NAT
         total += (hour * 3600 + minute * 60 + second) * _S
@@ -172,7 +192,7 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
     good = np.ones(len(matrix), bool)
     literal = set(range(matrix.shape[1]))
     for name, text in match.groupdict().items():
-        if text is None or name in ("s", "p", "z"):
+        if text is None or name in ("s", "p", "q", "z"):
             continue
         start, stop = match.span(name)
         literal -= set(range(start, stop))
@@ -201,6 +221,8 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
     minute, second = (fields.get(x, np.zeros(size, np.int64)) for x in "MS")
     if "m" in fields:
         year = fields.get("Y")
+        if "R" in fields:
+            year = fields["R"] + _REIWA
         if year is None:
             year = fields["y"] + np.where(fields["y"] < CENTURY, 2000, 1900)
         month, day = fields["m"], fields.get("d", np.ones(size, np.int64))
@@ -211,9 +233,10 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
         total += _days(year, safe, day) * DAY_NS
     if "H" in fields:
         hour = fields["H"]
-        if groups.get("p"):
-            bad |= (hour < 1) | (hour > 12)
-            hour = hour % 12 + (12 if groups["p"][0] in "pP" else 0)
+        if half := groups.get("p") or groups.get("q"):
+            of_day = np.array([-1 if (h := in_24_hours(k, half)) is None else h for k in range(100)])
+            hour = of_day[hour]
+            bad |= hour < 0
         bad |= (hour > 23) | (minute > 59) | (second > 59)
         total += (hour * 3600 + minute * 60 + second) * _S
     if "E" in fields:

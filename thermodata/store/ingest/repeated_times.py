@@ -14,9 +14,9 @@ def said_of_repeats(test: str, source: str, meta: Mapping[str, Any], rows: int) 
     if not samples or repeated < MANY * samples or meta.get("held"):  # what is written on change comes at once
         return []
     period_s = meta.get("to_s", 0.0) / max(1, rows - 1)
+    about = f", which is about {period_s:.2g} s by their number" if period_s > 0 else ""
     return [
         f"{test}, {source}: {repeated / samples:.0%} of the samples stand at the time of the row before, and count "
         "nowhere: times in whole minutes or seconds? Where rows are evenly spaced, in the source: "
-        f"table: {{time: {{period: ...}}}}, which is about {period_s:.2g} s by their number, and in the test when it "
-        "began, such as start: 2026-03-02 08:00"
+        f"table: {{time: {{period: ...}}}}{about}, and in the test when it began, such as start: 2026-03-02 08:00"
     ]

@@ -120,3 +120,32 @@ def test_times_beyond_what_is_kept_are_lost_by_name(tmp_path: Path, write: Any, 
     assert times["/m"].size == 9
     assert sum("2262" in loss.reason for loss in losses) == 2
     assert [f > 0 for f in flags["/m.publish_time"]] == [v == 0 for v in values["/m.publish_time"]]
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("s", 1e9), ("ms", 1e6), ("us", 1e3), ("ns", 1)])
+def test_a_number_since_1970_in_the_messages_of_a_burst_is_noted_and_read(
+    tmp_path: Path, write: Any, read: Any, unit: str, scale: float
+) -> None:
+    times = [T0 + i * 10**9 for i in range(300)]
+    stamps = [t / 1e9 if unit == "s" else round(t / scale) for t in times]
+    bursts = [("/m", T0 + (i // 50 + 1) * 50 * 10**9 + i, {"made": s, "T": 20.5}) for i, s in enumerate(stamps)]
+    path = write(tmp_path / "a.mcap", bursts)
+    assert any(f"declare options: {{time: made, time_unit: {unit}}}" in n for n in read(path)[0].notes)
+    for options in ({"time": "made"}, {"time": "made", "time_unit": unit}):
+        _, got, _, _, losses = read(path, Source(options=options))
+        assert got["/m"].tolist() == times
+        assert not losses
+
+
+@pytest.mark.parametrize(
+    "field", [[T0 / 1e9 - 9e7 + i for i in range(300)], [T0 / 1e9 + i // 100 for i in range(300)], list(range(300))]
+)
+def test_a_date_of_something_else_is_no_stamp(tmp_path: Path, write: Any, read: Any, field: list[float]) -> None:
+    bursts = [("/m", T0 + (i // 50) * 10**10 + i, {"made": s, "T": 20.5}) for i, s in enumerate(field)]
+    assert not any("changes its distance" in n for n in read(write(tmp_path / "a.mcap", bursts))[0].notes)
+
+
+def test_a_declared_number_that_counts_from_no_date_is_refused(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(tmp_path / "a.mcap", [("/m", T0 + i * STEP, {"n": i, "T": 20.5}) for i in range(50)])
+    with pytest.raises(FormatError, match="does not tell its unit"):
+        read(path, Source(options={"time": "n"}))

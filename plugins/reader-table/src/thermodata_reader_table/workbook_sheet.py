@@ -14,7 +14,9 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.date_parts import column_times, declared_parts
+from thermodata.reader.text.days import NOTE, is_once
 from thermodata.reader.text.footer import is_footer
+from thermodata.reader.text.head_start import ORDERS
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
 from thermodata.reader.text.time_formats import (
@@ -28,6 +30,8 @@ from thermodata.reader.text.time_formats import (
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
+from thermodata_reader_table.workbook_days import local_times
+from thermodata_reader_table.workbook_start import begun
 
 
 @dataclass
@@ -63,6 +67,7 @@ class Table:
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
+        self.head = rows[: layout.first]
         self.columns = list(zip(*rows[layout.first :], strict=False))
         said = (source.table or {}).get("decimal")
         self.decimal_declared = said is not None
@@ -76,6 +81,9 @@ class Table:
             name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
             before = "" if sheet is None else f"{sheet}/"
             times = self._times(group)
+            if not group.dated:
+                zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
+                times = begun(times, self.head, self.source, zone, self.where)
             self.notes += times.notes
             keep = self._rows_of(group, times.t_ns)
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
@@ -138,6 +146,10 @@ class Table:
             parts = [[_part(cell) for cell in cells] for cells in columns]
             forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
             return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
+        if len(columns) == 2 and is_once(columns[0]):
+            self.notes.append(NOTE)
+            order = group.form if group.form in ORDERS else None
+            return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
         joined = [_joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]

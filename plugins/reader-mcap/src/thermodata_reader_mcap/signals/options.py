@@ -10,7 +10,7 @@ from thermodata.plugin import Source
 from thermodata_reader_mcap.encodings.field_paths import Path
 
 LOG, PUBLISH = "log_time", "publish_time"
-_SCALES = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
+SCALES = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
 STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos"), ("sec", "nsec"))
 
 
@@ -52,9 +52,9 @@ def options(source: Source) -> Options:
                 hint=f"did you mean '{near[0]}'?" if near else "remove it",
             )
     unit, enums = source.options.get("time_unit"), source.options.get("enums", "number")
-    if unit is not None and unit not in _SCALES:
+    if unit is not None and unit not in SCALES:
         raise FormatError(
-            "time_unit is none", where=f"source '{source.name}'", expected=", ".join(_SCALES), got=str(unit)
+            "time_unit is none", where=f"source '{source.name}'", expected=", ".join(SCALES), got=str(unit)
         )
     if enums not in ("number", "label"):
         raise FormatError("enums is none", where=f"source '{source.name}'", expected="number, label", got=str(enums))
@@ -67,4 +67,4 @@ def options(source: Source) -> Options:
             got=str(time),
         )
     publish = bool(source.options.get("publish_time", False))
-    return Options(time, None if unit is None else _SCALES[unit], enums, publish)
+    return Options(time, None if unit is None else SCALES[unit], enums, publish)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -20,8 +20,8 @@ from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.topic import Topic
-from thermodata_reader_mcap.signals.options import LOG, PUBLISH, Options, options
-from thermodata_reader_mcap.signals.stamps_apart import apart
+from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
+from thermodata_reader_mcap.signals.stamps_apart import apart, unit_of
 from thermodata_reader_mcap.signals.topic_discovery import discover, readers
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
@@ -131,6 +131,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             got="; ".join(unknown),
             expected="messages in json, cdr, ros1 or protobuf with their schemas",
         )
+    chosen_options = _with_unit(chosen_options, batches, found, name)
     used = [b for c, b in batches.items() if c.topic in found.topics]
     logs = [b.times()[0] for b in used]
     times = np.concatenate([np.empty(0, np.uint64), *logs])
@@ -192,6 +193,32 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
         elif not problems:
             result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"
     return result
+
+
+def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, name: str) -> Options:
+    """The options with the unit of a declared time that is one number, where its size tells the unit. FormatError where
+    it does not: all messages would stand at their log times."""
+    path = chosen.stamp
+    if path is None or chosen.scale is not None:
+        return chosen
+    fields = {leaf.path: leaf for topic in found.topics.values() for leaf in topic.leaves if leaf.dtype != "str"}
+    if path not in fields:
+        return chosen
+    units = {
+        unit_of(path, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name})
+        for topic in found.topics.values()
+        if any(leaf.path == path for leaf in topic.leaves)
+    }
+    unit = units.pop() if len(units) == 1 else None
+    if unit is None:
+        raise FormatError(
+            f"the time '{chosen.time}' does not tell its unit",
+            where=name,
+            expected="numbers since 1970 in one of s, ms, us, ns",
+            got=f"{fields[path].dtype} of another size, or of several",
+            hint=f"declare options: {{time: {chosen.time}, time_unit: s}}, or ms, us, ns",
+        )
+    return replace(chosen, scale=SCALES[unit])
 
 
 def _empty(made: dict[Channel, Decoder], samples: dict[Channel, list[bytes]]) -> bool:

@@ -3,11 +3,13 @@ of messages at once, and the log times are what is read unless another time is a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from thermodata.plugin import Array, Float1D
+from thermodata.reader.time_units import EPOCHS, found_epoch
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.encodings.decoder import Decoder
@@ -17,30 +19,45 @@ from thermodata_reader_mcap.signals.options import STAMPS
 
 _LOOKED_AT = 200  # messages of a topic
 _APART_NS = 1_000_000_000  # that a latency changes by less than
+_NEAR_NS = 7 * 86_400 * 10**9  # of the log times a stamp of its message is; another date is of something else
+_RISING = 0.9  # of the steps from message to message, in a stamp of theirs; a job's start stands still
+_UNITS = {"unix": "s", "unix_ms": "ms", "unix_us": "us", "unix_ns": "ns"}
 
 
 def apart(topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
     """A note where a topic's stamps do not keep one distance from its log times; None where they do, or are none."""
-    found = _stamp([leaf.path for leaf in topic.leaves if leaf.dtype != "str"])
+    paths = [leaf.path for leaf in topic.leaves if leaf.dtype != "str"]
+    rows = list(_messages(batches, made))
+    found = _stamp(paths)
+    name, unit, away = ("", None, list[float]()) if found is None else _of_pair(*found, rows)
     if found is None:
+        name, unit, away = _of_numbers(paths, rows)
+    spread = int(np.ptp(np.array(away, np.float64))) if away else 0
+    if spread <= _APART_NS:
         return None
-    path, parts = found
-    away: list[int] = []
+    declared = name if unit is None else f"{name}, time_unit: {unit}"
+    return (
+        f"topic '{topic.name}': the times that are read are log times, and {name} changes its distance from them by "
+        f"{spread / 1e9:.3g} s; declare options: {{time: {declared}}} if the recorder wrote in bursts"
+    )
+
+
+def unit_of(path: Path, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
+    """The unit that a field of numbers counts in since 1970, by their size; None where it holds none, or others."""
+    values = _numbers(path, [message for _, message in _messages(batches, made)])
+    return _UNITS.get(found_epoch(values) or "") if values.size else None
+
+
+def _messages(batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> Iterator[tuple[int, Any]]:
+    """(log time [ns], message) of some messages of each channel; None for one that does not decode."""
     for channel, one in made.items():
         batch = batches[channel]
         logs = batch.times()[0]
         for i in range(0, len(batch.payloads), max(1, len(batch.payloads) // _LOOKED_AT)):
-            stamp = _read(one, batch.payloads[i], (*path, parts[0])), _read(one, batch.payloads[i], (*path, parts[1]))
-            if isinstance(stamp[0], int) and isinstance(stamp[1], int) and stamp[0] > 0:
-                away.append(int(logs[i]) - stamp[0] * 10**9 - stamp[1])
-    spread = int(np.ptp(np.array(away, np.float64))) if away else 0
-    if spread <= _APART_NS:
-        return None
-    name = ".".join(map(str, path))
-    return (
-        f"topic '{topic.name}': the times that are read are log times, and {name} changes its distance from them by "
-        f"{spread / 1e9:.3g} s; declare options: {{time: {name}}} if the recorder wrote in bursts"
-    )
+            try:
+                yield int(logs[i]), one.decode(batch.payloads[i])
+            except Exception:  # whatever a decoder raises: it says nothing
+                yield int(logs[i]), None
 
 
 def _stamp(paths: Sequence[Path]) -> tuple[Path, tuple[str, str]] | None:
@@ -53,11 +70,51 @@ def _stamp(paths: Sequence[Path]) -> tuple[Path, tuple[str, str]] | None:
     return None
 
 
-def _read(one: Decoder, payload: bytes, path: Path) -> Any:
+def _of_pair(
+    path: Path, parts: tuple[str, str], rows: Sequence[tuple[int, Any]]
+) -> tuple[str, str | None, list[float]]:
+    """(name, None, how far the log times are behind) of a stamp in seconds and nanoseconds."""
+    away: list[float] = []
+    for log, message in rows:
+        whole, rest = _read(message, (*path, parts[0])), _read(message, (*path, parts[1]))
+        if isinstance(whole, int) and isinstance(rest, int) and whole > 0:
+            away.append(log - whole * 10**9 - rest)
+    return _name(path), None, away
+
+
+def _of_numbers(paths: Sequence[Path], rows: Sequence[tuple[int, Any]]) -> tuple[str, str | None, list[float]]:
+    """The same of the first field that counts from 1970 and rises from message to message, near their log times; with
+    the unit that it counts in."""
+    logs = np.array([log for log, _ in rows], np.float64)
+    messages = [message for _, message in rows]
+    for path in paths:
+        values = _numbers(path, messages[:1])
+        if not values.size or found_epoch(values) not in _UNITS:
+            continue
+        values = _numbers(path, messages)
+        epoch = found_epoch(values) or ""
+        if epoch not in _UNITS or values.size != logs.size or values.size < 2:
+            continue
+        away: Float1D = logs - values * (EPOCHS[epoch].seconds * 1e9)
+        if float(np.abs(away).max()) < _NEAR_NS and float((np.diff(values) > 0).mean()) >= _RISING:
+            return _name(path), _UNITS[epoch], away.tolist()
+    return "", None, []
+
+
+def _numbers(path: Path, messages: Sequence[Any]) -> Array:
+    """The numbers that a field holds, those of messages that have one, as floats."""
+    found = [_read(message, path) for message in messages]
+    return np.array([v for v in found if isinstance(v, int | float) and not isinstance(v, bool)], np.float64)
+
+
+def _name(path: Path) -> str:
+    return ".".join(map(str, path))
+
+
+def _read(message: Any, path: Path) -> Any:
     try:
-        value: Any = one.decode(payload)
         for part in path:
-            value = value[part]
-    except Exception:  # whatever a decoder raises: it says nothing
+            message = message[part]
+    except (KeyError, IndexError, TypeError):
         return None
-    return value
+    return message

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ from thermodata.plugin import Int1D, Source
 from thermodata.reader import time_units
 from thermodata.reader.text import time_formats
 from thermodata.reader.text.header import unique
+from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_groups import one_time
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
@@ -75,7 +76,7 @@ class Clocked:
         whole: Int1D | None = None
         absolute = False
         if time.texts is not None:
-            form = one_time(self.source.table, self.where).get("format")
+            form = one_time(self.source.table, self.where).get("format") or self._of_datestr(time.texts)
             found = time_formats.times_of_texts(time.texts, self.source.timezone, form, f"{self.where} {time.path}")
             whole, absolute = found.t_ns, found.absolute
             self._note(found.notes)
@@ -88,6 +89,15 @@ class Clocked:
                 self._note(found.notes)
         names = tuple(unique([c.name for c in stream.columns]))
         return TimedStream(name, time, tuple(stream.columns), names, unit, absolute, stream.properties, whole)
+
+    def _of_datestr(self, texts: Sequence[str]) -> str | None:
+        """The format of dates with names of months, as MATLAB's `datestr` writes them by itself: they leave no order of
+        day and month open. None of others."""
+        form = guess_format([t for t in texts if t.strip()])
+        if form is None or not ("%b" in form or "%B" in form):
+            return None
+        self._note((f"dates read as '{form}'",))
+        return form
 
     def _unit(self, time: TimeVector) -> str:
         assert time.load is not None

@@ -1,0 +1,61 @@
+"""Days and starts of a sheet's rows: a date in the first row only, a start above the table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import QuestionError
+from thermodata.plugin import Source
+from thermodata.testing.reader import Data, load
+
+from .test_sheets import sheet, workbook
+
+DAY, HOUR = 46083.0, 21 / 24  # 2026-03-02 21:00, as a sheet counts
+DATE, CLOCK, PLAIN = 4, 3, 0  # formats of cells
+T0 = int(np.datetime64("2026-03-02T21:00", "ns").astype(np.int64))
+MINUTE = 60 * 10**9
+
+
+def read(folder: Path, rows: list[list[Any]], styles: tuple[int, ...] = (), **table: Any) -> Data:
+    path = workbook(folder / "a.xlsx", {"data": sheet(rows, styles)})
+    return load(Reader(), path, Source(timezone="UTC", table=table or None))
+
+
+@pytest.mark.parametrize("again", [[], [36]])
+@pytest.mark.parametrize("texts", [False, True])
+def test_a_date_in_the_first_row_is_that_of_the_rows_behind_it(tmp_path: Path, again: list[int], texts: bool) -> None:
+    rows: list[list[Any]] = [["Datum", "Zeit", "T1 [degC]"]]
+    for i in range(400):
+        days, clock = divmod(21 * 60 + 5 * i, 1440)
+        day = (f"{2 + days:02d}.03.2026" if texts else DAY + days) if i in (0, *again) else None
+        rows.append([day, clock / 1440, 20.5 + i % 7])
+    data = read(tmp_path, rows, (DATE, CLOCK, PLAIN))
+    assert data.t_ns["table"].tolist() == [T0 + 5 * i * MINUTE for i in range(400)]
+    assert not data.losses
+
+
+@pytest.mark.parametrize("start", ["2026-03-02 21:00:00", "02.03.2026 21:00"])
+def test_rows_count_from_the_start_above_them(tmp_path: Path, start: str) -> None:
+    numbers = [[60.0 * i, 20.5 + i % 7, 1.0 * i] for i in range(40)]
+    data = read(tmp_path, [["Start time", start], [], ["Time [s]", "T1 [degC]", "T2 [degC]"], *numbers])
+    assert data.recording.clock == "absolute"
+    assert data.t_ns["table"].tolist() == [T0 + i * MINUTE for i in range(40)]
+
+
+def test_a_start_that_may_be_of_two_days_is_asked(tmp_path: Path) -> None:
+    numbers = [[60.0 * i, 20.5 + i % 7, 1.0 * i] for i in range(40)]
+    rows: list[list[Any]] = [
+        ["Start time", "02/03/2026 21:00:00"],
+        [],
+        ["Time [s]", "T1 [degC]", "T2 [degC]"],
+        *numbers,
+    ]
+    with pytest.raises(QuestionError, match="day and month of the start"):
+        read(tmp_path, rows)
+    assert read(tmp_path, rows, time={"start": "dmy"}).t_ns["table"][0] == T0
+    assert read(tmp_path, rows, time={"start": "none"}).recording.clock == "relative"

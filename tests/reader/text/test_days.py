@@ -1,0 +1,86 @@
+"""Dates that stand in some rows only, and dates that stay while midnight passes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.plugin import Block, Loss, Source
+from thermodata.reader.text import delimited
+
+START = int(np.datetime64("2026-03-02T21:00", "ns").astype(np.int64))
+MINUTE = 60 * 10**9
+
+
+def read(
+    folder: Path, days: list[str], clocks: list[str], **options: int
+) -> tuple[list[int], list[Loss], tuple[str, ...]]:
+    """(minutes since the start, losses, notes)"""
+    rows = [
+        "Date;Time;T1 [degC];n",
+        *(f"{d};{c};2{i % 9}.5;{i}" for i, (d, c) in enumerate(zip(days, clocks, strict=True))),
+    ]
+    path = folder / "a.csv"
+    path.write_text("\n".join([*rows, ""]))
+    source = Source(options=options)
+    table = delimited.open_table(path, source)
+    parts = list(delimited.blocks(path, table, source))
+    times = [(int(t) - START) / MINUTE for b in parts if isinstance(b, Block) for t in b.t_ns]
+    return times, [p for p in parts if isinstance(p, Loss)], delimited.describe(table, source).notes
+
+
+def clocks(minutes: list[int]) -> list[str]:
+    return [f"{(21 + m // 60) % 24:02d}:{m % 60:02d}:00" for m in minutes]
+
+
+def days(minutes: list[int], shift: int = 0) -> list[str]:
+    return [f"{2 + (21 * 60 + m + shift) // 1440:02d}.03.2026" for m in minutes]
+
+
+EVERY = list(range(0, 3000, 5))  # two midnights
+
+
+@pytest.mark.parametrize("again", [[], [36], [36, 324], [100, 400]])
+def test_a_date_in_the_first_row_is_that_of_the_rows_behind_it(tmp_path: Path, again: list[int]) -> None:
+    """again: rows that have a date too, of midnights and others"""
+    dates = [d if i in (0, *again) else "" for i, d in enumerate(days(EVERY))]
+    found, losses, notes = read(tmp_path, dates, clocks(EVERY))
+    assert found == EVERY
+    assert not losses
+    assert any("the date stands in some rows only" in n for n in notes)
+
+
+def test_a_date_that_does_not_change_at_midnight_is_that_of_the_start(tmp_path: Path) -> None:
+    found, losses, notes = read(tmp_path, days([0] * len(EVERY)), clocks(EVERY))
+    assert (found, losses) == (EVERY, [])
+    assert any("does not change at midnight" in n for n in notes)
+    assert not any("midnight" in n for n in read(tmp_path, days(EVERY), clocks(EVERY))[2])
+
+
+def test_a_date_that_changes_late_is_put_right(tmp_path: Path) -> None:
+    assert read(tmp_path, days(EVERY, -15), clocks(EVERY))[0] == EVERY
+
+
+def test_a_date_that_changes_early_moves_no_day_behind_it(tmp_path: Path) -> None:
+    found = read(tmp_path, days(EVERY, 5), clocks(EVERY))[0]
+    assert [a - b for a, b in zip(found, EVERY, strict=True) if a != b] == [1440, 1440]
+
+
+def test_a_clock_that_was_set_back_passes_no_midnight(tmp_path: Path) -> None:
+    minutes = [*range(0, 100), *range(-1200, -1100)]  # 22:39 to 01:00 of the same day
+    assert read(tmp_path, days([0] * 200), clocks(minutes))[0] == minutes
+
+
+def test_rows_with_dates_of_their_own_are_as_they_say_over_a_pause(tmp_path: Path) -> None:
+    minutes = [*range(0, 60), *range(1440 + 60, 1440 + 300)]
+    assert read(tmp_path, days(minutes), clocks(minutes))[0] == minutes
+
+
+def test_a_row_whose_date_is_torn_is_lost_alone(tmp_path: Path) -> None:
+    dates = days(EVERY)
+    dates[50], dates[60] = "02.0", ""
+    found, losses, _ = read(tmp_path, dates, clocks(EVERY))
+    assert found == [m for i, m in enumerate(EVERY) if i not in (50, 60)]
+    assert len(losses) == 2

@@ -1,0 +1,138 @@
+"""A start that stands above rows without a date: read where it is one for sure, asked where it may be another thing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Block, Source
+from thermodata.reader.text import delimited
+
+SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
+NUMBERS = ["Zeit [s];T1 [°C];T2 [°C]", *(f"{60 * i}.0;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
+CLOCKS = ["Uhrzeit;T1 [°C];T2 [°C]", *(f"07:{i:02d}:00;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
+ELAPSED = ["Time;T1 [°C];T2 [°C]", *(f"00:{i:02d}:00;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
+
+
+def read(
+    folder: Path, head: list[str], rows: list[str], start: str | None = None, zone: str | None = None
+) -> tuple[str, int, tuple[str, ...], list[int]]:
+    """(clock, start, notes, minutes of the rows since the first)"""
+    path = folder / "log.csv"
+    path.write_text("\n".join([*head, "", *rows, ""]), "utf-8")
+    source = Source(timezone=zone, table=None if start is None else {"time": {"start": start}})
+    table = delimited.open_table(path, source)
+    said = delimited.describe(table, source)
+    times = np.concatenate([b.t_ns for b in delimited.blocks(path, table, source) if isinstance(b, Block)])
+    if said.clock == "absolute":
+        assert said.start_ns == times[0]
+    return said.clock, int(times[0]), said.notes, ((times - times[0]) // (60 * 10**9)).tolist()
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        ["HBM catmanEasy AP, V5.3.1", "T0:\t02.03.2026 07:00:00"],
+        ["T0;02.03.2026 07:00:00"],
+        ["imc Studio", "Trigger time: 02.03.2026 07:00:00"],
+        ["Recorder: X", "Start time: 2026-03-02 07:00:00", "Exported: 2026-04-11 10:00:00"],
+        ["# StartTime=2026-03-02T07:00:00Z"],
+        ["Start date;2026-03-02", "Start time;07:00:00"],
+        ["Date: 2026-03-02", "Start: 07:00"],
+        ["Messbeginn;02.03.2026;07:00:00"],
+        ["Inizio misura: 2026/03/02 07:00"],
+        ["Début de l'enregistrement : 02.03.2026 07:00:00"],
+        ["Fecha de inicio: 2026-03-02", "Hora de inicio: 07:00:00"],
+        ["Začátek měření: 2. 3. 2026 7:00:00"],
+        ["Acquisition date: 2026-03-02 08:00:00+01:00"],
+        ["Start of measurement: 02-Mar-2026 07:00:00"],
+        ["開始日時;2026/03/02 07:00:00"],
+    ],
+)
+@pytest.mark.parametrize("rows", [NUMBERS, ELAPSED])
+def test_rows_count_from_the_start_above_them(tmp_path: Path, head: list[str], rows: list[str]) -> None:
+    clock, start, notes, minutes = read(tmp_path, head, rows)
+    assert (clock, start, minutes) == ("absolute", SEVEN, list(range(40)))
+    assert any("count from the start" in n for n in notes)
+
+
+@pytest.mark.parametrize("head", [["Datum: 02.03.2026"], ["Start: 02.03.2026 06:58:31"], ["Date;2026-03-02"]])
+def test_times_of_day_are_of_the_date_above_them(tmp_path: Path, head: list[str]) -> None:
+    assert read(tmp_path, head, CLOCKS)[:2] == ("absolute", SEVEN)
+
+
+def test_times_of_day_go_on_behind_midnight_and_are_local(tmp_path: Path) -> None:
+    rows = [CLOCKS[0], *(f"{(23 + i // 30) % 24:02d}:{2 * (i % 30):02d}:00;2{i % 9}.5;20.0" for i in range(60))]
+    clock, start, _, minutes = read(tmp_path, ["Datum: 01.03.2026"], rows, zone="Europe/Prague")
+    assert (clock, start) == ("absolute", SEVEN - 9 * 3600 * 10**9)
+    assert minutes == list(range(0, 120, 2))
+
+
+def test_a_local_start_is_in_the_zone_of_its_source(tmp_path: Path) -> None:
+    assert read(tmp_path, ["T0: 02.03.2026 08:00:00"], NUMBERS, zone="Europe/Prague")[1] == SEVEN
+
+
+@pytest.mark.parametrize(("start", "month"), [("dmy", 3), ("mdy", 2)])
+def test_the_order_of_day_and_month_is_asked_and_answered(tmp_path: Path, start: str, month: int) -> None:
+    head = ["Data file: a.dxd", "Start time: 02/03/2026 07:00:00.000", "Sample rate: 0.0167"]
+    with pytest.raises(QuestionError, match="day and month of the start") as asked:
+        read(tmp_path, head, NUMBERS)
+    assert asked.value.declare == {"time": {"start": "unknown"}}
+    with pytest.raises(FormatError, match=r"time\.start"):
+        read(tmp_path, head, NUMBERS, "unknown")
+    expected = np.datetime64(f"2026-{month:02d}-{5 - month:02d}T07:00", "ns").astype(np.int64)
+    assert read(tmp_path, head, NUMBERS, start)[1] == expected
+    assert read(tmp_path, head, NUMBERS, "none")[:2] == ("relative", 0)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        ["Exported: 02.03.2026 07:00:00"],
+        ["Report date: 02.03.2026 07:00"],
+        ["Export started: 02.03.2026 07:00"],
+        ["Date: 02.03.2026", "Time: 07:00:00"],
+        ["Recording date: 02.03.2026", "Recording time: 07:00:00"],  # which may be how long it took
+    ],
+)
+def test_a_date_that_may_be_another_one_is_noted_and_taken_where_it_is_declared(
+    tmp_path: Path, head: list[str]
+) -> None:
+    clock, start, notes, _ = read(tmp_path, head, NUMBERS)
+    assert (clock, start) == ("relative", 0)
+    assert any("not taken for the start of the rows" in n and "{start: head}" in n for n in notes)
+    assert read(tmp_path, head, NUMBERS, "head")[:2] == ("absolute", SEVEN)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        ["Calibration date: 02.03.2026 07:00:00"],
+        ["End time: 02.03.2026 07:00:00"],
+        ["Start time: 0.0"],
+    ],
+)
+def test_what_says_no_start_is_none(tmp_path: Path, head: list[str]) -> None:
+    clock, _, notes, _ = read(tmp_path, head, NUMBERS)
+    assert clock == "relative"
+    assert not any("head says" in n for n in notes)
+    with pytest.raises(FormatError, match="no start stands above"):
+        read(tmp_path, head, NUMBERS, "head")
+
+
+def test_two_starts_and_rows_that_begin_late_are_noted(tmp_path: Path) -> None:
+    two = ["Start: 2026-03-02 07:00:00", "Trigger: 2026-03-02 07:05:00"]
+    late = [NUMBERS[0], *(f"{7200 + 60 * i}.0;20.{i % 9};21.0" for i in range(40))]
+    for head, rows in ((two, NUMBERS), (two[:1], late)):
+        clock, _, notes, _ = read(tmp_path, head, rows)
+        assert clock == "relative"
+        assert any("not taken for the start of the rows" in n for n in notes)
+    assert read(tmp_path, two[:1], late, "head")[1] == SEVEN + 7200 * 10**9
+
+
+def test_rows_with_dates_of_their_own_keep_them(tmp_path: Path) -> None:
+    rows = ["Time;T1 [°C]", *(f"2026-03-02 07:{i:02d}:00;2{i % 9}.5" for i in range(40))]
+    assert read(tmp_path, ["Start time: 03/04/2026 07:00:00"], rows)[:2] == ("absolute", SEVEN)

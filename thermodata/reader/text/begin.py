@@ -1,0 +1,166 @@
+"""What rows without a date count from, where the lines above them say when they began; else what to ask, or to note."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Int1D
+from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.text.cell import number_of
+from thermodata.reader.text.date_parts import row_time
+from thermodata.reader.text.head_start import ORDERS, HeadStart, head_start
+from thermodata.reader.text.head_words import Says
+from thermodata.reader.text.time_pattern import TimeFormat
+from thermodata.reader.zone import NAT, local_to_utc_ns
+
+HEAD, NOT = "head", "none"  # the answers beside ORDERS
+ANSWERS = (*ORDERS, HEAD, NOT)
+NOT_TAKEN = "which is not taken for the start of the rows"
+_HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
+_ROWS = 40  # that show how a clock begins
+_SECOND, _MINUTE, _HOUR = 10**9, 60 * 10**9, 3600 * 10**9
+_STEPS = 10  # of the rows, by which the first may lie behind the start
+_LONGEST = 60  # letters of a line of the head in a message
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """ns: the start since 1970, or the midnight before it where the rows hold times of day; local: in the time of the
+    place; of_day: whether they do; text: the lines that say so."""
+
+    ns: int
+    local: bool
+    of_day: bool
+    text: str
+
+    def utc(self, since_ns: Int1D, timezone: str | None) -> Int1D:
+        """UTC of times that count from the start [ns], shape (n,); NAT stays."""
+        zero = self.ns
+        if self.local and timezone is not None:
+            zero = int(local_to_utc_ns(np.array([zero], np.int64).view("datetime64[ns]"), timezone)[0][0])
+        return np.where(since_ns == NAT, NAT, since_ns + np.int64(zero))
+
+    def note(self) -> str:
+        what = "times of day are of the date" if self.of_day else "times count from the start"
+        return f"{what} that stands above the rows: '{self.text}'"
+
+
+@dataclass(frozen=True, slots=True)
+class FirstTimes:
+    """The first rows of a relative clock. ns: from its zero, or in the day; of_day: whether they are written as times
+    of day, which durations may be too."""
+
+    ns: tuple[int, ...]
+    of_day: bool
+
+    @property
+    def near_zero(self) -> bool:
+        """Whether they begin at their zero, as rows do that count from the start of their recording."""
+        steps = sorted(b - a for a, b in pairwise(self.ns))
+        usual = steps[len(steps) // 2] if steps else 0
+        return abs(self.ns[0]) <= max(_MINUTE, _STEPS * min(usual, _HOUR))
+
+
+def first_times(
+    time: Sequence[int], seconds: float | None, forms: Sequence[TimeFormat], rows: Sequence[Sequence[str]]
+) -> FirstTimes:
+    """The times of the first rows. time: their columns, none where rows are counted; seconds: of one unit; forms: how
+    they are written, none for numbers."""
+    each = seconds or 1.0
+    if not time:
+        return FirstTimes((0, round(each * 1e9)), False)
+    found: list[int] = []
+    for row in rows[:_ROWS]:
+        if forms:
+            ns = row_time([row[i] for i in time], forms)
+        else:
+            value = number_of(row[time[0]])
+            ns = NAT if value is None else round(value * each * 1e9)
+        found += [] if ns == NAT else [ns]
+    clocks = bool(forms) and forms[0].pattern is not None and "H" in forms[0].pattern.groupindex
+    return FirstTimes(tuple(found), clocks)
+
+
+def declared_start(table: Mapping[str, Any]) -> str | None:
+    """`start` of a declared time, or of the first of several that has one."""
+    said = table.get("time") or {}
+    each = [said] if isinstance(said, Mapping) else list(said)
+    return next((str(one["start"]) for one in each if one.get("start") is not None), None)
+
+
+def find_begin(
+    lines: Sequence[Sequence[str]], first: FirstTimes, declared: str | None, where: str
+) -> tuple[Begin | None, str | None]:
+    """(what the rows count from, a note where the head's word is not taken). lines: above the rows, each as its cells;
+    declared: `table.time.start`.
+
+    QuestionError where day and month of the start could be either way round; FormatError where an answer fits nothing.
+    """
+    if declared == UNKNOWN:
+        raise unanswered("time.start", ", ".join(ANSWERS), where)
+    if declared == NOT:
+        return None, None
+    said = head_start(lines, declared if declared in ORDERS else None)
+    if said is None:
+        if declared is None:
+            return None, None
+        raise FormatError(
+            f"no start stands above the rows, and time.start is '{declared}'",
+            where=where,
+            expected="a line such as 'Start time: 2026-03-02 08:00:00'" + ("" if declared == HEAD else f", {declared}"),
+            hint="declare start: none, and give each test its start: 2026-03-02 08:00",
+        )
+    begin = _begin(said, first, sure=declared is None)
+    if begin is None:
+        return None, None if said.clock_ns is None and not first.of_day else _note(said)
+    if said.either:
+        raise _which_order(said, where)
+    return begin, None
+
+
+def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
+    """What the rows count from; None where the head does not tell it for sure. sure: only where it does by itself."""
+    if said.several or not first.ns:
+        return None
+    if first.of_day and (_are_times_of_day(said, first) or not (sure or first.near_zero)):
+        taken = not said.zoned and (said.says >= Says.BARE or not sure)
+        return Begin(said.date_ns, True, True, said.text) if taken else None
+    if said.clock_ns is None or (sure and (said.says < Says.RECORDED or not first.near_zero)):
+        return None
+    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text)
+
+
+def _are_times_of_day(said: HeadStart, first: FirstTimes) -> bool:
+    """Whether times that are written as of day are: they begin when the head says or soon behind it; where it tells a
+    date only, they begin at no zero, from which durations count."""
+    if said.clock_ns is None:
+        return first.ns[0] != 0
+    behind = first.ns[0] - said.clock_ns
+    return -_SECOND <= behind <= _HOUR and not (first.near_zero and said.clock_ns > _HOUR)
+
+
+def _note(said: HeadStart) -> str:
+    shown = said.text[:_LONGEST]
+    if said.several:
+        return f"the head says '{shown}', and another start on another line, {NOT_TAKEN}: give each test its start"
+    return f"the head says '{shown}', {NOT_TAKEN}; {_HINT}"
+
+
+def _which_order(said: HeadStart, where: str) -> QuestionError:
+    answer: dict[str, Any] = {"time": {"start": UNKNOWN}}
+    return QuestionError(
+        "day and month of the start above the rows could be either way round",
+        where=where,
+        expected="a day above 12, or the order declared",
+        got=said.text,
+        hint="declare table: {time: {start: dmy}} or mdy; start: none, where the rows do not begin then",
+        ask=f"start: dmy or mdy? rows count from '{said.text[:_LONGEST]}', which may be either; none if they do not",
+        declare=answer,
+        meanwhile={"time": {"start": "dmy"}},
+    )

@@ -1,0 +1,79 @@
+"""Lines above a table that say when something was: what their labels are made of, in the languages of loggers.
+
+A label says that rows began then, that something was recorded then, a bare date or time, or that a file was made then,
+which may be weeks later. A label with any word that is none of these says nothing of the rows: "Calibration date".
+"""
+
+from __future__ import annotations
+
+import re
+from enum import IntEnum
+
+
+class Says(IntEnum):
+    """What a label says of its time, the surest last."""
+
+    MADE = 1  # the file was: exported, printed, created
+    BARE = 2  # a date, a time
+    RECORDED = 3
+    BEGAN = 4
+
+
+_BEGAN = (
+    "start starts started starting begin begins began beginning t0 trigger triggered startzeit startdatum "
+    "startzeitpunkt beginn messbeginn messstart testbeginn versuchsbeginn aufnahmebeginn aufzeichnungsbeginn "
+    "aufnahmestart aufzeichnungsstart triggerzeit triggerzeitpunkt inizio avvio début debut départ depart "
+    "démarrage demarrage déclenchement declenchement inicio comienzo arranque disparo início partida začátek "
+    "zacatek počátek pocatek zahájení zahajeni spuštění spusteni początek poczatek rozpoczęcie rozpoczecie "
+    "kezdet indítás starttijd starttidspunkt 開始 開始時刻 開始時間 開始日時 测量开始 开始 开始时间 开始日期 "
+    "起始时间 開始日期 触发时间 시작 시작시간"
+)
+_RECORDED = (
+    "measurement measured measuring recording recorded record acquisition acquired test log logging logged "
+    "session run scan messung messdatum messzeitpunkt aufnahme aufnahmedatum aufnahmezeitpunkt aufzeichnung "
+    "aufzeichnungsdatum versuch versuchsdatum prüfung prüfdatum testdatum misura misurazione acquisizione "
+    "registrazione prova mesure enregistrement essai medición medicion medida adquisición adquisicion registro "
+    "ensayo medição aquisição měření mereni záznam zaznam záznamu zkouška měřeno pomiar pomiaru rejestracja "
+    "rejestracji mérés meting 測定 測定日時 測定日 計測日時 记录时间 测量时间 测试时间 采集时间 試験日"
+)
+_BARE = (
+    "date time datetime timestamp day datum zeit uhrzeit zeitpunkt zeitstempel data ora orario heure horodatage "
+    "fecha hora čas cas dátum idő godzina czas tijd dato tid klockslag 日時 日付 時刻 日期 时间 時間 日期时间 "
+    "날짜 시간 일시"
+)
+_MADE = (
+    "created creation exported export printed print report saved written generated modified file save storage "
+    "erstellt erstellungsdatum exportiert exportdatum gedruckt druckdatum druck bericht gespeichert "
+    "speicherdatum creato creazione esportato stampa stampato rapporto salvato créé cree création exporté "
+    "exporte imprimé imprime rapport enregistré creado creación creacion exportado impreso informe guardado "
+    "vytvořeno vytvoreno exportováno tisk vytištěno uloženo utworzono wydruk raport zapisano 作成日 作成日時 "
+    "保存日時 印刷日 创建时间 导出时间 打印日期"
+)
+_FILLING = (
+    "of the at on in and for first sample samples value values reading data point und der des die das am um von "
+    "vom ersten di del della dell dei delle e il la le les de du d l et y en el los local lokal absolute abs "
+    "absolut z ze do series channel"
+)
+_WORDS = {
+    **dict.fromkeys(_FILLING.split(), None),
+    **dict.fromkeys(_MADE.split(), Says.MADE),
+    **dict.fromkeys(_RECORDED.split(), Says.RECORDED),
+    **dict.fromkeys(_BARE.split(), Says.BARE),
+    **dict.fromkeys(_BEGAN.split(), Says.BEGAN),
+}
+_CAMEL = re.compile(r"(?<=[a-zß-ÿ])(?=[A-Z])")
+_LONGEST = 60  # letters of a label
+
+
+def said_by(label: str) -> Says | None:
+    """What a label says of the time behind it; None where it is none of a time, or of another: "End", "Calibrated"."""
+    if not 0 < len(label) <= _LONGEST:
+        return None
+    words = re.findall(r"t_?0\b|[^\W_]+", _CAMEL.sub(" ", label).casefold().replace("t_0", "t0"))
+    if not words or any(w not in _WORDS for w in words):
+        return None
+    known = [s for w in words if (s := _WORDS[w]) is not None]
+    if not known:
+        return None
+    # a file that was made says nothing of its rows, whatever else stands there: "Report date", "Print time"
+    return Says.MADE if Says.MADE in known else max(known)
