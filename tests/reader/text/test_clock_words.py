@@ -11,8 +11,8 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.clock_words import said_clock
+from thermodata.reader.text.find_table import open_table
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.table import open_table
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.time_pattern import declared_format
 from thermodata.reader.text.timestamp import parse, parse_one

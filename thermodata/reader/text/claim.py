@@ -6,9 +6,10 @@ from functools import lru_cache
 
 from thermodata.plugin import Head, Source
 from thermodata.reader.text.encoding import decode_head
+from thermodata.reader.text.find_table import find_table
 from thermodata.reader.text.layout import STREAM
 from thermodata.reader.text.lines import Sample
-from thermodata.reader.text.table import Table, find_table
+from thermodata.reader.text.table import Table
 
 
 def head_lines(head: Head) -> tuple[str, ...]:

@@ -1,0 +1,288 @@
+"""The first look at a file of delimited text: its header, its columns and their kinds, its times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.text import delimiter as delimiters
+from thermodata.reader.text.begin import declared_start, find_begin, first_times
+from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
+from thermodata.reader.text.date_parts import PART, column_times, row_time
+from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
+from thermodata.reader.text.foreign_texts import refuse_foreign
+from thermodata.reader.text.grid import TIME
+from thermodata.reader.text.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.lines import WHOLE, Sample, sample
+from thermodata.reader.text.long_rows import refuse_long
+from thermodata.reader.text.number import clean
+from thermodata.reader.text.quality_columns import quality_pairs, worded
+from thermodata.reader.text.short_header import refuse_short_header
+from thermodata.reader.text.table import Table, TimedGroup, bare_line
+from thermodata.reader.text.time_formats import find_formats
+from thermodata.reader.text.unit_cells import refuse_units_in_cells
+from thermodata.reader.text.zone_words import stated_zone
+from thermodata.reader.zone import NAT
+
+_HEAD_LINES = 500  # in which the layout shows
+_HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
+_TYPED_ROWS = 2000  # of the head, by which columns are typed
+_FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load
+
+
+def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
+    """The table of a file by its head and pieces of the rest. stream: what its one stream is called; the option `text`
+    of the source names columns that are text whatever their cells. FormatError where there is none.
+
+    Describing and reading follow each other, so the last ones are kept.
+    """
+    status = path.stat()
+    key = (str(path.resolve()), status.st_mtime_ns, status.st_size, repr(source), stream)
+    return _kept(_Asked(path, source, stream, key))
+
+
+@dataclass(frozen=True)
+class _Asked:
+    path: Path = field(compare=False)
+    source: Source = field(compare=False)
+    stream: str = field(compare=False)
+    key: tuple[Any, ...]
+
+
+@lru_cache(maxsize=4)
+def _kept(asked: _Asked) -> Table:
+    path, source = asked.path, asked.source
+    first = sample(path, source.encoding)
+    # a last line without its end may be half a row: it decides nothing
+    head = first.head[:-1] if first.whole and not first.ends_with_newline and len(first.head) > 2 else first.head
+    if not first.head and not first.whole:
+        raise FormatError(
+            "its first line is too long to be looked at",
+            where=path.name,
+            expected=f"a header and rows within the first {WHOLE // 4096} KiB",
+            got=f"no line end in them, in a file of {path.stat().st_size} bytes",
+            hint="export fewer columns a file",
+        )
+    if not any(line.strip() for line in head):
+        raise FormatError(
+            "no whole line" if first.head else "an empty file",
+            where=path.name,
+            expected="a table",
+            got=repr(first.head[0][:60]) if first.head else "nothing",
+        )
+    table = find_table(head, first, source, path.name, asked.stream)
+    numbered = (
+        bool(table.layout.names) and table.layout.names[0] == "column 1"
+    )  # of rows, which their header leaves out
+    if (source.table or {}).get("header_rows") is None and not (table.blanks or numbered):
+        refuse_short_header(head, table.layout.first, len(table.layout.names), table.delimiter, table.quoted, path.name)
+    return table
+
+
+def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
+    """The table in a file's first lines. first: all that was sampled of the file."""
+    if not any(line.strip() for line in head):
+        raise FormatError("no whole line", where=where, expected="a table", got="nothing")
+    refuse_foreign(head, where)
+    said = source.table or {}
+    delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
+    top = _top(head)
+    delimiter = delimiter or delimiters.find_delimiter(top)
+    if delimiter is None:
+        raise FormatError(
+            "no columns found",
+            where=where,
+            expected="lines with as many cells between ';', tabs, commas, '|' or blanks",
+            got=repr(head[0][:60]),
+            hint="declare table: {delimiter: ...}",
+        )
+    blanks = delimiter == delimiters.BLANKS
+    if blanks:
+        delimiter, head = "\t", [delimiters.parted(line) for line in head]
+        first = replace(
+            first,
+            head=tuple(map(delimiters.parted, first.head)),
+            rest=tuple(map(delimiters.parted, first.rest)),
+        )
+        top = _top(head)
+    quoted = any('"' in line for line in (*head, *first.rest))
+
+    def cells(line: str) -> list[str]:
+        found = delimiters.fields(line, delimiter, quoted)
+        if line.isascii():  # as `clean` begins, which nearly all cells are left alone by
+            return [c if c and c[0] > '"' < c[-1] else clean(c) for c in found]
+        return [clean(c) for c in found]
+
+    rows = [cells(line) for line in (_records(top) if quoted else top)]
+    if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
+        rows[0] = [""]
+    layout = find(rows, said, where)
+    width = len(layout.names)
+    # lines of a header were joined, rows are not
+    top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
+    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
+    body = [r for r in (*top_rows, *later) if len(r) == width]
+    refuse_long(layout.names, body, where, layout.time)
+    groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
+    cells_of = _cells_of(layout, groups, body)
+    quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
+    forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
+    times = {
+        i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
+    }
+    kinds: list[str | None] = []
+    for i, (name, unit) in enumerate(zip(layout.names, layout.units, strict=True)):
+        column = cells_of[name]
+        if i in times:
+            kinds.append(times[i])
+        elif name in forced:
+            kinds.append("str")
+        elif name.startswith("column ") and unit is None and not any(map(clean, column)):
+            kinds.append(None)  # rows that end with a delimiter
+        else:
+            kinds.append(dtype_of(column, name, unit))
+    if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
+        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
+        refuse_units_in_cells(
+            [c for i, name in enumerate(layout.names) if i not in times for c in cells_of[name]], where
+        )
+    numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
+    declared = said.get("decimal")
+    if declared == UNKNOWN:
+        raise unanswered("decimal", "'.' or ','", where)
+    decimal = declared or find_decimal(numbers, delimiter, where)
+    if declared is None:
+        named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
+        ask_for_thousands(named, decimal, where)
+    header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
+    begin, doubt = None, None
+    if not any(g.absolute for g in groups):
+        above = [[line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first]]
+        timed = groups[0]
+        first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
+        begin, doubt = find_begin(above, first_rows, declared_start(said), where)
+    midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
+    return Table(
+        name=where,
+        sample=first,
+        delimiter=delimiter,
+        quoted=quoted,
+        layout=layout,
+        groups=groups,
+        kinds=tuple(kinds),
+        decimal=decimal,
+        decimal_declared=declared is not None,
+        header=header,
+        quality=quality,
+        notes=tuple(dict.fromkeys(note for note in found if note)),
+        blanks=blanks,
+        begin=begin,
+    )
+
+
+def _records(lines: Sequence[str]) -> list[str]:
+    """The lines, those of a header whose cells go over several joined: at the last of them, the others blank, so that
+    lines keep their numbers."""
+    joined: list[str] = []
+    at = 0
+    while at < len(lines):
+        end = at
+        if at < _HEADER_LINES and lines[at].count('"') % 2:
+            more = range(at + 1, min(len(lines), at + _CELL_LINES))
+            end = next((k for k in more if lines[k].count('"') % 2), at)
+        joined += [*[""] * (end - at), " ".join(lines[at : end + 1])]
+        at = end + 1
+    return joined
+
+
+def _top(head: Sequence[str]) -> Sequence[str]:
+    """The lines up to the 500th that is not empty."""
+    full = [k for k, line in enumerate(head) if line and not line.isspace()][:_HEAD_LINES]
+    return head[: full[-1] + 1] if full else head
+
+
+def _timed(
+    group: Group,
+    layout: Layout,
+    body: Sequence[list[str]],
+    head: Sequence[str],
+    cells: Callable[[str], list[str]],
+    first: Sample,
+    stream: str,
+    where: str,
+) -> TimedGroup:
+    name = stream if group.stream == STREAM else group.stream
+    if not group.dated:
+        return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
+
+    def more(k: int) -> list[str]:
+        rows = _still_going(map(cells, (*head[layout.first :], *first.rest)), group, layout)
+        return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
+
+    columns = [[r[i] for r in _still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
+    names = [layout.names[i] for i in group.time]
+    once = len(columns) > 1 and is_once(columns[0])
+    if once:
+        columns[0] = [c for c in columns[0] if clean(c)]
+    forms = find_formats(names, columns, group.form, where, more)
+    return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
+
+
+def _still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
+    """The rows in which a group has a time. Groups have lengths of their own: beside those that go on, one that has
+    ended is empty, which says nothing of how its times are written."""
+    if len(layout.groups) < 2:
+        return list(rows)
+    return [r for r in rows if any(clean(r[i]) for i in group.time if i < len(r))]
+
+
+def _cells_of(layout: Layout, groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> dict[str, list[str]]:
+    """The cells of each column by its name, in the rows that have a time for it."""
+    found: dict[int, list[str]] = {}
+    for timed in groups:
+        dated = _dated(_still_going(body, timed.group, layout), timed)
+        found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
+    return {name: found[i] for i, name in enumerate(layout.names)}
+
+
+def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
+    """The rows whose times can be read."""
+    if not timed.formats:
+        return list(body)
+    if timed.once:
+        date = timed.group.time[0]
+        days = filled([r[date] for r in body])
+        body = [[*r[:date], day, *r[date + 1 :]] for r, day in zip(body, days, strict=True)]
+    if len(body) < _FEW_ROWS:
+        return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
+    read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
+    return [r for r, good in zip(body, read.tolist(), strict=True) if good]
+
+
+def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
+    """The dtype of times that are numbers: counts of nanoseconds or ticks since a date are too long for a float64."""
+    if timed.group.epoch is None:
+        return "float64"
+    whole = [c for c in map(clean, cells) if c.lstrip("-").isdecimal()]  # a few cells may be torn
+    return "int64" if 2 * len(whole) > len(cells) and dtype_of(whole) == "int64" else "float64"
+
+
+def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
+    names = [n for n, kind in zip(layout.names, kinds, strict=True) if kind is not None]
+    if any(n.startswith("column ") for n in names):
+        yield "columns without a name are called by their place"
+    if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
+        yield "names that repeat are numbered: #2, #3, ..."
+    if any(g.once for g in groups):
+        yield NOTE
+    for text in dict.fromkeys(form.text for g in groups for form in g.formats if form.role != PART.role):
+        if "DD/MM" in text or "MM/DD" in text:
+            yield f"dates read as {text}"
