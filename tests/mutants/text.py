@@ -87,16 +87,8 @@ MUTANTS = [
     text(
         "timestamp.py", 'fields["y"] < CENTURY', 'fields["y"] <= CENTURY', "a column has another century than its cells"
     ),
-    text(
-        "timestamp.py",
-        "            hour = hour % 12 + (12 if g[",
-        "            hour = hour + (12 if g[",
-        "12 AM is noon",
-    ),
-    text(
-        "timestamp.py", "hour = hour % 12 + (12 if groups[", "hour = hour + (12 if groups[", "12 AM is noon, in columns"
-    ),
-    text("timestamp.py", "if not 1 <= hour <= 12:", "if not 0 <= hour <= 23:", "13 PM is a time"),
+    text("clock_pattern.py", "(0 if native else 1) <= hour <= 12", "0 <= hour <= 23", "13 PM is a time"),
+    text("clock_pattern.py", 'half[0] in "pP"', "False", "afternoons are mornings"),
     text("zone_words.py", '(-1 if rest[0] == "-" else 1)', '(1 if rest[0] == "-" else -1)', "zones are turned"),
     text("timestamp.py", "total -= offset_ns(groups", "total += offset_ns(groups", "zones are turned, in columns"),
     text("zone_words.py", "int(minutes or 0) * 60)", "0)", "zones of half hours"),
