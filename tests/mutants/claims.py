@@ -472,6 +472,15 @@ MUTANTS = [
     diagnosis(
         "heat_balance.py", "(shares.max(axis=1) >= TELLS) & usual", "shares.max(axis=1) >= TELLS", "a hall tells"
     ),
+    diagnosis("preference.py", "            or _is_cause_of_mode(best, other)\n", "", "layers of air are the air"),
+    diagnosis("preference.py", " or _is_cause_of_mode(own, best)", "", "layers give way to the air above"),
+    diagnosis(
+        "preference.py", 'apart = mode.kin == "same" and', "apart =", "a cause gives way to one of more channels"
+    ),
+    diagnosis("preference.py", "set(mode.channels) < set(cause.channels)", "True", "any air is a layer"),
+    diagnosis(
+        "preference.py", "CAUSE_SHARE * own.evidence", "0.0 * own.evidence", "unlikely layers take the air's place"
+    ),
     diagnosis("preference.py", "FORETELLS = 0.9, 0.8", "FORETELLS = 0.9, 0.9", "a twin is taken by a hair"),
     diagnosis("preference.py", "TWIN, FORETELLS = 0.9,", "TWIN, FORETELLS = 0.8,", "what acts otherwise is a twin"),
     diagnosis("preference.py", "and s.evidence >= NAMED_SHARE * own.evidence", "", "an unlikely twin is taken"),
@@ -658,6 +667,8 @@ MUTANTS = [
     diagnosis("clocks.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
     diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
+    diagnosis("commanded.py", "change if told else {", "change if True else {", "a motor that cools excuses a slip"),
+    diagnosis("commanded.py", "2: np.zeros(len(value))", "2: suddenly(value**2, block.t_s, BESIDE + 2)", "so it does"),
     diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),
     diagnosis("sudden.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
     diagnosis("commanded.py", "MOVED = 0.1", "MOVED = 0.9", "small commands explain nothing"),
