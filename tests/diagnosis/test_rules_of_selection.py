@@ -425,22 +425,26 @@ def test_a_twin_that_foretells_left_out_tests_much_better_is_taken(changed: dict
     [
         ({}, {}, True),
         ({}, {"kin": None}, True),
-        ({}, {"evidence": 80.1}, True),
-        ({}, {"evidence": 79.9}, False),
+        ({}, {"evidence": 640.1}, True),
+        ({}, {"evidence": 639.9}, False),
         ({}, {"shape": (0.81, (1 - 0.81**2) ** 0.5)}, True),
         ({}, {"shape": (0.79, (1 - 0.79**2) ** 0.5)}, False),
         ({}, {"channels": ("T_low", "T_down")}, False),  # it reads something else
         ({}, {"family": "generic"}, False),  # it has no name
         ({}, {"kin": "same"}, False),  # it is another mode itself
         ({"kin": "near"}, {}, False),  # a cause of its own, by fewer channels
+        ({}, {"after": 0.39}, True),
+        ({}, {"after": 0.41}, False),  # it does not take most away
+        ({}, {"passive": True}, False),  # nor is it sure
     ],
 )
 def test_a_mode_of_the_model_gives_way_to_a_cause_that_reads_it_too(
     mode: dict[str, Any], cause: dict[str, Any], gives: bool
 ) -> None:
     """The air up there, beside the air down here in the model, is the layers between both."""
-    air = scored("air", **{"family": "ambient", "channels": ("T_up",), "kin": "same", "evidence": 100.0, **mode})
-    layers = {"family": "ambient", "channels": ("T_up", "T_down"), "kin": "near", "evidence": 99.0, **cause}
+    air = scored("air", **{"family": "ambient", "channels": ("T_up",), "kin": "same", "evidence": 800.0, **mode})
+    layers = {"family": "ambient", "channels": ("T_up", "T_down"), "kin": "near", "evidence": 790.0, **cause}
+    layers = {"after": 0.2, **layers}
     other = scored("layers", **layers)
     assert name(preferred([air, other])) == ("layers" if gives else "air")
     assert gives_way(air, other, Ranked(None, (air, other))) is gives  # type: ignore[arg-type]

@@ -289,7 +289,7 @@ MUTANTS = [
     diagnosis("refinement.py", "family == AIR or not", "family == 'x' or not", "the air counts from another zero"),
     diagnosis("refinement.py", 'or kin == "same"', "", "the same effect is missing again"),
     diagnosis(
-        "refinement.py", 'kin == "near" and not _is_surely_missing(scored)', 'kin == "near"', "the motor is its bearing"
+        "refinement.py", 'kin == "near" and not is_surely_missing(scored)', 'kin == "near"', "the motor is its bearing"
     ),
     diagnosis("refinement.py", 'kin == "near" and', "False and", "what sits at its place is missing"),
     # ---- locked tests

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from thermodata.diagnosis.present import CONTROL, GENERIC, TIME_UNITS
 from thermodata.diagnosis.probability import probability
 from thermodata.diagnosis.ranking import Ranked
+from thermodata.diagnosis.refinement import is_surely_missing
 from thermodata.diagnosis.scored import Scored
 
 # a name, or fewer channels, is worth this share of the evidence: what a lag explains as well is not the lag's own
@@ -53,13 +54,14 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
 
 
 def _is_cause_of_mode(own: Scored, other: Scored) -> bool:
-    """Whether one is another mode of what the model has, and the other, by its channel and more, a cause that is nearly
-    as likely and acts alike: the air up there, beside the air down here, is the difference between both."""
+    """Whether one is another mode of what the model has, and the other, by its channel and more, a cause that is surely
+    missing, nearly as likely, and acts alike: the air up there, beside the air down here, is the difference of both."""
     mode, cause = own.candidate, other.candidate
     more = set(mode.channels) < set(cause.channels) and cause.family not in UNNAMED
     apart = mode.kin == "same" and cause.kin in ("near", "related", None)
     likely = other.evidence >= CAUSE_SHARE * own.evidence
-    return apart and more and likely and abs(float(own.shape @ other.shape)) > ALIKE
+    alike = abs(float(own.shape @ other.shape)) > ALIKE
+    return apart and more and likely and alike and is_surely_missing(other)
 
 
 def _at_once(own: Scored, other: Scored) -> bool:

@@ -76,7 +76,7 @@ class Refinement:
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
             return LITTLE if kin in ("near", "related") else MODE
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
-        near = kin == "near" and not _is_surely_missing(scored)
+        near = kin == "near" and not is_surely_missing(scored)
         may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
         for number, term in enumerate(self.fitted.terms):
             if may_replace and self._replaces(scored, number):
@@ -91,7 +91,7 @@ class Refinement:
     def _acts_beside(self, scored: Scored) -> bool:
         """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the
         model has of that cause is worth as much beside it."""
-        if not _is_surely_missing(scored):
+        if not is_surely_missing(scored):
             return False
         own = [n for n, term in enumerate(self.fitted.terms) if cause(term.effect) == cause(scored.candidate.effect)]
         return bool(own) and all(self._is_kept(scored, number) for number in own)
@@ -185,7 +185,7 @@ class Refinement:
         return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
 
 
-def _is_surely_missing(scored: Scored) -> bool:
+def is_surely_missing(scored: Scored) -> bool:
     """Whether it takes away most, and is sure. A motion has the timing of no part: what one lag of a known part leaves
     follows the same motion, but leaves less evidence."""
     timed = not scored.candidate.of_motion or sharpness(scored) >= EVIDENT
