@@ -17,6 +17,7 @@ from thermodata.reader.text.date_parts import row_time
 from thermodata.reader.text.head_start import ORDERS, HeadStart, head_start
 from thermodata.reader.text.head_words import Says
 from thermodata.reader.text.time_pattern import TimeFormat
+from thermodata.reader.time_units import to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
 HEAD, NOT = "head", "none"  # the answers beside ORDERS
@@ -81,7 +82,7 @@ def first_times(
             ns = row_time([row[i] for i in time], forms)
         else:
             value = number_of(row[time[0]])
-            ns = NAT if value is None else round(value * each * 1e9)
+            ns = NAT if value is None else int(to_ns(np.array([value]), each)[0])
         found += [] if ns == NAT else [ns]
     clocks = bool(forms) and forms[0].pattern is not None and "H" in forms[0].pattern.groupindex
     return FirstTimes(tuple(found), clocks)
