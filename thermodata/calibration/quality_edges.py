@@ -38,14 +38,14 @@ def across_steps(x: Float1D, leap: float, reach: int = 3) -> Bool1D:
     mask: Bool1D = np.zeros(n, dtype=bool)
     if n < 2 * _LEVEL:
         return mask
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         size = np.abs(np.diff(x))
         rows = np.flatnonzero(size > leap)
     rows = rows[(rows >= _LEVEL - 1) & (rows < n - _LEVEL)]
     if not len(rows):
         return mask
     before, after = _level(x, rows, 1 - _LEVEL), _level(x, rows, 1)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         still = np.maximum(np.ptp(before, axis=1), np.ptp(after, axis=1)) < 0.1 * size[rows]
     for row in rows[still].tolist():
         mask[max(0, row - reach + 1) : row + reach + 1] = True

@@ -50,7 +50,7 @@ class RunStats:
 def run_stats(x: Float1D) -> RunStats:
     """One pass over the differences of x, shape (n,); NaN parts runs."""
     low, high = (float(np.min(x)), float(np.max(x))) if len(x) else (np.nan, np.nan)
-    with np.errstate(invalid="ignore"):  # inf - inf
+    with np.errstate(invalid="ignore", over="ignore"):  # inf - inf, and numbers at both ends of a float
         d = np.diff(x)
         leap = float(max(np.max(d), -np.min(d))) if len(d) else np.nan
     if not np.isfinite(leap) or not np.isfinite(high - low):
