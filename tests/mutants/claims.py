@@ -478,6 +478,7 @@ MUTANTS = [
         "preference.py", 'apart = mode.kin == "same" and', "apart =", "a cause gives way to one of more channels"
     ),
     diagnosis("preference.py", "set(mode.channels) < set(cause.channels)", "True", "any air is a layer"),
+    diagnosis("preference.py", " and is_surely_missing(other)", "", "doubted layers take the air's place"),
     diagnosis(
         "preference.py", "CAUSE_SHARE * own.evidence", "0.0 * own.evidence", "unlikely layers take the air's place"
     ),
