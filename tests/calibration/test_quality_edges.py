@@ -65,6 +65,14 @@ def test_a_spike_beside_a_pause_is_one(at: int) -> None:
     assert np.flatnonzero(flags["T"] & Flag.SPIKE).tolist() == [at]
 
 
+def test_a_spike_beside_a_pause_is_one_though_nothing_was_read_before_it() -> None:
+    t, x = clock(300, 60.0), bearing()
+    t[50:] += 2 * MINUTE
+    x[49], x[50] = np.nan, x[50] + 40
+    flags, _ = run(t, T=("temperature", x))
+    assert flags["T"][50] & Flag.SPIKE
+
+
 def test_a_sample_between_two_pauses_says_nothing() -> None:
     hit, after, x = np.zeros(9, bool), np.zeros(9, bool), np.full(9, 20.0)
     hit[4], x[4] = True, 60.0

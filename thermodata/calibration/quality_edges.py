@@ -27,7 +27,7 @@ def without_pauses(hit: Bool1D, x: Float1D, after_pause: Bool1D) -> Bool1D:
         into = abs(x[a] - x[a - 1]) if a else 0.0
         out = abs(x[b] - x[b - 1]) if b < len(x) else 0.0
         beside, other = (into, 0.0) if before and after else (into, out) if before else (out, into)
-        kept[a:b] = other >= _OF_THE_LEAP * beside
+        kept[a:b] = not other < _OF_THE_LEAP * beside  # where a neighbour is no number, nothing speaks against it
     return kept
 
 

@@ -17,7 +17,7 @@ from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
-from thermodata.reader.text.begin import NOT_TAKEN
+from thermodata.reader.text.begin import EITHER, NOT_TAKEN
 
 _MOST_QUESTIONS = 4
 _ASSUMED = "counted as 1 s each|taken as seconds from a start|changes its distance from them"
@@ -115,7 +115,11 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
     while True:
         try:
             recording = described(who, full, replace(file, table=table or None).source)
-            break
+            open_start = next((n for n in recording.notes if EITHER in n), None)
+            if open_start is None:
+                break
+            asked.append(Asked(_asked_order(open_start), _START))
+            table = merged(table, {"time": {"start": "dmy"}})
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:
                 raise
@@ -126,6 +130,11 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
     return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+
+
+def _asked_order(note: str) -> str:
+    """The question of a note on a start whose day and month may be either way round."""
+    return f"start: dmy or mdy? {note.split(EITHER)[0].rstrip(', ')}, which may be either; none if it is no start"
 
 
 def _asked_start(note: str) -> str:

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.errors import FormatError, QuestionError
+from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
+from thermodata.reader.text.head_start import head_start
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
 NUMBERS = ["Zeit [s];T1 [°C];T2 [°C]", *(f"{60 * i}.0;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]
@@ -78,9 +79,11 @@ def test_a_local_start_is_in_the_zone_of_its_source(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("start", "month"), [("dmy", 3), ("mdy", 2)])
 def test_the_order_of_day_and_month_is_asked_and_answered(tmp_path: Path, start: str, month: int) -> None:
     head = ["Data file: a.dxd", "Start time: 02/03/2026 07:00:00.000", "Sample rate: 0.0167"]
-    with pytest.raises(QuestionError, match="day and month of the start") as asked:
-        read(tmp_path, head, NUMBERS)
-    assert asked.value.declare == {"time": {"start": "unknown"}}
+    clock, _, notes, _ = read(tmp_path, head, NUMBERS)
+    assert clock == "relative", "what was read before there was such an answer still is"
+    assert any("whose day and month may be either way round" in n and "{start: dmy}" in n for n in notes)
+    with pytest.raises(FormatError, match="day and month of the start"):
+        read(tmp_path, head, NUMBERS, "head")
     with pytest.raises(FormatError, match=r"time\.start"):
         read(tmp_path, head, NUMBERS, "unknown")
     expected = np.datetime64(f"2026-{month:02d}-{5 - month:02d}T07:00", "ns").astype(np.int64)
@@ -119,8 +122,44 @@ def test_what_says_no_start_is_none(tmp_path: Path, head: list[str]) -> None:
     clock, _, notes, _ = read(tmp_path, head, NUMBERS)
     assert clock == "relative"
     assert not any("head says" in n for n in notes)
-    with pytest.raises(FormatError, match="no start stands above"):
+    clock, _, notes, _ = read(tmp_path, head, NUMBERS, "head")
+    assert clock == "relative"
+    assert any("no start stands above the rows" in n for n in notes)
+    assert read(tmp_path, head, NUMBERS, "dmy")[0] == "relative", "an order answers only what is asked"
+
+
+@pytest.mark.parametrize("head", [["Date: 02.03.2026"], ["Start: 2026-03-02 07:00:00", "Trigger: 2026-03-02 07:05:00"]])
+def test_a_start_that_is_declared_and_cannot_be_taken_is_refused(tmp_path: Path, head: list[str]) -> None:
+    with pytest.raises(FormatError, match="can't be taken"):
         read(tmp_path, head, NUMBERS, "head")
+
+
+@pytest.mark.parametrize("first", ["00:00:00,5", "00:00:01,0", "00:00:30,0"])
+def test_durations_below_a_date_stay_durations(tmp_path: Path, first: str) -> None:
+    rows = ["Laufzeit;T1;T2", f"{first};20,5;21,0", *(f"00:{i:02d}:00,5;20,{i % 9};21,0" for i in range(1, 40))]
+    assert read(tmp_path, ["Datum: 02.03.2026"], rows)[0] == "relative"
+
+
+@pytest.mark.parametrize(
+    "line", ["Test: 02-Mar-2026 - 03-Mar-2026", "Test date: Mon 02-Mar-2026 (Mon)", "Date: 02-Mar-2026 / 03-Mar-2026"]
+)
+def test_two_names_of_months_on_a_line_are_no_start(tmp_path: Path, line: str) -> None:
+    assert read(tmp_path, [line], NUMBERS)[0] == "relative"
+
+
+@pytest.mark.parametrize(
+    "line", ["Start: 2026-03-01" + " " * 100_000 + "x", "Start" + " " * 50_000 + ":" + " " * 50_000]
+)
+def test_a_long_line_takes_no_time(line: str) -> None:
+    """A pattern that tries every part of it would take minutes."""
+    assert head_start([[line]]) is None
+
+
+def test_columns_on_two_kinds_of_clocks_take_no_start(tmp_path: Path) -> None:
+    rows = ["Time;T1;Time [s];T2", *(f"08:{i:02d}:00;20.{i % 9};{60 * i}.0;21.0" for i in range(40))]
+    clock, _, notes, _ = read(tmp_path, ["Start: 2026-03-02 08:00:00"], rows)
+    assert clock == "relative"
+    assert any("others tell times of day" in n for n in notes)
 
 
 def test_two_starts_and_rows_that_begin_late_are_noted(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.errors import FormatError, QuestionError
+from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import number_of
@@ -23,6 +23,9 @@ from thermodata.reader.zone import NAT, local_to_utc_ns
 HEAD, NOT = "head", "none"  # the answers beside ORDERS
 ANSWERS = (*ORDERS, HEAD, NOT)
 NOT_TAKEN = "which is not taken for the start of the rows"
+EITHER = "whose day and month may be either way round"
+_ORDER = "declare table: {time: {start: dmy}} or mdy; start: none, where the rows do not begin then"
+_NOTHING = "no start stands above the rows, though time.start is 'head': they count from the start of the test"
 _HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
 _ROWS = 40  # that show how a clock begins
 _SECOND, _MINUTE, _HOUR = 10**9, 60 * 10**9, 3600 * 10**9
@@ -101,28 +104,30 @@ def find_begin(
     """(what the rows count from, a note where the head's word is not taken). lines: above the rows, each as its cells;
     declared: `table.time.start`.
 
-    QuestionError where day and month of the start could be either way round; FormatError where an answer fits nothing.
+    QuestionError where the answer leaves day and month of the start open; FormatError where it fits nothing.
     """
     if declared == UNKNOWN:
         raise unanswered("time.start", ", ".join(ANSWERS), where)
     if declared == NOT:
         return None, None
     said = head_start(lines, declared if declared in ORDERS else None)
-    if said is None:
-        if declared is None:
-            return None, None
+    if said is None:  # of files that are declared alike only some may have such a line
+        return None, _NOTHING if declared == HEAD else None
+    begin = _begin(said, first, sure=declared is None)
+    if begin is None and declared == HEAD:
         raise FormatError(
-            f"no start stands above the rows, and time.start is '{declared}'",
+            "the start above the rows can't be taken, and time.start is 'head'",
             where=where,
-            expected="a line such as 'Start time: 2026-03-02 08:00:00'" + ("" if declared == HEAD else f", {declared}"),
+            expected="one date with a time of day, such as 'Start time: 2026-03-02 08:00:00'",
+            got=f"'{said.text[:_LONGEST]}'" + (", and another start on another line" if said.several else ""),
             hint="declare start: none, and give each test its start: 2026-03-02 08:00",
         )
-    begin = _begin(said, first, sure=declared is None)
     if begin is None:
         return None, None if said.clock_ns is None and not first.of_day else _note(said)
-    if said.either:
+    if said.either and declared is not None:
         raise _which_order(said, where)
-    return begin, None
+    # who tells no order may know the start otherwise: `init` asks, and what was read before still is
+    return (None, _either(said)) if said.either else (begin, None)
 
 
 def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
@@ -141,7 +146,7 @@ def _are_times_of_day(said: HeadStart, first: FirstTimes) -> bool:
     """Whether times that are written as of day are: they begin when the head says or soon behind it; where it tells a
     date only, they begin at no zero, from which durations count."""
     if said.clock_ns is None:
-        return first.ns[0] != 0
+        return not first.near_zero
     behind = first.ns[0] - said.clock_ns
     return -_SECOND <= behind <= _HOUR and not (first.near_zero and said.clock_ns > _HOUR)
 
@@ -153,15 +158,15 @@ def _note(said: HeadStart) -> str:
     return f"the head says '{shown}', {NOT_TAKEN}; {_HINT}"
 
 
-def _which_order(said: HeadStart, where: str) -> QuestionError:
-    answer: dict[str, Any] = {"time": {"start": UNKNOWN}}
-    return QuestionError(
+def _either(said: HeadStart) -> str:
+    return f"the head says '{said.text[:_LONGEST]}', {EITHER}, {NOT_TAKEN}; {_ORDER}"
+
+
+def _which_order(said: HeadStart, where: str) -> FormatError:
+    return FormatError(
         "day and month of the start above the rows could be either way round",
         where=where,
         expected="a day above 12, or the order declared",
         got=said.text,
-        hint="declare table: {time: {start: dmy}} or mdy; start: none, where the rows do not begin then",
-        ask=f"start: dmy or mdy? rows count from '{said.text[:_LONGEST]}', which may be either; none if they do not",
-        declare=answer,
-        meanwhile={"time": {"start": "dmy"}},
+        hint=_ORDER,
     )

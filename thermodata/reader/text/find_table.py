@@ -12,7 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
-from thermodata.reader.text.begin import declared_start, find_begin, first_times
+from thermodata.reader.text.begin import NOT_TAKEN, declared_start, find_begin, first_times
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
@@ -168,6 +168,10 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         timed = groups[0]
         first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
         begin, doubt = find_begin(above, first_rows, declared_start(said), where)
+        if begin is not None and len({g.of_day for g in groups}) > 1:
+            above_rows = f"'{begin.text[:60]}' stands above the rows"
+            doubt = f"{above_rows}, {NOT_TAKEN}: some columns count from a start, others tell times of day"
+            begin = None
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
     found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
     return Table(

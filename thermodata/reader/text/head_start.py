@@ -14,14 +14,14 @@ from thermodata.reader.text.head_words import Says, said_by
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.time_pattern import TIME_OF_DAY
+from thermodata.reader.text.time_pattern import DAY_NS, TIME_OF_DAY
 from thermodata.reader.zone import NAT
 
 ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
 _LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\d_][^\d:=]{0,58}?)\s+(\d.*)$"))
 _MARKS = "#%;*'\"/!<> \t"  # by which a line is a comment
 _MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
-_DAY_NS = 86_400 * 10**9
+_LONGEST_CELL, _LONGEST_TIME = 200, 100  # letters: what is longer is prose, and a pattern would take its time over it
 _NEAR_NS = 10**9  # by which two lines on one start may differ
 
 
@@ -92,8 +92,8 @@ def _ns(moment: Moment) -> int:
 
 def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment]:
     """The moments of one line: a label and its time in one cell, or in cells behind each other."""
-    left = [clean(c).strip(_MARKS) if k == 0 else clean(c) for k, c in enumerate(cells)]
-    left = [c for c in left if c]
+    left = [" ".join((clean(c).strip(_MARKS) if k == 0 else clean(c)).split()) for k, c in enumerate(cells)]
+    left = [c for c in left if 0 < len(c) <= _LONGEST_CELL]
     k = 0
     while k < len(left):
         label, value = _split(left[k])
@@ -126,7 +126,7 @@ def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
     clock = timestamp.parse_one(text, time_pattern.with_zone(TIME_OF_DAY, False))
     if clock != NAT:
         return Moment(says, line, None, clock)
-    if not re.search(r"\d{2}", text):
+    if len(text) > _LONGEST_TIME or not re.search(r"\d{2}", text):
         return None
     either = False
     try:
@@ -142,6 +142,6 @@ def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
     if ns == NAT or form.role == "time":
         return None
     zoned = time_pattern.is_zoned(text, form)
-    day = ns // _DAY_NS * _DAY_NS
+    day = ns // DAY_NS * DAY_NS
     clocked = form.role == "datetime" and re.search(r"\d[:.h時时]\s?\d\d|T\d{4}", text) is not None
     return Moment(says, line, day, ns - day if clocked or ns != day else None, zoned, either)

@@ -127,7 +127,7 @@ def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
     for cell in {c or "" for c in cells}:
         try:
             moment = datetime.strptime(cell.strip(), form.strptime or "")
-        except ValueError:
+        except (ValueError, re.error):  # a format that names a month twice is no pattern
             known[cell] = NAT
             continue
         since = moment.replace(tzinfo=moment.tzinfo or UTC) - datetime(1970, 1, 1, tzinfo=UTC)
