@@ -149,3 +149,18 @@ def test_a_declared_number_that_counts_from_no_date_is_refused(tmp_path: Path, w
     path = write(tmp_path / "a.mcap", [("/m", T0 + i * STEP, {"n": i, "T": 20.5}) for i in range(50)])
     with pytest.raises(FormatError, match="does not tell its unit"):
         read(path, Source(options={"time": "n"}))
+
+
+@pytest.mark.parametrize("time", [None, "t", "header.stamp"])
+def test_a_whole_number_beyond_all_floats_is_lost_alone(
+    tmp_path: Path, write: Any, read: Any, time: str | None
+) -> None:
+    def message(k: int) -> dict[str, Any]:
+        huge = 10**400 if k == 12 else T0 // 10**9 + k
+        return {"t": huge, "header": {"stamp": {"sec": huge, "nanosec": 0}}, "v": k / 2}
+
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * 10**9, message(k)) for k in range(30)])
+    _, times, values, _, losses = read(path, Source(options={"time": time} if time else {}))
+    assert values["/m.v"] == [k / 2 for k in range(30)]
+    assert times["/m"].tolist() == [T0 + k * 10**9 for k in range(30)]
+    assert losses
