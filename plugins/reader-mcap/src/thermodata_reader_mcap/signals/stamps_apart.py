@@ -46,6 +46,7 @@ def apart(topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel,
 def unit_of(path: Path, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
     """The unit that a field of numbers counts in since 1970, by their size; None where it holds none, or others."""
     values = _numbers(path, [message for _, message in _messages(batches, made)])
+    values = values[values != 0]  # stamps that are not set
     return _UNITS.get(found_epoch(values) or "") if values.size else None
 
 
