@@ -144,7 +144,9 @@ MUTANTS = [
     text("head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
     text("head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
     # ---- days and midnights
-    text("days.py", "(empty[good] | over)", "True", "a clock that is set back passes midnight"),
+    text("days.py", "-DAY_NS // 2) & over)", "-DAY_NS // 2))", "a clock that is set back passes midnight"),
+    text("days.py", "steps < -_SET_NS", "steps < -DAY_NS // 2", "a log that goes on next morning goes back in time"),
+    text("days.py", "steps < -_SET_NS", "steps < 0", "the hour that repeats passes midnight"),
     text("days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"),
     text(
         "days.py", "bool(back[k]) or count > 0, 0", "bool(back[k]), count", "a new date keeps the midnights before it"

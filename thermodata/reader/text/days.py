@@ -17,6 +17,7 @@ from thermodata.reader.zone import NAT
 
 _SPARSE = 0.5  # of the rows: fewer have a date
 _STEPS = 10  # of the rows, that the clock may miss over a midnight at which the date does not change
+_SET_NS = 2 * 3600 * 10**9  # that a clock may be set back by within a day, as in autumn
 NOTE = "the date stands in some rows only: it is that of the rows behind it, and midnights are counted"
 STANDS = "the date does not change at midnight: midnights are counted"
 
@@ -53,7 +54,7 @@ def stands(rows: Sequence[Sequence[str]], time: Sequence[int], forms: Sequence[T
 class Days:
     """Joins dates and times of day of rows in file order, part after part.
 
-    A row without a date is of the day before it, or of the next one where the clock goes back by half a day or more.
+    A row without a date is of the day before it, or of the next one where the clock goes back by more than two hours.
     One with the same date as before is of the next day where the clock goes back so, and with a few steps of the rows
     passes midnight: a clock that is set does not hit that.
     """
@@ -79,7 +80,7 @@ class Days:
         self._step = int(np.median(ahead)) if ahead.size else self._step
         same = day == np.concatenate([[day[0] if self._day == NAT else self._day], day[:-1]])
         over = steps + DAY_NS <= _STEPS * self._step
-        turned = same & (steps < -DAY_NS // 2) & (empty[good] | over)
+        turned = same & np.where(empty[good], steps < -_SET_NS, (steps < -DAY_NS // 2) & over)
         nights = self._counted(same, turned, empty[good], steps < -DAY_NS // 2)
         out[good] = np.where(day == NAT, NAT, day + nights * DAY_NS + clock)
         self._day, self._clock, self._nights = int(day[-1]), int(clock[-1]), int(nights[-1])
