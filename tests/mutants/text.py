@@ -149,8 +149,9 @@ MUTANTS = [
     text("days.py", "steps < -_SET_NS", "steps < 0", "the hour that repeats passes midnight"),
     text("days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"),
     text(
-        "days.py", "bool(back[k]) or count > 0, 0", "bool(back[k]), count", "a new date keeps the midnights before it"
+        "days.py", "bool(away[k]) or count > 0, 0", "bool(away[k]), count", "a new date keeps the midnights before it"
     ),
+    text("days.py", "2) | paused)", "2))", "of a session that begins later in the day no midnight is counted"),
     text("clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
     text("clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
     text("odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),

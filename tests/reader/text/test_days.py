@@ -79,6 +79,14 @@ def test_a_date_that_changes_early_moves_no_day_behind_it(tmp_path: Path) -> Non
     assert [a - b for a, b in zip(found, EVERY, strict=True) if a != b] == [1440, 1440]
 
 
+@pytest.mark.parametrize("begin", [2820, 1980])
+def test_a_date_of_a_session_is_that_of_its_start(tmp_path: Path, begin: int) -> None:
+    """begin: at 20:00 two days after a session from 06:00 to 08:30, or at 06:00"""
+    first, second = list(range(-900, -740, 10)), list(range(begin, begin + 1200, 10))
+    dates = [days([0])[0]] * len(first) + [days([begin])[0]] * len(second)
+    assert read(tmp_path, dates, clocks([*first, *second]))[0] == [*first, *second]
+
+
 def test_a_clock_that_was_set_back_passes_no_midnight(tmp_path: Path) -> None:
     minutes = [*range(0, 100), *range(-1200, -1100)]  # 22:39 to 01:00 of the same day
     assert read(tmp_path, days([0] * 200), clocks(minutes))[0] == minutes

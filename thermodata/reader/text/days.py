@@ -81,19 +81,21 @@ class Days:
         same = day == np.concatenate([[day[0] if self._day == NAT else self._day], day[:-1]])
         over = steps + DAY_NS <= _STEPS * self._step
         turned = same & np.where(empty[good], steps < -_SET_NS, (steps < -DAY_NS // 2) & over)
-        nights = self._counted(same, turned, empty[good], steps < -DAY_NS // 2)
+        paused = np.abs(steps) > _STEPS * self._step
+        nights = self._counted(same, turned, empty[good], (steps < -DAY_NS // 2) | paused)
         out[good] = np.where(day == NAT, NAT, day + nights * DAY_NS + clock)
         self._day, self._clock, self._nights = int(day[-1]), int(clock[-1]), int(nights[-1])
         return out
 
-    def _counted(self, same: Bool1D, turned: Bool1D, empty: Bool1D, back: Bool1D) -> Int1D:
+    def _counted(self, same: Bool1D, turned: Bool1D, empty: Bool1D, away: Bool1D) -> Int1D:
         """Midnights since each row's date began, shape (n,). A date that was changed while no midnight passed is ahead
-        of its clock: the midnight that follows is the one that it was changed for."""
+        of its clock: the midnight that follows is the one that it was changed for. away: where the clock went back
+        over midnight, or the log stood still, and a date that changes is that of another session."""
         nights, count, first = np.zeros(same.size, np.int64), self._nights, 0
         for k in np.flatnonzero(~same | turned).tolist():
             nights[first:k], first = count, k
             if not same[k]:
-                self._sound, count = bool(back[k]) or count > 0, 0
+                self._sound, count = bool(away[k]) or count > 0, 0
             elif self._sound or empty[k]:
                 count += 1
         nights[first:] = count
