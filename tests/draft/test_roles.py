@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.roles import said_by_list
+from thermodata.draft.naming import words
+from thermodata.draft.roles import said_by_list, said_by_name
 
 from .conftest import Said
 
@@ -24,10 +25,22 @@ from .conftest import Said
         ({"note": "calibration check"}, None),
         ({"a": "calibration", "b": "verification"}, None),
         ({"speed": "8000 rpm"}, None),
+        ({"use": "überprüft"}, ("verification", "use")),
+        ({"use": "holdout set"}, ("locked", "use")),
+        *(({"state": s}, None) for s in ("invalid", "unlocked", "uncalibrated", "sbloccato", "neověřeno", "ungeprüft")),
+        *(({"state": s}, None) for s in ("not valid", "non validé", "nicht kalibriert", "ne calibre pas", "未验证")),
     ],
 )
 def test_a_role_by_a_cell(cells: dict[str, str], found: tuple[str, str] | None) -> None:
     assert said_by_list(cells) == found
+
+
+@pytest.mark.parametrize(
+    ("name", "role"),
+    [("D05_validation", "verification"), ("D05_invalid", None), ("D06Locked", "locked"), ("D06_unlocked", None)],
+)
+def test_a_role_by_a_name(name: str, role: str | None) -> None:
+    assert said_by_name(words(name)) == role
 
 
 def test_a_list_of_tests_offers_their_roles(tmp_path: Path, say: Callable[..., Said]) -> None:

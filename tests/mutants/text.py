@@ -144,14 +144,18 @@ MUTANTS = [
     text("head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
     text("head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
     # ---- days and midnights
-    text("days.py", "(empty[good] | over)", "True", "a clock that is set back passes midnight"),
+    text("days.py", "-DAY_NS // 2) & over)", "-DAY_NS // 2))", "a clock that is set back passes midnight"),
+    text("days.py", "steps < -_SET_NS", "steps < -DAY_NS // 2", "a log that goes on next morning goes back in time"),
+    text("days.py", "steps < -_SET_NS", "steps < 0", "the hour that repeats passes midnight"),
     text("days.py", "elif self._sound or empty[k]:", "else:", "a date that changes early moves a day"),
     text(
-        "days.py", "bool(back[k]) or count > 0, 0", "bool(back[k]), count", "a new date keeps the midnights before it"
+        "days.py", "bool(away[k]) or count > 0, 0", "bool(away[k]), count", "a new date keeps the midnights before it"
     ),
+    text("days.py", "2) | paused)", "2))", "of a session that begins later in the day no midnight is counted"),
     text("clock_pattern.py", "0 if native else 1", "0", "0:30 a. m. is a time"),
     text("clock_pattern.py", "hour % 12 + (", "hour + (", "noon is midnight"),
     text("odd_clocks.py", "if len(columns) != 1:", "if True:", "days that many rows share stand at midnight"),
+    text("odd_clocks.py", "if _is_shaped(i, data)", "if True", "the number of a part is offered as the time"),
     # ---- clocks
     text("local_clock.py", "(ahead < -self._cycle // 2)", "(ahead < 0)", "each step back is a midnight"),
     text("local_clock.py", "_DAY = 24 *", "_DAY = 12 *", "days have twelve hours"),

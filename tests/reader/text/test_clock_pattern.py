@@ -85,3 +85,21 @@ def test_days_of_many_rows_beside_an_unread_text_are_asked(tmp_path: Path, clock
     with pytest.raises(QuestionError, match="beside 'Hora'") as question:
         read(tmp_path, [*rows[:61], *(r.replace("viertel ", "viertel 1") for r in rows[61:])])
     assert question.value.declare == {"time": {"column": [1, 2], "format": "unknown"}}
+
+
+@pytest.mark.parametrize(
+    ("head", "cell", "time"),
+    [
+        ("Part", "P-{0:04d}", {"period": "unknown"}),
+        ("Part", "12-{0}", {"period": "unknown"}),
+        ("Logged", "{1:02d}h{2:02d}", {"column": [1, 2], "format": "unknown"}),
+        ("Zeit", "Takt {0}", {"column": [1, 2], "format": "unknown"}),
+    ],
+)
+def test_only_what_looks_like_a_time_is_offered_beside_days(
+    tmp_path: Path, head: str, cell: str, time: dict[str, object]
+) -> None:
+    rows = [f"0{2 + i // 20}.03.2026;{cell.format(i, i // 60 + 8, i % 60)};2{i % 9}.5" for i in range(120)]
+    with pytest.raises(QuestionError, match="dates without a time of day") as question:
+        read(tmp_path, [f"Date;{head};T1 [°C]", *rows])
+    assert question.value.declare == {"time": time}

@@ -52,6 +52,17 @@ def test_a_date_in_the_first_row_is_that_of_the_rows_behind_it(tmp_path: Path, a
     assert any("the date stands in some rows only" in n for n in notes)
 
 
+def test_a_log_that_goes_on_next_morning_without_a_date_is_of_the_next_day(tmp_path: Path) -> None:
+    minutes = [m - 300 for m in (*range(0, 110, 10), *range(960, 1200, 10), *range(2400, 2500, 10))]  # from 16:00
+    found, losses, _ = read(tmp_path, ["02.03.2026", *[""] * (len(minutes) - 1)], clocks(minutes))
+    assert (found, losses) == (minutes, [])
+
+
+def test_a_clock_that_is_set_back_in_autumn_is_of_the_same_day(tmp_path: Path) -> None:
+    minutes = [*range(300, 360, 5), *range(300, 600, 5)]  # 02:00 to 02:55, and again
+    assert read(tmp_path, ["03.03.2026", *[""] * 71], clocks(minutes))[0] == minutes
+
+
 def test_a_date_that_does_not_change_at_midnight_is_that_of_the_start(tmp_path: Path) -> None:
     found, losses, notes = read(tmp_path, days([0] * len(EVERY)), clocks(EVERY))
     assert (found, losses) == (EVERY, [])
@@ -66,6 +77,14 @@ def test_a_date_that_changes_late_is_put_right(tmp_path: Path) -> None:
 def test_a_date_that_changes_early_moves_no_day_behind_it(tmp_path: Path) -> None:
     found = read(tmp_path, days(EVERY, 5), clocks(EVERY))[0]
     assert [a - b for a, b in zip(found, EVERY, strict=True) if a != b] == [1440, 1440]
+
+
+@pytest.mark.parametrize("begin", [2820, 1980])
+def test_a_date_of_a_session_is_that_of_its_start(tmp_path: Path, begin: int) -> None:
+    """begin: at 20:00 two days after a session from 06:00 to 08:30, or at 06:00"""
+    first, second = list(range(-900, -740, 10)), list(range(begin, begin + 1200, 10))
+    dates = [days([0])[0]] * len(first) + [days([begin])[0]] * len(second)
+    assert read(tmp_path, dates, clocks([*first, *second]))[0] == [*first, *second]
 
 
 def test_a_clock_that_was_set_back_passes_no_midnight(tmp_path: Path) -> None:

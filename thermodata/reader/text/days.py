@@ -17,6 +17,7 @@ from thermodata.reader.zone import NAT
 
 _SPARSE = 0.5  # of the rows: fewer have a date
 _STEPS = 10  # of the rows, that the clock may miss over a midnight at which the date does not change
+_SET_NS = 2 * 3600 * 10**9  # that a clock may be set back by within a day, as in autumn
 NOTE = "the date stands in some rows only: it is that of the rows behind it, and midnights are counted"
 STANDS = "the date does not change at midnight: midnights are counted"
 
@@ -53,7 +54,7 @@ def stands(rows: Sequence[Sequence[str]], time: Sequence[int], forms: Sequence[T
 class Days:
     """Joins dates and times of day of rows in file order, part after part.
 
-    A row without a date is of the day before it, or of the next one where the clock goes back by half a day or more.
+    A row without a date is of the day before it, or of the next one where the clock goes back by more than two hours.
     One with the same date as before is of the next day where the clock goes back so, and with a few steps of the rows
     passes midnight: a clock that is set does not hit that.
     """
@@ -79,20 +80,22 @@ class Days:
         self._step = int(np.median(ahead)) if ahead.size else self._step
         same = day == np.concatenate([[day[0] if self._day == NAT else self._day], day[:-1]])
         over = steps + DAY_NS <= _STEPS * self._step
-        turned = same & (steps < -DAY_NS // 2) & (empty[good] | over)
-        nights = self._counted(same, turned, empty[good], steps < -DAY_NS // 2)
+        turned = same & np.where(empty[good], steps < -_SET_NS, (steps < -DAY_NS // 2) & over)
+        paused = np.abs(steps) > _STEPS * self._step
+        nights = self._counted(same, turned, empty[good], (steps < -DAY_NS // 2) | paused)
         out[good] = np.where(day == NAT, NAT, day + nights * DAY_NS + clock)
         self._day, self._clock, self._nights = int(day[-1]), int(clock[-1]), int(nights[-1])
         return out
 
-    def _counted(self, same: Bool1D, turned: Bool1D, empty: Bool1D, back: Bool1D) -> Int1D:
+    def _counted(self, same: Bool1D, turned: Bool1D, empty: Bool1D, away: Bool1D) -> Int1D:
         """Midnights since each row's date began, shape (n,). A date that was changed while no midnight passed is ahead
-        of its clock: the midnight that follows is the one that it was changed for."""
+        of its clock: the midnight that follows is the one that it was changed for. away: where the clock went back
+        over midnight, or the log stood still, and a date that changes is that of another session."""
         nights, count, first = np.zeros(same.size, np.int64), self._nights, 0
         for k in np.flatnonzero(~same | turned).tolist():
             nights[first:k], first = count, k
             if not same[k]:
-                self._sound, count = bool(back[k]) or count > 0, 0
+                self._sound, count = bool(away[k]) or count > 0, 0
             elif self._sound or empty[k]:
                 count += 1
         nights[first:] = count

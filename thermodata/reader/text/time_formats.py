@@ -23,12 +23,11 @@ from thermodata.reader.text.clock_letters import refuse_unread, with_clock
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.time_pattern import DATE, DATETIME, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
+from thermodata.reader.text.time_pattern import DATE, DATETIME, DAY_NS, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
 _FEW, _MANY = 40, 4000
-_DAY_NS = 86_400 * 10**9
 _SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
 _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
@@ -148,7 +147,7 @@ def _goes_on(cells: Sequence[str], form: TimeFormat) -> bool:
     ns = timestamp.parse(list(cells), form)
     ns = ns[ns != NAT]
     roomy = all(_HUNDREDS.match(c) for c in cells if c.strip())
-    return bool(ns.size and (roomy or ns.max() >= _DAY_NS) and (np.diff(ns) >= 0).all())
+    return bool(ns.size and (roomy or ns.max() >= DAY_NS) and (np.diff(ns) >= 0).all())
 
 
 def _order(
@@ -248,6 +247,6 @@ def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
     return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
 
 
-def times_of_day(of_day_ns: Int1D, cycle_ns: int = _DAY_NS) -> Stamps:
+def times_of_day(of_day_ns: Int1D, cycle_ns: int = DAY_NS) -> Stamps:
     """Times of day without a date count from the first; each step back by half a day is the next midnight."""
     return Stamps(DayCount(cycle_ns).relative(of_day_ns), False, (DayCount.note(cycle_ns),))

@@ -149,3 +149,34 @@ def test_a_declared_number_that_counts_from_no_date_is_refused(tmp_path: Path, w
     path = write(tmp_path / "a.mcap", [("/m", T0 + i * STEP, {"n": i, "T": 20.5}) for i in range(50)])
     with pytest.raises(FormatError, match="does not tell its unit"):
         read(path, Source(options={"time": "n"}))
+
+
+@pytest.mark.parametrize("time", [None, "t", "header.stamp"])
+def test_a_whole_number_beyond_all_floats_is_lost_alone(
+    tmp_path: Path, write: Any, read: Any, time: str | None
+) -> None:
+    def message(k: int) -> dict[str, Any]:
+        huge = 10**400 if k == 12 else T0 // 10**9 + k
+        return {"t": huge, "header": {"stamp": {"sec": huge, "nanosec": 0}}, "v": k / 2}
+
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * 10**9, message(k)) for k in range(30)])
+    _, times, values, _, losses = read(path, Source(options={"time": time} if time else {}))
+    assert values["/m.v"] == [k / 2 for k in range(30)]
+    assert times["/m"].tolist() == [T0 + k * 10**9 for k in range(30)]
+    assert losses
+
+
+def test_a_stamp_that_is_not_set_hides_no_unit_and_is_no_time(tmp_path: Path, write: Any, read: Any) -> None:
+    stamps = [0 if k == 3 else T0 // 10**6 + k for k in range(30)]
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * STEP, {"t": s, "v": k / 2}) for k, s in enumerate(stamps)])
+    _, times, _, flags, losses = read(path, Source(options={"time": "t"}))
+    assert times["/m"].tolist() == [T0 + 3 * STEP if k == 3 else s * 10**6 for k, s in enumerate(stamps)]
+    assert [bool(f & 64) for f in flags["/m.v"]] == [k == 3 for k in range(30)]
+    assert ["log time stands for it" in loss.reason for loss in losses] == [True]
+
+
+def test_the_zero_of_a_clock_that_counts_from_zero_is_a_time(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(tmp_path / "a.mcap", [("/m", T0 + k * STEP, {"t": k * 10, "v": k / 2}) for k in range(30)])
+    _, times, _, _, losses = read(path, Source(options={"time": "t", "time_unit": "ms"}))
+    assert times["/m"].tolist() == [k * STEP for k in range(30)]
+    assert not losses

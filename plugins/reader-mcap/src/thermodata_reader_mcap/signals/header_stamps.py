@@ -12,6 +12,7 @@ from thermodata_reader_mcap.container.message_batches import U64
 from thermodata_reader_mcap.encodings.topic import Topic
 from thermodata_reader_mcap.signals.options import Options
 
+_DATED = 940_000_000 * 10**9  # from 1999 on; clocks that count from zero have a zero
 Bools = npt.NDArray[np.bool_]
 
 
@@ -38,6 +39,8 @@ def stamps(
         whole = _scaled(parts[0], 10**9) + parts[1].astype(np.uint64)
     else:
         whole = _scaled(parts[0], options.scale or 1)
+    if whole.size and whole.max() > _DATED:
+        missing |= whole == 0  # 1970, beside times of today: not set
     return np.where(missing, logs, whole), missing
 
 

@@ -21,6 +21,7 @@ _LOOKED_AT = 200  # messages of a topic
 _APART_NS = 1_000_000_000  # that a latency changes by less than
 _NEAR_NS = 7 * 86_400 * 10**9  # of the log times a stamp of its message is; another date is of something else
 _RISING = 0.9  # of the steps from message to message, in a stamp of theirs; a job's start stands still
+_MOST = 2**63  # beyond which a whole number is no time, and may be no float: JSON's have as many digits as they like
 _UNITS = {"unix": "s", "unix_ms": "ms", "unix_us": "us", "unix_ns": "ns"}
 
 
@@ -45,6 +46,7 @@ def apart(topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel,
 def unit_of(path: Path, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
     """The unit that a field of numbers counts in since 1970, by their size; None where it holds none, or others."""
     values = _numbers(path, [message for _, message in _messages(batches, made)])
+    values = values[values != 0]  # stamps that are not set
     return _UNITS.get(found_epoch(values) or "") if values.size else None
 
 
@@ -77,7 +79,7 @@ def _of_pair(
     away: list[float] = []
     for log, message in rows:
         whole, rest = _read(message, (*path, parts[0])), _read(message, (*path, parts[1]))
-        if isinstance(whole, int) and isinstance(rest, int) and whole > 0:
+        if isinstance(whole, int) and isinstance(rest, int) and 0 < whole < _MOST and abs(rest) < _MOST:
             away.append(log - whole * 10**9 - rest)
     return _name(path), None, away
 
@@ -104,7 +106,8 @@ def _of_numbers(paths: Sequence[Path], rows: Sequence[tuple[int, Any]]) -> tuple
 def _numbers(path: Path, messages: Sequence[Any]) -> Array:
     """The numbers that a field holds, those of messages that have one, as floats."""
     found = [_read(message, path) for message in messages]
-    return np.array([v for v in found if isinstance(v, int | float) and not isinstance(v, bool)], np.float64)
+    some = [v for v in found if isinstance(v, int | float) and not isinstance(v, bool)]
+    return np.array([v for v in some if isinstance(v, float) or abs(v) < _MOST], np.float64)
 
 
 def _name(path: Path) -> str:
