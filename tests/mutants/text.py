@@ -139,7 +139,12 @@ MUTANTS = [
     text("begin.py", "said.says < Says.RECORDED or not", "not", "the date of an export is the start"),
     text("begin.py", "or not first.near_zero)):", ")):", "rows that begin late count from the start"),
     text("begin.py", "if said.several or not first.ns:", "if not first.ns:", "of two starts one is taken"),
-    text("begin.py", "    if said.either:\n        raise _which_order(said, where)\n", "", "day and month are guessed"),
+    text("begin.py", "if said.either else (begin, None)", "if False else (begin, None)", "day and month are guessed"),
+    text("begin.py", "if said.either and declared is not None:", "if False:", "head answers day and month, too"),
+    text("begin.py", "return not first.near_zero\n", "return first.ns[0] != 0\n", "a duration begins at midnight"),
+    text(
+        "begin.py", "None, _NOTHING if declared == HEAD else None", "None, None", "a start that is not there is silent"
+    ),
     text("head_words.py", "if Says.MADE in known else", "if False else", "a word for a start outdoes an export"),
     text("head_words.py", "any(w not in _WORDS for w in words)", "False", "a calibration is a start"),
     text("head_start.py", "min(low, Says.BARE)", "high", "a duration is a time of day"),
