@@ -27,7 +27,7 @@ EITHER = "whose day and month may be either way round"
 _ORDER = "declare table: {time: {start: dmy}} or mdy; start: none, where the rows do not begin then"
 _NOTHING = "no start stands above the rows, though time.start is 'head': they count from the start of the test"
 _HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
-_ROWS = 40  # that show how a clock begins
+ROWS = 40  # that show how a clock begins
 _SECOND, _MINUTE, _HOUR = 10**9, 60 * 10**9, 3600 * 10**9
 _STEPS = 10  # of the rows, by which the first may lie behind the start
 _LONGEST = 60  # letters of a line of the head in a message
@@ -80,7 +80,7 @@ def first_times(
     if not time:
         return FirstTimes((0, round(each * 1e9)), False)
     found: list[int] = []
-    for row in rows[:_ROWS]:
+    for row in rows[:ROWS]:
         if forms:
             ns = row_time([row[i] for i in time], forms)
         else:
@@ -104,7 +104,7 @@ def find_begin(
     """(what the rows count from, a note where the head's word is not taken). lines: above the rows, each as its cells;
     declared: `table.time.start`.
 
-    QuestionError where the answer leaves day and month of the start open; FormatError where it fits nothing.
+    FormatError where the answer fits nothing, or leaves day and month of the start open.
     """
     if declared == UNKNOWN:
         raise unanswered("time.start", ", ".join(ANSWERS), where)

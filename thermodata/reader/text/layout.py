@@ -9,15 +9,14 @@ from typing import Any, Literal
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.text.cell import WORDS, Cell, is_dated, is_empty, is_number, is_stamp, mostly
+from thermodata.reader.text.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.described import descriptions
-from thermodata.reader.text.head_words import said_by
+from thermodata.reader.text.first_data import first_data, width_of
 from thermodata.reader.text.header import numbered_rows, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
-from thermodata.reader.text.unit_cells import refuse_units_in_cells
 from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
 
@@ -81,13 +80,6 @@ class Layout:
         return next(g.stream for g in self.groups if column in g.columns)
 
 
-def _is_data(row: Sequence[Cell], width: int) -> bool:
-    """Numbers or dates in a third of the filled cells, and as many cells as the table has, or one fewer."""
-    filled = [c for c in row if not (isinstance(c, str) and c.strip().lower() in WORDS) and c is not None]
-    values = sum(is_number(c) or is_stamp(c) for c in filled)
-    return values >= 1 and values * 3 >= len(filled) and len(row) >= width - 1 and (len(filled) > 1 or width <= 2)
-
-
 def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str) -> Layout:
     """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`.
 
@@ -96,11 +88,11 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     said = {k: v for k, v in (declared or {}).items() if v is not None}
     skip = int(said.get("skip_rows", 0))
     body = list(rows[skip:])
-    width = _width(body)
+    width = width_of(body)
     body = [r[:width] for r in body]
     header = said.get("header_rows")
     if header is None:
-        first = _first_data(body, width, where)
+        first = first_data(body, width, where)
         date = next((str(c)[:_DATE] for c in body[first] if is_dated(c)), None)
         while first and _is_torn(body[first - 1], width, date):
             first -= 1
@@ -279,62 +271,3 @@ def one_clock(
     absolute = kinds.pop() if kinds else groups[0].seconds is None
     starts = [int(good[0]) for t in times if (good := t.t_ns[t.t_ns != NAT]).size]
     return ("absolute", min(starts, default=0)) if absolute else ("relative", None)
-
-
-def _second_half(body: Sequence[Sequence[Cell]]) -> list[Sequence[Cell]]:
-    full = [r for r in body if any(c not in ("", None) for c in r)]
-    return full[len(full) // 2 :]
-
-
-def _width(body: Sequence[Sequence[Cell]]) -> int:
-    """Cells of most rows of the second half, where preamble is rare; the larger of two that are as frequent."""
-    lengths = [len(r) for r in _second_half(body)]
-    return max(set(lengths), key=lambda n: (lengths.count(n), n), default=0)
-
-
-def _first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
-    stamped, dates = _stamped(body, width), _dates(body, width)
-    # a word in the first cell is a label where rows hold none there
-    firsts = [r[0] for r in _second_half(body) if len(r) >= width - 1]
-    labels = mostly(firsts, lambda c: is_number(c) or is_stamp(c), 0.9, len(firsts))
-    for i, row in enumerate(body):
-        if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
-            continue  # a row of a list of channels with their ranges
-        if labels and said_by(str(row[0] if row else "").strip(" :")) is not None:
-            continue  # 'Start date;2026-03-02' above 'Start time;07:00:00'
-        following = [r for r in body[i + 1 : i + 11] if any(c not in ("", None) for c in r)]
-        if not _is_data(row, width) or sum(_is_data(r, width) for r in following) * 2 < len(following):
-            continue
-        words = [c for c in row if isinstance(c, str) and c and not is_number(c) and not is_stamp(c)]
-        dated = 2 * sum(c not in ("", None) for c in row) > width and any(
-            is_dated(c) and (dates is None or k in dates) for k, c in enumerate(row)
-        )
-        alone = following and not _is_data(following[0], width) and following[0] not in body[:i]
-        if words and alone and not dated:
-            continue  # "Serial;4711" above the header; a row above one that is repeated is data
-        return i
-    below = [r for r in _second_half(body) if len(r) == width and any(map(is_stamp, r))]
-    refuse_units_in_cells([c for r in below for c in r if not is_stamp(c)], where)
-    raise FormatError(
-        "no data rows found",
-        where=where,
-        expected="rows of numbers and times",
-        hint="declare table: {header_rows: ..., skip_rows: ...}",
-    )
-
-
-def _dates(body: Sequence[Sequence[Cell]], width: int) -> set[int] | None:
-    """Columns that hold a date in nearly all rows of the second half; None where there are too few rows to say so. A
-    preamble has a date too: 'Start: 05.02.2026' above a time in seconds."""
-    late = [r for r in _second_half(body) if len(r) >= width - 1]
-    if len(late) < 5:
-        return None
-    return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_dated, 0.9, len(late))}
-
-
-def _stamped(body: Sequence[Sequence[Cell]], width: int) -> set[int]:
-    """Columns that hold dates or times in nearly all rows of the second half, where preamble is rare."""
-    late = [r for r in _second_half(body) if len(r) >= width - 1]
-    if len(late) < 5:
-        return set()
-    return {k for k in range(width) if mostly((r[k] if k < len(r) else "" for r in late), is_stamp, 0.9, len(late))}

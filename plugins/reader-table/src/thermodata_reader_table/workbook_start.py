@@ -8,19 +8,17 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Source
-from thermodata.reader.text.begin import FirstTimes, declared_start, find_begin
+from thermodata.reader.text.begin import ROWS, FirstTimes, declared_start, find_begin
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.zone import NAT, local_to_utc_ns
-
-_ROWS = 40  # that show how a clock begins
 
 
 def begun(times: Stamps, head: Sequence[Sequence[Any]], source: Source, zone: str | None, where: str) -> Stamps:
     """Times that count from a start, from that which stands above them; as they are where none does. head: the rows
-    above the data. QuestionError where its day and month may be either way round."""
+    above the data. FormatError where what is declared of it fits nothing."""
     if times.absolute:
         return times
-    first = times.t_ns[times.t_ns != NAT][:_ROWS].tolist()
+    first = times.t_ns[times.t_ns != NAT][:ROWS].tolist()
     lines = [[str(c) for c in row if c not in ("", None)] for row in head]
     begin, doubt = find_begin(lines, FirstTimes(tuple(first), False), declared_start(source.table or {}), where)
     if begin is None:
