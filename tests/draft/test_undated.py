@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 import pytest
 
 from thermodata.draft.make import draft_files
+from thermodata.draft.raw_file import described_files
+from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
+from thermodata.reader.text.begin import EITHER
 
 
 def asked(folder: Path, earlier_s: int, *, dated: bool = True) -> list[str]:
@@ -70,3 +74,25 @@ def test_the_dates_of_another_source_say_which_order_fits(tmp_path: Path, day: s
     (asked,) = [q for s in draft.sources for q in s.questions if q.startswith("start:")]
     assert ("fits the dates of" in asked) == bool(hint)
     assert f"; {hint} fits" in asked or not hint
+
+
+class Quoting:
+    """A reader whose note holds what the file says, whatever is declared of it."""
+
+    name = "quoting"
+
+    def sniff(self, head: Head) -> str | None:
+        return "all files"
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        return Recording((Signal("T", "main", "degC"),), "relative", notes=(f"a column called '{EITHER}'",))
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
+        return iter(())
+
+
+def test_a_file_that_speaks_as_a_note_on_its_start_is_asked_once(tmp_path: Path) -> None:
+    """It held up a draft for ever."""
+    (tmp_path / "log.txt").write_text("x")
+    [found] = described_files(Quoting(), tmp_path / "log.txt", PurePosixPath("log.txt"))
+    assert len(found.asked) == 1

@@ -116,7 +116,8 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         try:
             recording = described(who, full, replace(file, table=table or None).source)
             open_start = next((n for n in recording.notes if EITHER in n), None)
-            if open_start is None:
+            # a note may quote a file that says so itself: asked once
+            if open_start is None or any(one.declare == _START for one in asked):
                 break
             asked.append(Asked(_asked_order(open_start), _START))
             table = merged(table, {"time": {"start": "dmy"}})
