@@ -152,6 +152,19 @@ def test_spikes_and_missing_values_do_not_matter() -> None:
     assert jump([100, -100], (t, v)).gain == pytest.approx(clean, rel=1e-3)
 
 
+@pytest.mark.parametrize("mark", [1e38, -1e38, 9.9e37, -9999.0, 32767.0])
+@pytest.mark.parametrize("many", [1, 40])
+def test_marks_of_a_logger_are_no_readings(mark: float, many: int) -> None:
+    t, v = recording([100, -100])
+    clean = jump([100, -100], (t, v)).gain
+    v = v.copy()
+    v[-many:] = mark
+    v[150] = mark
+    found = jump([100, -100], (t, v))
+    assert found.gain == pytest.approx(clean, rel=1e-3)
+    assert found.detail["steps_found"] == 2
+
+
 def test_steps_before_and_after_the_moves_are_left_over() -> None:
     t, v = recording([-400, 100, -60, -40, 900])
     result = jump([100, -60, -40], (t, v))

@@ -15,6 +15,8 @@ from thermodata.calibration import jump_checks
 from thermodata.calibration.facing import facing_axis, geometric_sign
 from thermodata.calibration.jump_fit import JumpFit, answer, fit_plateaus
 from thermodata.calibration.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
+from thermodata.calibration.quality_limit import impossible, sentinels
+from thermodata.calibration.quality_value import run_stats
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
@@ -135,7 +137,7 @@ def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
 def _clean(
     name: str, t_ns: Int1D, volts: Array, probes: dict[str, Array]
 ) -> tuple[Float1D, Float1D, dict[str, Float1D]]:
-    """Times [s] that strictly increase and finite volts; the other probes at the same samples."""
+    """Times [s] that strictly increase and volts that are readings; the other probes at the same samples."""
     for label, x in [("the probe", volts), *probes.items()]:
         if x.shape != t_ns.shape or t_ns.ndim != 1:
             raise CalibrationError(
@@ -144,7 +146,7 @@ def _clean(
                 got=str(x.shape),
             )
     v = volts.astype(np.float64, copy=False)
-    keep: Bool1D = np.isfinite(v)
+    keep = _is_reading(v)
     if keep.any():
         newest = np.maximum.accumulate(np.where(keep, t_ns, t_ns.min()))
         keep[1:] &= t_ns[1:] > newest[:-1]
@@ -158,6 +160,11 @@ def _clean(
         )
     t = t_ns[keep]
     return ((t - t[0]) / 1e9, v[keep], {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
+
+
+def _is_reading(x: Float1D) -> Bool1D:
+    """Where x, shape (n,), is no logger's mark for "over range" or "no value": a step to one hides all moves."""
+    return np.isfinite(x) & ~impossible(x, "displacement") & ~sentinels(x, run_stats(x))
 
 
 def _on_rail(name: str, spec: JumpCalibration, v: Float1D, unit: str) -> RailError | None:
@@ -188,7 +195,7 @@ def _not_found(
 ) -> CalibrationError:
     answering = []
     for other, x in probes.items():
-        fine = np.isfinite(x)
+        fine = _is_reading(x)
         if (
             fine.sum() >= _LEAST_SAMPLES
             and match_moves(find_steps(t_s[fine], x[fine], spec.dwell)[0], moves, spec.dwell) is not None
@@ -225,7 +232,7 @@ def _crosstalk(
     t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels: Float1D, spec: JumpCalibration, fit: JumpFit
 ) -> float:
     """The other probe's answer to the move, of this one's [%], signed; NaN where it has no data."""
-    fine = np.isfinite(x)
+    fine = _is_reading(x)
     if fine.sum() < _LEAST_SAMPLES:
         return float("nan")
     dwells = plateaus(t_s[fine], x[fine], match, steps, spec.dwell)
