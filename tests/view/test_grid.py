@@ -11,6 +11,7 @@ import pytest
 
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.store import Store
+from thermodata.view import load_dataset
 
 Build = Callable[..., Any]
 
@@ -166,3 +167,9 @@ def test_a_step_too_small_for_the_test_is_refused(build: Build) -> None:
     b.tidy("c", "a", [0.0, 1e6], {"dZ": [0.0, 1.0]})
     with pytest.raises(duckdb.Error, match="step is too small"):
         columns(b.store(), "select * from binned('c', 'a', '1 ms')")
+
+
+def test_a_schedule_has_no_log_whose_clock_could_be_off(mixed: Store) -> None:
+    channels = load_dataset(mixed, "c", 60.0).channels
+    assert channels["n_table"].source is None
+    assert {c.source for n, c in channels.items() if n != "n_table"} != {None}

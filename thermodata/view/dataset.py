@@ -13,7 +13,8 @@ from thermodata.plugin import Bool1D, Float1D
 
 @dataclass(frozen=True, slots=True)
 class ChannelInfo:
-    """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'.
+    """A channel as the campaign file describes it. unit is canonical; sign '+' once normalised, else 'unknown'. source:
+    by whose clock it was logged; None where nobody logged it (a schedule).
 
     lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import linear_conversion, split_value
 from thermodata.store.catalogue.conditions import plain_value
+from thermodata.store.views.catalogue import SCHEDULE
 from thermodata.view.dataset import ChannelInfo
 from thermodata.view.flagged import flagged_channels
 
@@ -88,7 +89,7 @@ def channel_infos(
             at,
             axis,
             relative_to,
-            source,
+            None if source == SCHEDULE else source,
             sign,
             _resolution(resolution, unit, raw_unit),
             clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
