@@ -405,3 +405,18 @@ def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp
     told = say("--store", store, "confirm", base, "feed_screw:T_nut_Z")
     assert told.code == 2
     assert "no locked test to confirm on" in told.err
+
+
+def test_a_locked_test_that_a_model_is_fitted_to_is_said_and_counted_once(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+    plain = (tmp_path / "c" / "baseline.yaml").read_text(encoding="utf-8")
+    model = tmp_path / "c" / "open.yaml"
+    model.write_text(plain + "calibrate_on: [day1, day2]\n", encoding="utf-8")
+    for _ in range(2):
+        fitted = say("--store", store, "fit", model)
+        assert "locked in the campaign, and open in this model: small/day2" in fitted.err
+        query = "select test, reason from locked_look"
+        looks = json.loads(say("--store", store, "sql", query, "--json").out)
+        assert [(look["test"], look["reason"]) for look in looks] == [("day2", "the model uses it as an open test")]
+    assert "locked in the campaign" not in say("--store", store, "fit", tmp_path / "c" / "baseline.yaml").err

@@ -13,11 +13,10 @@ from thermodata.schema.diagnosis import Artefact, Candidate, Diagnosis, WeakSpot
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult, Parameter, Score
 from thermodata.store import Store
+from thermodata.store.catalogue.looks import count_locked_look, locked_looks
 from thermodata.store.catalogue.models import (
-    count_locked_look,
     find_model,
     load_diagnosis,
-    locked_looks,
     model_chain,
     save_diagnosis,
     save_findings,

@@ -57,7 +57,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     """Which effect is missing in a model of the store (an id, a unique prefix or a name).
 
     tell: is told how many candidates are done, of how many."""
-    from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, save_diagnosis
+    from thermodata.store.catalogue.looks import count_locked_look
+    from thermodata.store.catalogue.models import keep_answer, kept_answer, save_diagnosis
 
     model = load(store, ref)
     left = left_on_locked(store, model)
@@ -83,7 +84,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. Opening the lock is counted, but for an
     answer that the store holds. UsageError: no such candidate, or no locked test that both models can predict.
     """
-    from thermodata.store.catalogue.models import count_locked_look, keep_answer, kept_answer, locked_looks
+    from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+    from thermodata.store.catalogue.models import keep_answer, kept_answer
 
     model = load(store, ref)
     tests = model.fitted.tests(model.data)

@@ -61,6 +61,12 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
     return Roles(*named)
 
 
+def opened(roles: Roles, data: Dataset) -> tuple[Key, ...]:
+    """The tests that their campaign locks and the model is fitted to, or checked on in every choice."""
+    used = {*roles.calibrate, *roles.verify}
+    return tuple(t.key for t in data.tests if t.role == "locked" and t.key in used)
+
+
 def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ...]:
     """Each as 'test', or 'campaign/test' where several campaigns have it."""
     keys: list[Key] = []

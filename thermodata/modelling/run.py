@@ -19,7 +19,7 @@ from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.profiles import Profiles, profiles_of
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.result import make_result, model_id
-from thermodata.modelling.roles import find_tests
+from thermodata.modelling.roles import find_tests, opened, resolve_roles
 from thermodata.modelling.second_lag import is_lag_of, with_second_lags
 from thermodata.modelling.table import prediction_tables
 from thermodata.modelling.transfer import NAME
@@ -77,6 +77,7 @@ def fit(
 ) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
     `notes` of the result."""
+    from thermodata.store.catalogue.looks import count_locked_look
     from thermodata.store.catalogue.models import save_fit
 
     spec = self_contained(store, spec, base)
@@ -85,7 +86,8 @@ def fit(
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     terms = [term.bound for response in fitted.responses for term in response.terms]
     read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
-    notes = [*said.pop("notes", []), *coarse_readings.said(data, read)]
+    looked_at = opened(resolve_roles(spec, data), data)
+    notes = [*said.pop("notes", []), *coarse_readings.said(data, read), *_unlocked(looked_at)]
     result = result.model_copy(update={**said, "notes": notes})
     save_fit(
         store,
@@ -95,7 +97,19 @@ def fit(
         predictions=prediction_tables(fitted, data),
         data_version=data.data_version,
     )
+    if looked_at:
+        count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)
     return result
+
+
+def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
+    if not tests:
+        return []
+    names = ", ".join("/".join(key) for key in tests)
+    return [
+        f"locked in the campaign, and open in this model: {names}; counted as a look, for what it says of the model is "
+        "no longer new to it (calibrate_on, verify_on)"
+    ]
 
 
 def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:

@@ -244,26 +244,6 @@ def kept_answer(store: Store, model: str, question: str, key: str) -> str | None
     return json.dumps(kept["answer"]) if kept is not None and kept["key"] == key else None
 
 
-def count_locked_look(store: Store, model: str, tests: Iterable[tuple[str, str]], reason: str) -> None:
-    """Writes down that the locked tests ((campaign, test)) were looked at, and why."""
-    now = _now()
-    with store.write(views=False) as con:
-        insert(
-            con,
-            "locked_look",
-            [{"campaign": c, "test": t, "model": model, "reason": reason, "at": now} for c, t in tests],
-        )
-
-
-def locked_looks(store: Store, campaign: str, test: str) -> int:
-    """How often the lock of a test was opened."""
-    with store.reader() as con:
-        row = con.execute(
-            "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
-        ).fetchone()
-    return int(row[0]) if row else 0
-
-
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
     row = fetch(con, "select * from model where model = ?", [model])[0]
     return StoredModel(
