@@ -12,6 +12,7 @@ from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_s
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.weak import describe_state, weak_spots
+from thermodata.diagnosis.why import in_spite_of
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -316,3 +317,18 @@ def test_what_the_locked_tests_refused_is_likely_it_before_what_heads_the_list()
     assert found is not None
     assert found.told == "It may be a:T_a,n: the open tests say so, the locked ones do not bear it out"
     assert found.channels == {"T_a", "n"}
+
+
+@pytest.mark.parametrize(
+    ("after", "spread", "said"),
+    [
+        (0.4, 0.1, []),
+        (1.0, 0.1, ["that the error hardly falls", "that it explains so little"]),
+        (0.7, 1.0, ["that its gain differs"]),
+    ],
+)
+def test_a_claim_says_what_outweighs_the_figures_against_it(after: float, spread: float, said: list[str]) -> None:
+    words = in_spite_of(scored(after=after, spread=spread, evidence=900.0), measure(), "um")
+    assert [one for one in said if one in words] == said
+    assert ("its evidence, 0.90 a sample, outweighs" in words) is bool(said)
+    assert ("that its gain differs" in words) is (spread > 0.5)

@@ -9,9 +9,17 @@ from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.null import p_value
-from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, in_words, on_locked
+from thermodata.diagnosis.probability import sharpness
+from thermodata.diagnosis.rules import Measure, also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.scored import Scored
 
+# what a claim may break where it is evident, by the name of the rule
+_OUTWEIGHED = {
+    "fall": "that the error hardly falls",
+    "gain": "that its gain differs",
+    "others": "that no other test foretells it",
+    "worth": "that it explains so little",
+}
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
@@ -40,7 +48,7 @@ def why(
         broken = failed_rules(s, investigation.measure, unit)
         broken += [member.refines] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
-        return f"{numbers}; {of_chance}{elsewhere}{outweighed}{locked}"
+        return f"{numbers}{in_spite_of(s, investigation.measure, unit)}; {of_chance}{elsewhere}{outweighed}{locked}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
@@ -56,6 +64,14 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
+    """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
+    lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
+    said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
+    evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
+    return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
 
 
 def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
