@@ -121,6 +121,9 @@ class TestAnswer:
             def __init__(self, *given: Any) -> None:
                 self.given = given
 
+            def of(self, claimed: Sequence[Any]) -> Response:
+                return response
+
             def foretold(self, others: Sequence[Any], one: Any, tests: frozenset[tuple[str, str]] | None) -> Any:
                 held = hold([one.effect.name, *(o.effect.name for o in others)])
                 whole = Confirmation(*shown, 1.0, 0.5 if held else 1.0, 0.8, {}, shapes=shapes(held))
@@ -135,7 +138,8 @@ class TestAnswer:
 
         refitted: Any = SimpleNamespace(responses=[response])
         monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, ___: Sound(spec, refitted, data, tests))
-        monkeypatch.setattr(answering, "investigate", lambda *a, **k: found)
+        without = replace(found, judgement=nothing("unknown"))
+        monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
         monkeypatch.setattr(answering, "confirm", confirm)
         monkeypatch.setattr(answering, "Fits", Fits)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")

@@ -23,6 +23,7 @@ from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.turned_locked import turned_locked
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Parameter
@@ -540,3 +541,46 @@ class TestConfirm:
         found = self.confirmed(monkeypatch, spec, "first", base=Fitted([Response({}), Response({"z": 7 * wave})], spec))
         assert len(self.calibrated) == 1
         assert found.before == pytest.approx(7.0)
+
+
+@pytest.mark.parametrize(
+    ("foretold", "added", "loud"),
+    [
+        (Foretold(1.0, 0.49, 1.0), Foretold(1.0, 0.49, 1.0), True),
+        (Foretold(1.0, 0.51, 1.0), Foretold(1.0, 0.1, 1.0), False),
+        (Foretold(1.0, 0.1, 1.0), Foretold(1.0, 0.51, 1.0), False),
+        (Foretold(1.0, 0.49, 1.0), None, True),
+        (Foretold(0.1, 0.04, 1.0), Foretold(0.1, 0.04, 1.0), False),  # nothing is to be foretold
+    ],
+)
+def test_a_second_look_needs_half_of_the_error_in_each_way(
+    foretold: Foretold, added: Foretold | None, loud: bool
+) -> None:
+    assert looked(foretold, added, 0.5 if foretold.before < 0.5 else 0.01).at_second_look is loud
+
+
+# ---- a probe that is turned in a locked test
+
+
+@pytest.mark.parametrize(
+    ("of_measured", "floor", "turned"),
+    [
+        (-1.0, 1.0, True),
+        (-0.71, 1.0, True),
+        (-0.69, 1.0, False),  # FIT 69, turned round
+        (-1.31, 1.0, False),
+        (0.5, 1.0, False),
+        (-1.0, 8.0, False),  # RMS 7.07, which is left alone
+    ],
+)
+def test_a_locked_test_is_turned_where_it_is_the_mirror_image_of_what_is_foretold(
+    of_measured: float, floor: float, turned: bool
+) -> None:
+    test = a_test("late", role="locked")
+    response: Any = Response({})
+    response.left["late"] = (1 - of_measured) * response.measured(test)
+    assert bool(turned_locked(response, [test], floor)) is turned
+
+
+def test_what_cannot_be_predicted_is_not_turned() -> None:
+    assert turned_locked(Response({}), [a_test("late")], 0.1) == {}  # type: ignore[arg-type]

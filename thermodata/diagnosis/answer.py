@@ -13,22 +13,20 @@ from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.copies import as_artefacts, copies
 from thermodata.diagnosis.detection import LARGE, Limit
-from thermodata.diagnosis.foretold import Looked
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.left_on_locked import contradicted
 from thermodata.diagnosis.listed import candidate, fall, listed
-from thermodata.diagnosis.opened import kept_where_they_hold
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import may_be_claimed
-from thermodata.diagnosis.sound import sound
+from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.unlocking import unlocked
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
+from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -61,49 +59,44 @@ def answer(
     same = copies(fitted.tests(data, "locked"), tests, response.name)
     again = {one.key for one, _ in same}
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t) and t.key not in again]
-    investigation = investigate(
-        refitted.responses[index],
-        data,
-        usable,
-        library,
-        seed,
-        as_fitted=response,
-        locked=locked,
-        others=OtherAxes(asked_of.spec, response.name, data, library),
-        known_faults=(*asked_of.faults, *as_artefacts(same, response.name)),
-    )
-    judgement, confirmation = investigation.judgement, None
-    known = (left_on_locked or {}).get(response.name)
-    looked_at = dict.fromkeys(investigation.looked_for)
-    if judgement.claims or (locked and judgement.likely):
-        fits = Fits(fitted.spec, index, data, usable, locked, refitted)
 
-        def look(some: Sequence[Judged], place: int) -> Looked | None:
-            one, others = some[place], [*some[:place], *some[place + 1 :]]
-            foretold = investigation.borne_out(one, others)
-            if foretold is None:
-                return None
-            looked_at.setdefault(one.scored.candidate.id)
-            added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
-            return Looked(foretold, added, investigation.measure.floor)
-
-        judgement = kept_where_they_hold(
-            judgement,
-            look,
-            lambda twin: may_be_claimed(twin, investigation.measure, response.unit),
-            investigation.conclude,
-            response.unit,
+    def asks(
+        locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
+    ) -> Investigation:
+        return investigate(
+            refitted.responses[index],
+            data,
+            usable,
+            library,
+            seed,
+            as_fitted=response,
+            locked=locked,
+            others=OtherAxes(asked_of.spec, response.name, data, library),
+            known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *faults),
+            refused=refused,
         )
-        if judgement.claims:
-            chosen = [c.scored.candidate for c in judgement.claims]
-            confirmation = confirm(fitted.spec, index, data, chosen, usable, locked, refitted)
-            confirmation = replace(confirmation, asked=_asked(judgement.claims))
+
+    def fits_of(locked: Sequence[TestData]) -> Fits:
+        return Fits(fitted.spec, index, data, usable, locked, refitted)
+
+    opened = unlocked(asks, fits_of, locked)
+    investigation, judgement, confirmation = opened.investigation, opened.judgement, None
+    known = (left_on_locked or {}).get(response.name)
+    if judgement.claims:
+        chosen = [c.scored.candidate for c in judgement.claims]
+        confirmation = confirm(fitted.spec, index, data, chosen, usable, opened.locked, refitted)
+        confirmation = replace(confirmation, asked=_asked(judgement.claims))
     if not judgement.claims:
         judgement = contradicted(judgement, known, response, locked)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
-    beside = {"locked_rmse_um": known, "put_right": asked_of.told, "fitted_rmse_um": _as_fitted(response, tests)}
-    return Answer(found.model_copy(update=beside), tuple(locked) if looked_at else (), tuple(looked_at))
+    left_out = [*asked_of.put_right.left_out, *opened.turned]
+    beside = {
+        "locked_rmse_um": known,
+        "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
+        "fitted_rmse_um": _as_fitted(response, tests),
+    }
+    return Answer(found.model_copy(update=beside), tuple(locked) if opened.looked_for else (), opened.looked_for)
 
 
 def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:

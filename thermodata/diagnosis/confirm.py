@@ -147,7 +147,7 @@ class Fits:
         asked = [t for t in self.locked if tests is None or t.key in tests]
         for beside in (others, ()):
             try:
-                ours, theirs = self._of(beside), self._of([*beside, one])
+                ours, theirs = self.of(beside), self.of([*beside, one])
             except ThermodataError:
                 continue  # no open test has all of their channels
             usable = [t for t in asked if ours.can_predict(t) and theirs.can_predict(t)]
@@ -155,7 +155,8 @@ class Fits:
                 return _foretold([_shape(ours, theirs, t) for t in usable], tests)
         return None
 
-    def _of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
+    def of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
+        """Of the model with candidates; ThermodataError where no open test has all of their channels."""
         key = frozenset(c.id for c in candidates)
         if key not in self._kept:
             fitted = fit_model(extended(self.spec, candidates), self.data, uncertainty=False)
@@ -199,20 +200,20 @@ def _acting(
 def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:
     left, more = ours.residual(test), theirs.residual(test)
     before, after, changed = (
-        _shape_of(x, test, mask)
+        shape_of(x, test, mask)
         for x, mask in ((left, ours.mask(test)), (more, theirs.mask(test)), (more - left, theirs.mask(test)))
     )
     return Shape(test.key, len(before), *(float(x @ x) for x in (before, after, changed)))
 
 
-def _shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
+def shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
     """Where it counts, with the best offset, and the best start of a test that began warm."""
     some = values[mask][:, None]
     return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
 
 
 def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
-    parts = [_shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
+    parts = [shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
     whole = np.concatenate([p for p in parts if len(p)] or [np.zeros(1)])
     return float(np.sqrt(np.mean(whole**2)))
 
@@ -237,6 +238,6 @@ def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = Fals
     masks = [fitted.mask(t) for t in tests]
     parts = [fitted.residual(t)[m] for t, m in zip(tests, masks, strict=True)]
     if free:
-        parts = [_shape_of(fitted.residual(t), t, m) for t, m in zip(tests, masks, strict=True)]
+        parts = [shape_of(fitted.residual(t), t, m) for t, m in zip(tests, masks, strict=True)]
     whole = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

@@ -10,6 +10,8 @@ MUCH = 0.25  # a fall of the error that is enough by itself,
 PROBABLE = 0.5  # and so much log probability a sample: few slow tests can't tell a fall from half of it
 # a fall of the error, in both ways, that no other mode of a known effect makes: in one of them these may act otherwise
 OF_ITS_OWN = 0.75
+# what is asked once others were refused: locked tests that are asked twice have to speak twice as loud
+SECOND_LOOK = 0.5
 # what the fall of the error, as a share, adds to the odds' logarithm of a claim: by the known effects, free to act
 # otherwise; by the model as it stands; and the level, so that less than causes mostly take away speaks against it
 # (docs/method.md#confirming)
@@ -85,6 +87,11 @@ class Looked:
     def of_its_own(self) -> bool:
         """Whether it takes away so much in both ways that it refines nothing of the model."""
         return len(self.saying) > 1 and all(f.fall >= OF_ITS_OWN for f in self.saying)
+
+    @property
+    def at_second_look(self) -> bool:
+        """Whether they speak for it so loud, in each way that says anything, that it is no chance of a second look."""
+        return bool(self.saying) and all(f.fall >= SECOND_LOOK for f in self.saying)
 
     @property
     def refuted(self) -> bool:

@@ -82,10 +82,11 @@ def investigate(
     locked: Sequence[TestData] = (),
     others: OtherAxes | None = None,
     known_faults: Sequence[Artefact] = (),
+    refused: frozenset[str] = frozenset(),
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
     about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
-    that were mended before, or left out."""
+    that were mended before, or left out. refused: channels; what reads these alone is not asked."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
@@ -98,6 +99,7 @@ def investigate(
     by_condition = gains_by_condition(fitted, among, data.tests)
     asked += [c for c in by_condition if c.unforetold is None]
     asked += heating_and_cooling_apart(fitted, among, data.tests)
+    asked = [c for c in asked if not refused.issuperset(c.channels)]
 
     def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
         return causes_of(response, data, among, library, seed)

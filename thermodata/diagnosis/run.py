@@ -17,7 +17,7 @@ from thermodata.diagnosis.copies import copies
 from thermodata.diagnosis.ends_of_logs import odd_ends
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
-from thermodata.diagnosis.sound import sound
+from thermodata.diagnosis.sound import sound, told
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 50
+RULES_VERSION = 51
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -130,7 +130,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
         probability=_claimed_with(store, model.identity, name),
-        put_right=asked_of.told,
+        put_right=told(asked_of.put_right),
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False

@@ -36,10 +36,10 @@ class Sound:
     faults: tuple[Artefact, ...] = ()
     put_right: PutRight = field(default_factory=PutRight)
 
-    @property
-    def told(self) -> PutRight | None:
-        """What was put right; None where nothing was."""
-        return self.put_right if self.put_right != PutRight() else None
+
+def told(put_right: PutRight) -> PutRight | None:
+    """What was put right; None where nothing was."""
+    return put_right if put_right != PutRight() else None
 
 
 def sound(

@@ -1,0 +1,98 @@
+"""The lock is opened for what the open tests claim: what the locked tests bear out of it, and what is asked again.
+
+Twice the answer is asked anew: without locked tests in which a probe is turned, and, where all that was claimed is
+refused, without what was, which may have stood in the place of what is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from thermodata.diagnosis.confirm import Fits
+from thermodata.diagnosis.foretold import Looked
+from thermodata.diagnosis.investigate import Investigation
+from thermodata.diagnosis.judge import Judged, Judgement
+from thermodata.diagnosis.opened import kept_where_they_hold
+from thermodata.diagnosis.rules import may_be_claimed
+from thermodata.diagnosis.turned_locked import as_artefacts, turned_locked
+from thermodata.errors import ThermodataError
+from thermodata.schema.diagnosis import Artefact
+from thermodata.view.dataset import TestData
+
+
+class Asks(Protocol):
+    """Investigates the open tests beside some locked ones."""
+
+    def __call__(
+        self, locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
+    ) -> Investigation: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Unlocked:
+    """judgement: once the lock is open. locked: the tests that were asked, in none of which a probe is turned; turned:
+    the keys of those. looked_for: the ids of what the lock was opened for; none where it stayed shut."""
+
+    investigation: Investigation
+    judgement: Judgement
+    locked: tuple[TestData, ...]
+    turned: tuple[tuple[str, str], ...]
+    looked_for: tuple[str, ...]
+
+
+def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: Sequence[TestData]) -> Unlocked:
+    """fits_of: models fitted to the open tests, for some locked ones."""
+    faults: list[Artefact] = []
+    fits, found = fits_of(locked), asks(locked, faults)
+    looked_for = dict.fromkeys(found.looked_for)
+    judgement = _opened(found, fits, locked, looked_for)
+    turned = _turned(judgement, found, fits, locked)
+    if turned:
+        locked = [t for t in locked if t.key not in turned]
+        faults = as_artefacts(turned, found.problem.response)
+        fits, found = fits_of(locked), asks(locked, faults)
+        judgement = _opened(found, fits, locked, looked_for)
+    if judgement.refused and not judgement.claims:
+        refused = frozenset(c for j in judgement.refused for c in j.scored.candidate.channels)
+        second = asks(locked, faults, refused)
+        looked_for.update(dict.fromkeys(second.looked_for))
+        anew = _opened(second, fits, locked, looked_for)
+        if anew.claims and all(j.scored.looked is not None and j.scored.looked.at_second_look for j in anew.claims):
+            found, judgement = second, replace(anew, refused=(*judgement.refused, *anew.refused))
+    return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looked_for))
+
+
+def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]) -> Judgement:
+    """Where something is claimed or likely. looked_for: takes the ids of what the lock was opened for."""
+    judgement, unit = found.judgement, found.problem.unit
+    if not judgement.claims and not (locked and judgement.likely):
+        return judgement
+
+    def look(some: Sequence[Judged], place: int) -> Looked | None:
+        one, others = some[place], [*some[:place], *some[place + 1 :]]
+        foretold = found.borne_out(one, others)
+        if foretold is None:
+            return None
+        looked_for.setdefault(one.scored.candidate.id)
+        added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
+        return Looked(foretold, added, found.measure.floor)
+
+    return kept_where_they_hold(
+        judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit
+    )
+
+
+def _turned(
+    judgement: Judgement, found: Investigation, fits: Fits, locked: Sequence[TestData]
+) -> dict[tuple[str, str], float]:
+    """The locked tests that do not bear out what the open ones claim because a probe is turned in them."""
+    asked = (*judgement.claims, *judgement.refused)
+    if all(j.scored.looked is None or j.scored.looked.bears_out for j in asked):
+        return {}
+    try:
+        claimed = fits.of([j.scored.candidate for j in asked])
+    except ThermodataError:  # no open test has all of their channels
+        return {}
+    return turned_locked(claimed, locked, found.measure.floor)
