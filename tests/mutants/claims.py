@@ -43,7 +43,9 @@ BESIDE = {
     "in_noise_of_best.py": ("selection",),
     "beside.py": ("selection",),
     "turned.py": ("turned_probes",),
+    "turned_locked.py": ("the_locked_tests",),
     "unexplained.py": ("what_is_shown",),
+    "unlocking.py": ("the_answer", "the_locked_tests", "what_is_unlocked"),
     "unread.py": ("unread_parts", "candidates"),
     "windows.py": ("steps",),
     "weak.py": ("what_is_shown",),
@@ -370,7 +372,10 @@ MUTANTS = [
     diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis(
-        "answer.py", "tuple(locked) if looked_at else ()", "tuple(locked)", "a lock is said to be open that is not"
+        "answer.py",
+        "tuple(locked) if opened.looked_for else ()",
+        "tuple(locked)",
+        "a lock is said to be open that is not",
     ),
     diagnosis(
         "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
@@ -568,7 +573,19 @@ MUTANTS = [
     ),
     diagnosis("investigate.py", " or len(open_still) < len(standing)", "", "a casting beside what the lock names"),
     diagnosis("locked.py", "self.asked.setdefault(claim.scored.candidate.id)", "pass", "a look is not counted"),
-    diagnosis("answer.py", "dict.fromkeys(investigation.looked_for)", "dict[str, None]()", "a look is not counted"),
+    diagnosis("unlocking.py", "dict.fromkeys(found.looked_for)", "dict[str, None]()", "a look is not counted"),
+    diagnosis(
+        "unlocking.py",
+        "locked = [t for t in locked if t.key not in turned]",
+        "locked = list(locked)",
+        "a turned probe refuses",
+    ),
+    diagnosis("unlocking.py", "j.scored.looked.at_second_look for", "True for", "a second look claims what it likes"),
+    diagnosis("unlocking.py", "(locked, faults, refused)", "(locked, faults)", "what was refused is asked again"),
+    diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 20.0", "what runs the other way is turned"),
+    diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 97.0", "no locked probe is turned"),
+    diagnosis("turned_locked.py", "rms(is_there) > floor and ", "", "noise is turned"),
+    diagnosis("foretold.py", "SECOND_LOOK = 0.5", "SECOND_LOOK = 0.2", "a second look claims by chance"),
     diagnosis("locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
     diagnosis("locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
     diagnosis("locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),

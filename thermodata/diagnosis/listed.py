@@ -72,7 +72,7 @@ def candidate(
     held = confirmation if claimed else None
     shape = held.on(held.asked) if held else None
     told = _beside_the_model(s, investigation)
-    twins = [t.candidate for t in equivalents(s, beside)] if rank <= 5 else []
+    twins = [t.candidate for t in equivalents(s, beside)]
     return Candidate(
         rank=rank,
         id=s.candidate.id,
