@@ -20,8 +20,10 @@ from thermodata.draft.same_probe import own_name
 from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import Values, joined
+from thermodata.plugin import Signal
+from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.long_rows import VALUE_WORDS
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
@@ -57,7 +59,7 @@ def channels_of(
         if jump is not None and said.quantity == "voltage":
             said = _moved_probe(said, called(signal))
         named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
-        name = channel_name(_wished(called(signal), said), taken)
+        name = channel_name(_wished(_with_series(signal), said), taken)
         calibration = None
         in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
         if said.quantity == "displacement" and in_volts:
@@ -108,6 +110,12 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     if asked_of := [q for q in questions if q]:
         said = replace(said, sure=False, questions=(*said.questions, *asked_of))
     return said, note
+
+
+def _with_series(signal: Signal) -> str:
+    """What a signal is called; the series that its column is of is a part of its own name, and no group."""
+    series, name = signal.properties.get(SERIES), called(signal)
+    return name.replace(f"{series}/", f"{series} ", 1) if series else name
 
 
 def _wished(signal: str, said: Guess) -> str:

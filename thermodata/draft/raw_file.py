@@ -17,6 +17,7 @@ from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
+from thermodata.reader.series import SERIES
 from thermodata.reader.text.begin import EITHER, NOT_TAKEN
 
 _MOST_QUESTIONS = 4
@@ -155,8 +156,11 @@ def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
 
 def _sheets(recording: Recording) -> tuple[list[str], list[str]]:
     """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
-    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them."""
+    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them, or where
+    streams are the series of one table."""
     streams = list(dict.fromkeys(s.stream for s in recording.signals))
+    if any(SERIES in s.properties for s in recording.signals):
+        return [], []
     if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
         return [], []
     own = {n: {s.name.removeprefix(f"{n}/") for s in recording.signals if s.stream == n} for n in streams}

@@ -137,3 +137,25 @@ def test_the_count_of_rows_that_ends_an_export_of_wincc_is_no_loss(tmp_path: Pat
     assert any("'$RT_COUNT$'" in note for note in data.recording.notes)
     damaged = read(tmp_path, header, [*rows, '"T_vorn";5965;;;;'])
     assert len(damaged.losses) == 1
+
+
+def test_the_history_of_home_assistant_is_taken_apart_by_entity(tmp_path: Path) -> None:
+    rows = []
+    for k in range(N):
+        rows.append(f"sensor.hall_temp,{20 + k / 8},{stamp(k)}")
+        rows.append(f"sensor.hall_hum,{45 + k},{stamp(k + 0.3)}")
+        if k % 10 == 0:
+            rows.append(f"binary_sensor.door,{'on' if k % 20 else 'off'},{stamp(k + 0.6)}")
+    data = read(tmp_path, "entity_id,state,last_changed", rows)
+    found = values(data)
+    assert set(found) == {"sensor.hall_temp", "sensor.hall_hum", "binary_sensor.door"}
+    assert set(found["sensor.hall_temp"]) == {20 + k / 8 for k in range(N)}
+    assert {str(v) for v in found["binary_sensor.door"]} == {"None", "on", "off"}
+    assert not data.losses
+
+
+def test_a_state_beside_a_name_is_no_value(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},M1,{'run' if k < N // 2 else 'stop'},{20 + k / 8}" for k in range(N)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["time,name,state,T", *rows, ""]))
+    assert long_table.claims(path.read_text().splitlines()) is None

@@ -10,6 +10,7 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Source
+from thermodata.testing.reader import load
 
 
 def read(path: Path, source: Source = Source()) -> tuple[dict[str, str | None], dict[str, np.ndarray]]:  # noqa: B008
@@ -78,14 +79,28 @@ def test_a_table_with_a_row_a_value_is_left_to_its_reader() -> None:
 
 
 @pytest.mark.parametrize("by_name", [True, False])
-def test_rows_that_name_what_they_measure_are_refused_whatever_their_header_says(tmp_path: Path, by_name: bool) -> None:
+def test_rows_that_name_what_they_measure_are_taken_apart_whatever_their_header_says(
+    tmp_path: Path, by_name: bool
+) -> None:
     pairs = [(f"06:00:{i:02d}", p) for i in range(30) for p in ("front", "rear")]
-    rows = [f"2026-03-27 {t},{p},20.5" for t, p in (sorted(pairs, key=lambda x: x[1]) if by_name else pairs)]
+    pairs = sorted(pairs, key=lambda x: x[1]) if by_name else pairs
+    rows = [f"2026-03-27 {t},{p},{t[-2:] if p == 'rear' else '20.5'}" for t, p in pairs]
     path = tmp_path / "long.csv"
     path.write_text("\n".join(["when,where,how much", *rows, ""]))
+    data = load(Reader(), path, Source(timezone="UTC"))
+    assert {k: v.tolist() for (_, k), v in data.values.items()} == {
+        "front/how much": [20.5] * 30,
+        "rear/how much": [float(i) for i in range(30)],
+    }
+    assert all(len(t) == 30 for t in data.t_ns.values())
+
+
+def test_relative_times_that_begin_anew_with_each_name_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "long.csv"
+    path.write_text("\n".join(["t [s],where,how much", *(f"{i},{p},20.5" for p in "ab" for i in range(30)), ""]))
     with pytest.raises(FormatError, match="a long table") as said:
         read(path)
-    assert "front, rear" in str(said.value)
+    assert "a, b" in str(said.value)
 
 
 def test_a_state_beside_times_that_repeat_makes_no_long_table(tmp_path: Path) -> None:

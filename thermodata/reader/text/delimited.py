@@ -13,6 +13,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.series import TakenApart
 from thermodata.reader.text.delimiter import fields, parted_bytes
 from thermodata.reader.text.find_table import open_table
 from thermodata.reader.text.footer import footer_notes
@@ -33,12 +34,13 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
-    return tuple(
+    found = tuple(
         Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_of(i))
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
     )
+    return found if table.series is None else table.series.signals(found)
 
 
 def describe(table: Table, source: Source) -> Recording:
@@ -110,6 +112,17 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
 
 def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     """The rows in chunks of the file, and a loss for each part that does not read."""
+    rows = _rows(path, table, source)
+    if table.series is None:
+        yield from rows
+        return
+    apart = TakenApart(table.series, table.name)
+    for item in rows:
+        yield from apart.split(item)
+    yield from apart.rest()
+
+
+def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     reader = RowReader(table, source, path.stat().st_size)
     for chunk in chunks(path, table.sample.encoding):
         if table.blanks:

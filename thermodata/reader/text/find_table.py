@@ -23,6 +23,7 @@ from thermodata.reader.text.lines import WHOLE, Sample, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import quality_pairs, worded
+from thermodata.reader.text.row_series import with_series
 from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
@@ -82,7 +83,7 @@ def _kept(asked: _Asked) -> Table:
     )  # of rows, which their header leaves out
     if (source.table or {}).get("header_rows") is None and not (table.blanks or numbered):
         refuse_short_header(head, table.layout.first, len(table.layout.names), table.delimiter, table.quoted, path.name)
-    return table
+    return with_series(table, source)
 
 
 def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
@@ -128,7 +129,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
     later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
     body = [r for r in (*top_rows, *later) if len(r) == width]
-    refuse_long(layout.names, body, where, layout.time)
+    refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})

@@ -7,31 +7,8 @@ import re
 from collections.abc import Sequence
 
 from thermodata.errors import FormatError
+from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.number import clean, is_number
-
-NAME_WORDS = (
-    *(
-        "tagname",
-        "varname",
-        "nodeid",
-        "node",
-        "displayname",
-        "browsename",
-        "tag",
-        "itemid",
-        "tagpath",
-        "series",
-        "metric",
-        "signalname",
-        "field",
-        "item",
-        "itemname",
-    ),
-    *("name", "point", "channel", "sensor", "sensorid", "sensorname", "signal", "variable", "parameter", "measurand"),
-    *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
-)
-VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")
-
 
 _FEWEST_ROWS = 10
 _MOST_NAMES = 200  # that one column may hold

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from thermodata.reader.series import Series
 from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import PART
 from thermodata.reader.text.grid import Grid
@@ -62,7 +63,7 @@ class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
-    its head says so."""
+    its head says so; series: how rows of several sensors or hosts are taken apart."""
 
     name: str
     sample: Sample
@@ -78,6 +79,7 @@ class Table:
     notes: tuple[str, ...]
     blanks: bool = False
     begin: Begin | None = None
+    series: Series | None = None
 
     @property
     def absolute(self) -> bool:

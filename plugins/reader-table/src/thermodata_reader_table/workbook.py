@@ -24,6 +24,7 @@ from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import percent_columns
+from thermodata_reader_table.workbook_series import taken_apart
 from thermodata_reader_table.workbook_sheet import Stream, Table
 
 _BLOCK_VALUES = 1_000_000
@@ -138,7 +139,12 @@ def read(path: Path, source: Source) -> Read:
             source,
             book.percent.get(sheet, {}),
         )
-        found[sheet] = list(table.streams(sheet if several else None))
+        found[sheet] = []
+        for stream in table.streams(sheet if several else None):
+            streams, said, lost = taken_apart(stream, table.where, sheet if several else None)
+            found[sheet] += streams
+            notes += said
+            losses += lost
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
         losses += table.losses
     for sheet in _of_another_clock(found):

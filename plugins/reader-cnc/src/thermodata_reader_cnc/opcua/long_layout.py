@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.errors import FormatError
+from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Grid
-from thermodata.reader.text.long_rows import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.status import zero_is_good
@@ -21,7 +21,7 @@ from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of
 
 _TIMES = (
     *("sourcetimestamp", "sourcetime", "datetime", "timestamp", "timestring", "servertimestamp", "servertime", "time"),
-    *("tstamp", "ts", "receivedat", "updatedate", "zeitstempel", "zeit", "čas"),
+    *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
 _UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
@@ -104,7 +104,7 @@ def find_layout(
             raw = [clean(c) for c in fields(line, delimiter)]
             names = [bare(c) for c in raw]
             times = tuple(names.index(n) for n in _TIMES if n in names)
-            value = next((names.index(n) for n in _VALUES if n in names), None)
+            value = next((names.index(n) for n in _values(names) if n in names), None)
             status = next((names.index(n) for n in _STATUS if n in names), None)
             influx = {"_time", "_value"} <= set(raw)
             if value is None or not times:
@@ -147,6 +147,11 @@ def find_layout(
                 tuple(raw[k] for k in series.unread),
             )
     return None
+
+
+def _values(names: Sequence[str]) -> Sequence[str]:
+    """What a column of values is called: Home Assistant has states of entities, which elsewhere are the machine's."""
+    return (*_VALUES, "state") if "entityid" in names else _VALUES
 
 
 def _form(stamps: Sequence[str], where: str, declared: str | None) -> TimeFormat | None:

@@ -7,18 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text.long_rows import NAME_WORDS
+from thermodata.reader.header_words import LABEL_WORDS, NAME_WORDS
 from thermodata.reader.text.number import clean, is_empty, is_number
 from thermodata.reader.text.time_pattern import is_date_text, is_time_of_day
 from thermodata.reader.zone import NAT
 
-# columns that name where a value comes from, or what is told of it: they are parts of a name wherever they differ
-_LABELS = (
-    *("device", "deviceid", "devicename", "host", "hostname", "machine", "machineid", "machinename", "asset", "plc"),
-    *("station", "location", "place", "area", "line", "unitname", "room", "equipment", "source", "logger", "module"),
-    *("measurement", "stat", "statistic", "aggregate", "aggregation", "axis", "l0name", "l1name", "l2name"),
-    *("gerät", "maschine", "anlage", "ort", "standort", "achse", "zařízení", "stroj", "místo", "osa"),
-)
 _LIVELY = 0.25  # of the rows: a word that changes as often stands for one of several series, and is no state
 _MEET = 0.05  # of the rows share their time with another word's
 _FEWEST = 3  # changes of a word
@@ -41,7 +34,7 @@ def series_of(names: Sequence[str], rows: Sequence[Sequence[str]], t_ns: Int1D, 
     times = [t for _, t in dated]
     columns = {k: [clean(r[k]) for r, _ in dated] for k in range(len(names)) if k not in used}
     free = [k for k in columns if k != tag]
-    labels = {k for k in free if names[k] in _LABELS or names[k] in NAME_WORDS}
+    labels = {k for k in free if names[k] in LABEL_WORDS or names[k] in NAME_WORDS}
     words = [k for k in free if k in labels or _is_words(names[k], columns[k])]
     chosen, left = [tag], sorted(words, key=lambda k: (k not in labels, k))
     while left:

@@ -41,3 +41,9 @@ class Topic:
     wrapped: bool = False
     long: frozenset[Path] = frozenset()
     skipped: frozenset[Path] = frozenset()
+
+
+def time_name(topic: Topic, kind: str) -> str:
+    """The signal of a topic's log or publish times; another name where the messages have a field of this one."""
+    name = f"{topic.name}.{kind}"
+    return name if all(leaf.name != name for leaf in topic.leaves) else f"{name}#header"

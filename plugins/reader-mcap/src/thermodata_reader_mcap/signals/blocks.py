@@ -17,7 +17,7 @@ from thermodata_reader_mcap.container.messages import LATEST_NS, Content
 from thermodata_reader_mcap.encodings.columns import MISSING, Columns, Wrong, merged
 from thermodata_reader_mcap.encodings.decoder import Decoder, UnsupportedError
 from thermodata_reader_mcap.encodings.decoders import columns, decoder
-from thermodata_reader_mcap.encodings.topic import Topic
+from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.header_stamps import stamps
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH
 from thermodata_reader_mcap.signals.plan import Plan, wanted_topic
@@ -28,12 +28,6 @@ _AHEAD = 3
 Job = tuple[Topic, Batch, slice, U64, U64]
 _NAMED = 20
 _SUSPECT = np.uint16(Flag.CLOCK_SUSPECT)
-
-
-def time_name(topic: Topic, kind: str) -> str:
-    """The signal of a topic's log or publish times; another name where the messages have a field of this one."""
-    name = f"{topic.name}.{kind}"
-    return name if all(leaf.name != name for leaf in topic.leaves) else f"{name}#header"
 
 
 @dataclass(slots=True)

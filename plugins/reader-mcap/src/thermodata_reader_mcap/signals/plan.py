@@ -11,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.series import Series
 from thermodata_reader_mcap.container.attachments import extras
 from thermodata_reader_mcap.container.data_section import Damage, data_section, is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions
@@ -19,8 +20,9 @@ from thermodata_reader_mcap.container.messages import LATEST_NS, Content, collec
 from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
-from thermodata_reader_mcap.encodings.topic import Topic
+from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
+from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, unit_of
 from thermodata_reader_mcap.signals.topic_discovery import discover, readers
 
@@ -32,7 +34,8 @@ EARLIEST_NS = 10**17  # log times before 1973 count from the start of the record
 @dataclass(slots=True)
 class Plan:
     """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
-    ("log_time", "publish_time"). complete: whether the file ends well and nothing in it is seen to be damaged."""
+    ("log_time", "publish_time"). series: of topics on which several sensors send. complete: whether the file ends well
+    and nothing in it is seen to be damaged."""
 
     options: Options
     summary: Summary
@@ -40,6 +43,7 @@ class Plan:
     readers: dict[Channel, Decoder]
     unsupported: dict[str, str]
     stamped: dict[str, str]
+    series: dict[str, Series]
     start_ns: int | None
     relative: bool
     complete: bool
@@ -153,6 +157,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             stamped[topic] = "log_time"
         elif not same:
             stamped[topic] = PUBLISH
+    series = _senders(found, batches, stamped)
+    notes += [f"topic '{topic}': {one.note()}" for topic, one in series.items()]
     return Plan(
         chosen_options,
         said,
@@ -160,6 +166,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         found.readers,
         found.unsupported,
         stamped,
+        series,
         int(times.min()) if times.size else None,
         relative,
         is_complete(view) and not damaged,
@@ -193,6 +200,19 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
         elif not problems:
             result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"
     return result
+
+
+def _senders(found: _Found, batches: dict[Channel, Batch], stamped: dict[str, str]) -> dict[str, Series]:
+    """How topics are taken apart on which several sensors send."""
+    series: dict[str, Series] = {}
+    for name, topic in found.topics.items():
+        made = {c: r for c, r in found.readers.items() if c.topic == name and c in batches}
+        taken = {*found.topics, *(stream for one in series.values() for stream in one.streams.values())}
+        times = {time_name(topic, stamped[name])} if name in stamped else set()
+        one = senders(topic, batches, made, taken, times)
+        if one is not None:
+            series[name] = one
+    return series
 
 
 def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, name: str) -> Options:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from threading import Lock
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.series import TakenApart
 from thermodata_reader_mcap.container.mapped_file import opened
 from thermodata_reader_mcap.container.messages import collect_messages
 from thermodata_reader_mcap.container.summary import Summary
-from thermodata_reader_mcap.signals.blocks import BATCH, Writer, time_name
+from thermodata_reader_mcap.encodings.topic import time_name
+from thermodata_reader_mcap.signals.blocks import BATCH, Writer
 from thermodata_reader_mcap.signals.plan import Plan, content, plan, wanted_topic
 
 _CRC_STEP = 16 << 20
@@ -34,12 +36,14 @@ def describe(path: Path, source: Source) -> Recording:
     told = _properties(found)
     for topic in found.topics.values():
         properties = told.get(topic.name, {})
-        signals += [
+        mine = [
             Signal(leaf.name, topic.name, leaf.unit, leaf.dtype, None, {**properties, **dict(leaf.properties)})
             for leaf in topic.leaves
         ]
         if topic.name in found.stamped:
-            signals.append(Signal(time_name(topic, found.stamped[topic.name]), topic.name, "ns", "int64"))
+            mine.append(Signal(time_name(topic, found.stamped[topic.name]), topic.name, "ns", "int64"))
+        series = found.series.get(topic.name)
+        signals += mine if series is None else series.signals(mine)
     start = found.start_ns if signals and not found.relative else 0
     return Recording(
         tuple(signals), "relative" if found.relative else "absolute", start, found.complete, tuple(found.notes)
@@ -77,17 +81,28 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         met.key = lambda channel: channel.topic if wanted_topic(channel.topic, source) else None
         with ThreadPoolExecutor(2) as pool:
             writer = Writer(met, found, source, pool)
+            apart = [TakenApart(one, f"{path.name} topic '{topic}'") for topic, one in found.series.items()]
             whole = True
             for loss in collect_messages(view, met, lambda: met.pending >= BATCH):
-                yield from writer.flush()
+                yield from _split(writer.flush(), apart)
                 if loss is not None:
                     whole = False
                     yield loss
-            yield from writer.flush()
+            yield from _split(writer.flush(), apart)
+            for one in apart:
+                yield from one.rest()
             if whole and met.recordings < 2:
                 yield from _contradictions(view, found.summary, writer)
             yield from writer.rest()
             met.batches.clear()
+
+
+def _split(items: Iterator[Block | Loss], apart: Sequence[TakenApart]) -> Iterator[Block | Loss]:
+    """Blocks of topics on which several sensors send, taken apart; all else as it is."""
+    by_topic = {one.series.stream: one for one in apart}
+    for item in items:
+        one = by_topic.get(item.stream) if isinstance(item, Block) else None
+        yield from (item,) if one is None else one.split(item)
 
 
 def _contradictions(view: memoryview, said: Summary, writer: Writer) -> Iterator[Loss]:

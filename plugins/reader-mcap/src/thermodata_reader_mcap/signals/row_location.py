@@ -16,19 +16,23 @@ from thermodata_reader_mcap.container.records import HEAD, MESSAGE_HEAD, Bytes
 from thermodata_reader_mcap.encodings.columns import Columns
 from thermodata_reader_mcap.encodings.topic import Topic
 from thermodata_reader_mcap.signals.blocks import BATCH, Job, Writer
-from thermodata_reader_mcap.signals.plan import content, plan, wanted_topic
+from thermodata_reader_mcap.signals.plan import Plan, content, plan, wanted_topic
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`message 812, chunk 3 (at byte 123456), byte 789 of its records, log_time ...` of a row (counted from 0) of a
     topic; None where that can't be told."""
     with opened(path) as view:
-        number = _message(view, path, source, stream, row)
+        found = plan(view, path.name, source)
+        # a stream is a topic, or what one sensor sent on it
+        sent = ((t, name) for t, one in found.series.items() for name, made in one.streams.items() if made == stream)
+        topic, sender = next(sent, (stream, None))
+        number = _message(view, path, source, found, topic, sender, row)
         if number is None:
             return None
-        met = content(view, path.name, plan(view, path.name, source).summary)
+        met = content(view, path.name, found.summary)
         met.key = lambda channel: None
-        seen = _MessageCounter(met, stream, number)
+        seen = _MessageCounter(met, topic, number)
         met.follow = seen.take
         for _ in collect_messages(view, met, lambda: True):
             if seen.found is not None:
@@ -36,19 +40,24 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
         return seen.found
 
 
-def _message(view: memoryview, path: Path, source: Source, stream: str, row: int) -> int | None:
-    """The number of a row's message in its topic, from 0: messages that do not read are no rows."""
-    found = plan(view, path.name, source)
+def _message(
+    view: memoryview, path: Path, source: Source, found: Plan, topic: str, sender: str | None, row: int
+) -> int | None:
+    """The number of a row's message in its topic, from 0: messages that do not read are no rows. sender: whose rows are
+    counted, None for all."""
     met = content(view, path.name, found.summary)
-    met.key = lambda channel: channel.topic if channel.topic == stream and wanted_topic(stream, source) else None
+    met.key = lambda channel: channel.topic if channel.topic == topic and wanted_topic(topic, source) else None
     writer = _Counting(met, found, source)
     done = 0
     for _ in (*collect_messages(view, met, lambda: met.pending >= BATCH), None):
         for item in writer.flush():
-            if isinstance(item, Block):
-                if row < done + item.t_ns.size:
-                    return None if writer.numbers is None else int(writer.numbers[row - done])
-                done += item.t_ns.size
+            if not isinstance(item, Block):
+                continue
+            every = np.arange(item.t_ns.size)
+            rows = every if sender is None else found.series[topic].rows(item).get(sender, every[:0])
+            if row < done + rows.size:
+                return None if writer.numbers is None else int(writer.numbers[rows[row - done]])
+            done += rows.size
     return None
 
 

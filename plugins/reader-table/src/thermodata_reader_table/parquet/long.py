@@ -8,7 +8,12 @@ from itertools import islice
 import pyarrow as pa
 import pyarrow.compute as pc
 
+from thermodata.errors import FormatError
+from thermodata.plugin import Block
+from thermodata.reader.series import Series, find_series
 from thermodata.reader.text.long_rows import name_column, refuse_long
+from thermodata.reader.zone import NAT
+from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table
 
 _HEAD = 1000
@@ -18,18 +23,38 @@ _HINT = "pivot it: a column a name, e.g. table.pivot(index=time, columns=name, v
 def refuse(table: Table) -> None:
     """FormatError for a long table: by its header and its column of names, else by its first rows."""
     words = [i for i in range(len(table.names)) if i != table.time and table.dtype(i) == "str"]
-    if not words or table.time is None:
+    if table.time is None:
         return
     named = name_column(table.names)
     if named in words:
         blank = [""] * len(table.names)
         rows = [[*blank[:named], word, *blank[named + 1 :]] for word in _words(table, named)]
         refuse_long(table.names, rows, table.path.name, hint=_HINT)
+    series = _series(table)
+    if series is None:
+        return
+    raise FormatError(
+        "a long table: each row names what it measures",
+        where=table.path.name,
+        expected="a column a signal",
+        got=" and ".join(f"'{tag}'" for tag in series.tags) + " holds " + ", ".join(list(series.held)[:4]),
+        hint=_HINT,
+    )
+
+
+def _series(table: Table) -> Series | None:
+    """The series in the first rows."""
     head = next(islice(table.batches(_HEAD), 1), None)
-    if head is not None:
-        columns = [[str(v) for v in c.to_pylist()] for c in head.columns]
-        rows = [list(row) for row in zip(*columns, strict=True)]
-        refuse_long(table.names, rows, table.path.name, (table.time,), _HINT)
+    if head is None:
+        return None
+    times = table.stamps(_HEAD)
+    n = min(times.t_ns.size, head.num_rows)  # a batch may end with a row group, of all columns sooner than of one
+    t_ns = times.t_ns[:n]
+    good = t_ns != NAT
+    kept = [(i, name) for i, name in enumerate(table.names) if i != table.time]
+    values = {name: values_of(head.column(i), table.dtype(i))[:n][good] for i, name in kept}
+    # nothing is taken apart here: relative times that begin anew with each name are refused as dates are
+    return find_series(Block("", t_ns[good], values), absolute=True)
 
 
 def _words(table: Table, column: int) -> list[str]:

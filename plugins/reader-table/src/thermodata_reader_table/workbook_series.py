@@ -1,0 +1,54 @@
+"""Sheets whose rows are of several sensors or hosts: each is a stream."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+from thermodata.plugin import Block, Loss
+from thermodata.reader.series import SERIES, find_series
+from thermodata.reader.zone import NAT
+from thermodata_reader_table.workbook_sheet import Stream
+
+
+def taken_apart(stream: Stream, where: str, sheet: str | None) -> tuple[list[Stream], list[str], list[Loss]]:
+    """(a stream a series, or the stream as it is; notes; losses). sheet: by which its signals are called; None where
+    they are called by themselves."""
+    t_ns = stream.times.t_ns
+    good = t_ns != NAT
+    first = Block(stream.name, t_ns[good], {k: v[good] for k, v in stream.values.items()})
+    named = partial(_named, "" if sheet is None else f"{sheet}/")
+    series = find_series(
+        first,
+        absolute=stream.times.absolute,
+        stream_of=str if sheet is None else partial(_named, "", stream.name),
+        named=named,
+    )
+    if series is None:
+        return [stream], [], []
+    parts: list[Stream] = []
+    losses: list[Loss] = []
+    for one, rows in series.rows(Block(stream.name, t_ns, stream.values)).items():
+        if one not in series.held:
+            losses.append(Loss(where, reason=f"{rows.size} rows that name no series by {' and '.join(series.tags)}"))
+            continue
+        called = {k: named(one, k) for k in stream.values if k in series.held[one]}
+        parts.append(
+            Stream(
+                series.streams[one],
+                replace(stream.times, t_ns=t_ns[rows]),
+                {new: stream.values[k][rows] for k, new in called.items()},
+                {new: stream.units[k] for k, new in called.items()},
+                stream.at[rows],
+                {new: stream.over[k][rows] for k, new in called.items() if k in stream.over},
+                stream.sheet,
+                frozenset(new for k, new in called.items() if k in stream.percent),
+                {new: {**stream.said[k], SERIES: one} for k, new in called.items()},
+            )
+        )
+    return parts, [series.note()], losses
+
+
+def _named(before: str, series: str, name: str) -> str:
+    """'T' of the series 'bed' is 'bed/T', and 'Sheet1/T' is 'Sheet1/bed/T'."""
+    return f"{before}{series}/{name.removeprefix(before)}"

@@ -1,0 +1,145 @@
+"""Tables whose rows are of several sensors or hosts: each is a stream, and nothing of them is mixed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.testing.reader import load
+from thermodata.testing.reader.case import Data
+
+from .test_sheets import sheet, workbook
+
+N = 60
+UTC = Source(timezone="UTC")
+
+
+def stamp(t: float) -> str:
+    return f"2026-03-02 08:{int(t) // 60:02d}:{t % 60:06.3f}"
+
+
+def read(path: Path, header: str, rows: list[str], source: Source = UTC) -> Data:
+    path.write_text("\n".join([header, *rows, ""]), encoding="utf-8")
+    return load(Reader(), path, source)
+
+
+def values(data: Data) -> dict[str, list[float]]:
+    return {name: array.tolist() for (_, name), array in data.values.items()}
+
+
+@pytest.mark.parametrize("apart_s", [0.0, 0.3])
+@pytest.mark.parametrize("header", ["time,host,temperature,humidity", "Time,Kostka,Temp [degC],rH [%]"])
+def test_each_host_has_its_own_channels(tmp_path: Path, header: str, apart_s: float) -> None:
+    rows = [f"{stamp(10 * k + d * apart_s)},h{d},{20 + 10 * d + k / 8},{40 + d}" for k in range(N) for d in (0, 1)]
+    data = read(tmp_path / "a.csv", header, rows)
+    _, _, temperature, humidity = header.split(",")
+    assert values(data) == {
+        f"h{d}/{name}": made
+        for d in (0, 1)
+        for name, made in ((temperature, [20 + 10 * d + k / 8 for k in range(N)]), (humidity, [40.0 + d] * N))
+    }
+    for d in (0, 1):
+        assert np.diff(data.t_ns[f"h{d}"]).tolist() == [10 * 10**9] * (N - 1)
+    assert not data.losses
+    assert any("2 series" in note and "h0, h1" in note for note in data.recording.notes)
+    assert {s.unit for s in data.recording.signals} == ({"degC", "%"} if "[" in header else {None})
+
+
+def test_what_a_host_never_logs_is_no_channel_of_it(tmp_path: Path) -> None:
+    rows = []
+    for k in range(10 * N):
+        rows.append(f"thermal,{stamp(k)},daq1,{k / 8},{20 + k / 100}")
+        if k % 15 == 0:
+            rows.append(f"thermal,{stamp(k + 0.7)},daq2,,{10 + k / 100}")
+    data = read(tmp_path / "a.csv", "name,time,host,eddy_V,T_column", rows)
+    found = values(data)
+    assert set(found) == {"daq1/name", "daq1/eddy_V", "daq1/T_column", "daq2/name", "daq2/T_column"}
+    assert found["daq2/T_column"] == [10 + k / 100 for k in range(0, 10 * N, 15)]
+    assert found["daq1/T_column"] == [20 + k / 100 for k in range(10 * N)]
+
+
+def test_ids_that_are_numbers_name_their_channels_with_their_header(tmp_path: Path) -> None:
+    rows = [f"{stamp(10 * k)},{d},{20 + 10 * d + k / 8}" for k in range(N) for d in (1, 2)]
+    found = values(read(tmp_path / "a.csv", "time,Sensor-ID,T", rows))
+    assert found == {f"Sensor-ID {d}/T": [20 + 10 * d + k / 8 for k in range(N)] for d in (1, 2)}
+
+
+def test_a_sensor_that_comes_later_than_the_first_look_is_a_loss(tmp_path: Path) -> None:
+    rows = [f"{stamp(k / 10)},h{k % 2},{k}" + " " * 40 for k in range(30_000)]
+    rows[10_001] = f"{stamp(1000.1)},h7,{10_001}" + " " * 40
+    data = read(tmp_path / "a.csv", "time,host,T", rows)
+    assert [loss.reason for loss in data.losses] == ["1 rows of 'h7', which the first look at the file did not meet"]
+    assert sum(map(len, values(data).values())) == 29_999
+
+
+def test_a_row_of_a_series_is_found_in_its_file(tmp_path: Path) -> None:
+    rows = [f"{stamp(10 * k + d)},h{d},{20 + 10 * d}" for k in range(N) for d in (0, 1)]
+    read(tmp_path / "a.csv", "time,host,T", rows)
+    assert Reader().locate(tmp_path / "a.csv", UTC, "h1", 3) == "line 9"
+
+
+@pytest.mark.parametrize(
+    ("header", "cells"),
+    [
+        ("time,operator,T", ["Novak"] * 30 + ["Horak"] * 30),
+        ("time,phase,T", (["roughing"] * 5 + ["finishing"] * 7) * 5),
+        ("time,tool,T", (["T1"] * 9 + ["T4"] * 3) * 5),
+        ("time,coolant,T", ["ON", "OFF"] * 30),
+        ("time,alarm,T", ["", "700012 door open", "", "", ""] * 12),
+        ("time,Step,T", [str(k // 6) for k in range(60)]),
+        ("time,nSoll,T", ["0", "3000"] * 30),
+    ],
+)
+def test_what_the_machine_did_is_no_sensor(tmp_path: Path, header: str, cells: list[str]) -> None:
+    rows = [f"{stamp(10 * k)},{cell},{20 + k / 8}" for k, cell in enumerate(cells)]
+    data = read(tmp_path / "a.csv", header, rows)
+    assert list(values(data)) == header.split(",")[1:]
+    assert not data.losses
+
+
+@pytest.mark.parametrize("apart_ms", [0, 300])
+@pytest.mark.parametrize("ids", [("bearing", "column"), (1, 2)])
+def test_sensors_below_each_other_in_parquet_are_refused(
+    tmp_path: Path, ids: tuple[object, ...], apart_ms: int
+) -> None:
+    t = np.datetime64("2026-03-02T07:00", "ms") + np.add.outer(np.arange(N) * 10_000, [0, apart_ms]).ravel()
+    table = pa.table({"ts": t, "sensor": list(ids) * N, "temperature": np.tile([20.0, 17.0], N), "rh": [45.0] * 2 * N})
+    pq.write_table(table, tmp_path / "a.parquet")
+    with pytest.raises(FormatError, match="a long table") as said:
+        Reader().describe(tmp_path / "a.parquet", Source())
+    assert "'sensor' holds" in str(said.value)
+    assert "pivot" in str(said.value)
+
+
+def test_a_tool_that_is_changed_is_no_long_table_of_parquet(tmp_path: Path) -> None:
+    t = np.datetime64("2026-03-02T07:00", "ms") + np.arange(N) * 10_000
+    pq.write_table(
+        pa.table({"ts": t, "tool": (["T1"] * 9 + ["T4"] * 3) * 5, "T": np.arange(60.0)}), tmp_path / "a.parquet"
+    )
+    assert [s.name for s in Reader().describe(tmp_path / "a.parquet", Source()).signals] == ["tool", "T"]
+
+
+@pytest.mark.parametrize("sheets", [1, 2])
+@pytest.mark.parametrize("apart_s", [0, 3])
+def test_sensors_below_each_other_in_a_sheet_are_streams(tmp_path: Path, sheets: int, apart_s: int) -> None:
+    rows: list[list[object]] = [["Time", "sensor", "T [degC]"]]
+    rows += [
+        [46083 + (k // 2 * 10 + k % 2 * apart_s) / 86400, f"p{k % 2}", 20 + 10 * (k % 2) + k / 8] for k in range(2 * N)
+    ]
+    workbook(tmp_path / "a.xlsx", {f"S{n}": sheet(rows, (1, 0, 0)) for n in range(sheets)})
+    data = load(Reader(), tmp_path / "a.xlsx", UTC)
+    before = ["S0/", "S1/"] if sheets > 1 else [""]
+    assert values(data) == {
+        f"{b}p{d}/T [degC]": [20 + 10 * d + k / 8 for k in range(d, 2 * N, 2)] for b in before for d in (0, 1)
+    }
+    assert {s.unit for s in data.recording.signals} == {"degC"}
+    assert not data.losses
+    stream = next(s.stream for s in data.recording.signals if s.name.endswith("p1/T [degC]"))
+    assert Reader().locate(tmp_path / "a.xlsx", UTC, stream, 3) == "sheet 'S0', row 9"

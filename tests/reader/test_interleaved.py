@@ -1,0 +1,150 @@
+"""Which columns part the rows of a table into series, and which only say how the machine was."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from thermodata.plugin import Array
+from thermodata.reader.interleaved import series_columns
+
+S = 10**9
+RNG = np.random.default_rng(18)
+
+
+def words(cells: list[str]) -> Array:
+    made = np.empty(len(cells), object)
+    made[:] = cells
+    return made
+
+
+def rows(series: dict[str, np.ndarray], *, level: float = 5.0) -> tuple[np.ndarray, Array, Array]:
+    """(times, words, a temperature) of series that each have times of their own [s], in the order of time."""
+    every = sorted((t, k, name) for k, (name, times) in enumerate(series.items()) for t in times.tolist())
+    t_ns = np.array([round(t * S) for t, _, _ in every])
+    temperature = np.array([20 + level * k + t / 3600 + 0.02 * RNG.standard_normal() for t, k, _ in every])
+    return t_ns, words([name for _, _, name in every]), temperature
+
+
+EACH_10_S = np.arange(300) * 10.0
+
+
+@pytest.mark.parametrize("header", ["host", "sensor", "entity_id", "header.frame_id", "Kostka"])
+@pytest.mark.parametrize("level", [5.0, 0.0])
+@pytest.mark.parametrize(
+    "times",
+    [
+        {"a": EACH_10_S, "b": EACH_10_S},
+        {"a": EACH_10_S, "b": EACH_10_S + 0.3, "c": EACH_10_S + 0.7},
+        {"a": np.arange(3000) * 1.0, "b": np.arange(200) * 15.0 + 0.7},
+        {"a": np.arange(3000) * 1.0, "b": np.arange(200) * 15.0},
+    ],
+    ids=["one time", "times of their own", "another rate", "another rate at shared times"],
+)
+def test_series_that_go_on_side_by_side_are_parted(header: str, level: float, times: dict[str, np.ndarray]) -> None:
+    t_ns, names, temperature = rows(times, level=level)
+    assert series_columns(t_ns, {header: names, "temperature": temperature}, absolute=True) == (header,)
+
+
+def test_series_that_are_polled_in_turn_are_parted_by_header_or_by_values() -> None:
+    times = {"a": np.arange(300) * 4.0, "b": np.arange(300) * 4.0 + 2}
+    t_ns, names, temperature = rows(times)
+    assert series_columns(t_ns, {"sensor": names, "T": temperature}, absolute=True)
+    assert series_columns(t_ns, {"Kostka": names, "T": temperature}, absolute=True)
+    t_ns, names, temperature = rows(times, level=0.0)
+    assert series_columns(t_ns, {"sensor": names, "T": temperature}, absolute=True)
+
+
+def test_series_that_log_on_change_are_parted_by_their_header() -> None:
+    times = {name: np.cumsum(RNG.exponential(20, 200)) for name in ("hall", "bed", "door")}
+    t_ns, names, temperature = rows(times)
+    assert series_columns(t_ns, {"entity_id": names, "state": temperature}, absolute=True) == ("entity_id",)
+
+
+def test_a_sensor_that_is_read_in_bursts_is_parted() -> None:
+    t_ns = np.arange(400) * S
+    names = words([("front", "rear")[k // 10 % 2] for k in range(400)])
+    assert series_columns(t_ns, {"sensor": names, "T": t_ns / 1e12}, absolute=True) == ("sensor",)
+
+
+def test_ids_that_are_numbers_are_parted_where_header_or_values_say_so() -> None:
+    t_ns, names, temperature = rows({"1": EACH_10_S, "2": EACH_10_S})
+    ids = np.array([int(n) for n in names])
+    assert series_columns(t_ns, {"Sensor-ID": ids, "T": temperature}, absolute=True) == ("Sensor-ID",)
+    assert series_columns(t_ns, {"Nr": ids, "T": temperature}, absolute=True) == ("Nr",)
+    t_ns, names, temperature = rows({"1": EACH_10_S, "2": EACH_10_S}, level=0.0)
+    assert not series_columns(t_ns, {"Nr": ids, "T": temperature}, absolute=True), "a count within the second"
+
+
+def test_a_host_with_several_sensors_needs_both() -> None:
+    names = {f"{h} {s}": EACH_10_S + k / 10 for k, (h, s) in enumerate((h, s) for h in "AB" for s in ("in", "bed"))}
+    t_ns, both, temperature = rows(names)
+    parted = list(zip(*(name.split() for name in both), strict=True))
+    columns = {"host": words(list(parted[0])), "sensor": words(list(parted[1])), "T": temperature}
+    assert series_columns(t_ns, columns, absolute=True) == ("host", "sensor")
+
+
+def test_names_that_follow_each_other_are_parted_where_times_have_dates() -> None:
+    t_ns = np.tile(np.arange(100) * S, 2)
+    columns = {"where": words(["front"] * 100 + ["rear"] * 100), "T": np.arange(200.0)}
+    assert series_columns(t_ns, columns, absolute=True) == ("where",)
+    assert not series_columns(t_ns, columns, absolute=False), "two tests, of which each counts from its start"
+
+
+def no_series(cells: list[str], header: str = "state", t_ns: np.ndarray | None = None, **more: np.ndarray) -> None:
+    t_ns = np.arange(len(cells)) * 10 * S if t_ns is None else t_ns
+    columns = {header: words(cells), "T": 20 + t_ns / 1e13 + 0.02 * RNG.standard_normal(len(cells)), **more}
+    assert series_columns(t_ns, columns, absolute=True) == ()
+
+
+@pytest.mark.parametrize("header", ["state", "operator", "phase", "tool", "axis", "machine", "name", "item", "test"])
+@pytest.mark.parametrize("kinds", [("roughing", "finishing"), ("T1", "T2", "T3"), ("Novák", "Svobodová")])
+def test_words_that_change_in_blocks_are_states(header: str, kinds: tuple[str, ...]) -> None:
+    no_series([kinds[k // 40 % len(kinds)] for k in range(600)], header)
+    cells: list[str] = []
+    while len(cells) < 600:
+        cells += [kinds[int(RNG.integers(len(kinds)))]] * int(RNG.integers(3, 40))
+    no_series(cells[:600], header)
+
+
+@pytest.mark.parametrize("header", ["axis", "state", "tool"])
+def test_words_that_change_often_in_a_table_of_one_clock_are_states(header: str) -> None:
+    no_series([str(w) for w in RNG.choice(["X", "Y", "Z"], 600)], header)
+    no_series([("X", "X", "Z", "Z")[k % 4] for k in range(600)], header)
+    cells = [str(w) for w in RNG.choice(["coolant", "dry"], 600)]
+    no_series(cells, header, power=np.array([3.0 if c == "dry" else 1.0 for c in cells]))
+
+
+@pytest.mark.parametrize("kinds", [("ON", "OFF"), ("heating", "cooling"), ("Ein", "Aus"), ("+", "-")])
+def test_states_that_are_called_so_are_no_series_however_they_change(kinds: tuple[str, str]) -> None:
+    cells = [kinds[k % 2] for k in range(400)]
+    no_series(cells, power=np.array([3.0 if c == kinds[0] else 0.1 for c in cells]))
+
+
+def test_events_among_the_rows_of_a_rate_are_no_series() -> None:
+    at = np.sort(RNG.uniform(0, 6000, 60))
+    t = np.sort(np.concatenate([np.arange(600) * 10.0, at]))
+    no_series(["alarm 700012" if x in at else "every 10 s" for x in t], "why", np.array([round(x * S) for x in t]))
+
+
+def test_rows_under_coarse_stamps_are_no_series() -> None:
+    t_ns = np.arange(600) // 6 * 60 * S
+    no_series([("roughing", "finishing")[k // 40 % 2] for k in range(600)], "phase", t_ns)
+    no_series([str(w) for w in RNG.choice(["roughing", "finishing"], 600)], "phase", t_ns)
+
+
+def test_speeds_and_steps_are_no_names() -> None:
+    speed = np.array([0, 3000.0])[np.arange(600) // 7 % 2]
+    step = (np.arange(600) // 25 + 1).astype(np.int64)
+    no_series(["a"] * 600, "id", speed=speed, step=step)
+    at = np.cumsum(RNG.exponential(20, 600))
+    power = speed / 1000
+    no_series(["a"] * 600, "id", np.array([round(x * S) for x in at]), speed=speed[RNG.permutation(600)], power=power)
+
+
+def test_times_of_a_clock_that_is_set_back_within_a_word_part_nothing() -> None:
+    t_ns = np.concatenate([np.arange(300), np.arange(100, 400)]) * S
+    no_series(["warm"] * 250 + ["cold"] * 350, "state", t_ns)
+    assert all(b - a == S for a, b in pairwise(t_ns[:300].tolist()))

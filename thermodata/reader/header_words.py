@@ -1,0 +1,39 @@
+"""What columns are called that name what is measured, where it comes from, or its value: bare, in lower case."""
+
+from __future__ import annotations
+
+NAME_WORDS = (
+    "entityid",
+    *(
+        "tagname",
+        "varname",
+        "nodeid",
+        "node",
+        "displayname",
+        "browsename",
+        "tag",
+        "itemid",
+        "tagpath",
+        "series",
+        "metric",
+        "signalname",
+        "field",
+        "item",
+        "itemname",
+    ),
+    *("name", "point", "channel", "sensor", "sensorid", "sensorname", "signal", "variable", "parameter", "measurand"),
+    *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
+)
+# columns that name what is measured wherever they differ, however seldom they do
+SENSOR_WORDS = (
+    *("sensor", "sensorid", "sensorname", "sensorno", "entityid", "frameid", "childframeid", "probe", "probeid"),
+    *("measurand", "messstelle", "messpunkt", "fühler", "senzor", "čidlo", "capteur", "sonda", "thermocouple"),
+)
+# columns that name where a value comes from, or what is told of it
+LABEL_WORDS = (
+    *("device", "deviceid", "devicename", "host", "hostname", "machine", "machineid", "machinename", "asset", "plc"),
+    *("station", "location", "place", "area", "line", "unitname", "room", "equipment", "source", "logger", "module"),
+    *("measurement", "stat", "statistic", "aggregate", "aggregation", "axis", "l0name", "l1name", "l2name"),
+    *("gerät", "maschine", "anlage", "ort", "standort", "achse", "zařízení", "stroj", "místo", "osa"),
+)
+VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")

@@ -1,0 +1,136 @@
+"""Rows that are of several series (sensors, hosts) taken apart: each series is a stream, and its signals are called by
+it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from thermodata.plugin import Array, Block, Int1D, Loss, Signal
+from thermodata.reader.interleaved import series_columns, words_of
+
+SERIES = "series"  # the property of a signal that says which it is of
+Named = Callable[[str, str], str]
+
+
+def slash(series: str, name: str) -> str:
+    """'bearing' and 'temperature' give 'bearing/temperature'."""
+    return f"{series}/{name}"
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """How the rows of one stream are taken apart. tags: the signals whose words name a series, together; held: the
+    signals that had a value in each series; streams: of each; named: a signal's name by series and name."""
+
+    stream: str
+    tags: tuple[str, ...]
+    held: Mapping[str, frozenset[str]]
+    streams: Mapping[str, str]
+    named: Named = slash
+
+    def note(self) -> str:
+        """What was done, for whoever reads the recording's notes."""
+        shown = ", ".join(list(self.held)[:4]) + (", ..." if len(self.held) > 4 else "")
+        told = " and ".join(f"'{tag}'" for tag in self.tags)
+        return f"{told} names {len(self.held)} series whose rows stand below each other ({shown}): each is a stream"
+
+    def signals(self, signals: Sequence[Signal]) -> tuple[Signal, ...]:
+        """The signals of each series, in place of those of the stream."""
+        mine = [s for s in signals if s.stream == self.stream and s.name not in self.tags]
+        made = [
+            replace(s, name=self.named(one, s.name), stream=self.streams[one], properties={**s.properties, SERIES: one})
+            for one, held in self.held.items()
+            for s in mine
+            if s.name in held
+        ]
+        return (*(s for s in signals if s.stream != self.stream), *made)
+
+    def rows(self, block: Block) -> dict[str, Int1D]:
+        """Which rows of a block each series has, also those that the first look did not meet ('' names none)."""
+        names = np.array(_names(block, self.tags), object)
+        return {one: np.flatnonzero(names == one) for one in dict.fromkeys(names.tolist())}
+
+
+@dataclass(slots=True)
+class TakenApart:
+    """Takes the blocks of one stream apart; counts what its first look did not meet."""
+
+    series: Series
+    where: str
+    unmet: dict[str, int] = field(default_factory=dict)
+
+    def split(self, item: Block | Loss) -> Iterator[Block | Loss]:
+        """The blocks of each series in a block of the stream; all else as it is."""
+        if isinstance(item, Loss) or item.stream != self.series.stream:
+            yield item
+            return
+        for one, rows in self.series.rows(item).items():
+            if one not in self.series.held:
+                self._count(f"rows of '{one}'" if one else "rows that name no series", rows.size)
+                continue
+            held = self.series.held[one]
+            values = {self.series.named(one, k): v[rows] for k, v in item.values.items() if k in held}
+            flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
+            at = None if item.at is None else item.at[rows]
+            yield Block(self.series.streams[one], item.t_ns[rows], values, flags or None, at)
+            for k, v in item.values.items():
+                if k not in held and k not in self.series.tags and (n := int(_full(v[rows], item, k, rows).sum())):
+                    self._count(f"values of '{self.series.named(one, k)}'", n)
+
+    def rest(self) -> Iterator[Loss]:
+        """What was counted."""
+        for what, count in self.unmet.items():
+            yield Loss(self.where, reason=f"{count} {what}, which the first look at the file did not meet")
+
+    def _count(self, what: str, count: int) -> None:
+        what = what if what in self.unmet or len(self.unmet) < 20 else "rows or values of others"
+        self.unmet[what] = self.unmet.get(what, 0) + count
+
+
+def find_series(
+    block: Block,
+    *,
+    absolute: bool,
+    taken: Collection[str] = (),
+    stream_of: Callable[[str], str] = str,
+    named: Named = slash,
+    kept: Collection[str] = (),
+) -> Series | None:
+    """The series in the first rows of a stream; None where all are of one. absolute: of its times; taken: streams that
+    others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not in
+    the block."""
+    tags = series_columns(block.t_ns, block.values, absolute=absolute)
+    if not tags:
+        return None
+    names = np.array(_names(block, tags), object)
+    held: dict[str, frozenset[str]] = {}
+    streams: dict[str, str] = {}
+    for one in dict.fromkeys(names.tolist()):
+        rows = np.flatnonzero(names == one)
+        some = frozenset(k for k, v in block.values.items() if k not in tags and _full(v[rows], block, k, rows).any())
+        if not one or not some:
+            continue
+        stream = stream_of(one)
+        while stream in taken or stream in streams.values():
+            stream += "#2"
+        held[one], streams[one] = some | frozenset(kept), stream
+    return Series(block.stream, tags, held, streams, named) if len(held) > 1 else None
+
+
+def _names(block: Block, tags: Sequence[str]) -> list[str]:
+    """What each row is called by its tags; '' where one says nothing."""
+    rows = zip(*(words_of(tag, block.values[tag]) for tag in tags), strict=True)
+    return ["/".join(row) if all(row) else "" for row in rows]
+
+
+def _full(values: Array, block: Block, name: str, rows: Int1D) -> Array:
+    """Which of some rows of a signal hold a value."""
+    if values.dtype.kind == "f":
+        return ~np.isnan(values)
+    if values.dtype.kind == "O":
+        return np.array([v is not None and v != "" for v in values.tolist()], bool)
+    flags = (block.flags or {}).get(name)
+    return np.ones(values.size, bool) if flags is None else flags[rows] == 0
