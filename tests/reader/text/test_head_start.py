@@ -175,3 +175,11 @@ def test_two_starts_and_rows_that_begin_late_are_noted(tmp_path: Path) -> None:
 def test_rows_with_dates_of_their_own_keep_them(tmp_path: Path) -> None:
     rows = ["Time;T1 [°C]", *(f"2026-03-02 07:{i:02d}:00;2{i % 9}.5" for i in range(40))]
     assert read(tmp_path, ["Start time: 03/04/2026 07:00:00"], rows)[:2] == ("absolute", SEVEN)
+
+
+@pytest.mark.parametrize("head", [["Date;26/03/02", "Time;07:00:00"], ["Start: 26/03/02 07:00:00"]])
+def test_a_year_of_two_digits_may_stand_first_where_it_is_declared(tmp_path: Path, head: list[str]) -> None:
+    assert read(tmp_path, head, NUMBERS, "ymd")[:2] == ("absolute", SEVEN)
+    with pytest.raises(FormatError, match="either way round") as refused:
+        read(tmp_path, head, NUMBERS, "head")
+    assert "ymd" in (refused.value.hint or "")

@@ -24,8 +24,9 @@ HEAD, NOT = "head", "none"  # the answers beside ORDERS
 ANSWERS = (*ORDERS, HEAD, NOT)
 NOT_TAKEN = "which is not taken for the start of the rows"
 EITHER = "whose day and month may be either way round"
-_ORDER = "declare table: {time: {start: dmy}} or mdy; start: none, where the rows do not begin then"
+_ORDER = "declare table: {time: {start: dmy}}, mdy or ymd; start: none, where the rows do not begin then"
 _NOTHING = "no start stands above the rows, though time.start is 'head': they count from the start of the test"
+_DATED = "the rows have dates of their own: the declared time.start is not used"
 _HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
 ROWS = 40  # that show how a clock begins
 _SECOND, _MINUTE, _HOUR = 10**9, 60 * 10**9, 3600 * 10**9
@@ -87,8 +88,7 @@ def first_times(
             value = number_of(row[time[0]])
             ns = NAT if value is None else int(to_ns(np.array([value]), each)[0])
         found += [] if ns == NAT else [ns]
-    clocks = bool(forms) and forms[0].pattern is not None and "H" in forms[0].pattern.groupindex
-    return FirstTimes(tuple(found), clocks)
+    return FirstTimes(tuple(found), bool(forms) and forms[0].of_day)
 
 
 def declared_start(table: Mapping[str, Any]) -> str | None:
@@ -96,6 +96,11 @@ def declared_start(table: Mapping[str, Any]) -> str | None:
     said = table.get("time") or {}
     each = [said] if isinstance(said, Mapping) else list(said)
     return next((str(one["start"]) for one in each if one.get("start") is not None), None)
+
+
+def unused_start(declared: str | None) -> str | None:
+    """The note on a declared start of rows that have dates of their own; None where there is nothing to say."""
+    return _DATED if declared in (*ORDERS, HEAD) else None
 
 
 def find_begin(

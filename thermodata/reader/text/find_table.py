@@ -12,7 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
-from thermodata.reader.text.begin import NOT_TAKEN, declared_start, find_begin, first_times
+from thermodata.reader.text.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
@@ -173,6 +173,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
             above_rows = f"'{begin.text[:60]}' stands above the rows"
             doubt = f"{above_rows}, {NOT_TAKEN}: some columns count from a start, others tell times of day"
             begin = None
+    else:
+        doubt = unused_start(declared_start(said))
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
     found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
     return Table(

@@ -10,6 +10,7 @@ from itertools import product
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text import time_pattern, timestamp
+from thermodata.reader.text.clock_letters import with_clock
 from thermodata.reader.text.head_words import Says, said_by
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
@@ -22,6 +23,7 @@ _LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\
 _MARKS = "#%;*'\"/!<> \t"  # by which a line is a comment
 _MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
 _LONGEST_CELL, _LONGEST_TIME = 200, 100  # letters: what is longer is prose, and a pattern would take its time over it
+_SHORT_YEAR = re.compile(r"\d{2}(?P<mark>[-/.])\d{1,2}(?P=mark)\d{1,2}(?!\d)", re.ASCII)
 _NEAR_NS = 10**9  # by which two lines on one start may differ
 
 
@@ -129,8 +131,13 @@ def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
     if len(text) > _LONGEST_TIME or not re.search(r"\d{2}", text):
         return None
     either = False
+    short = _SHORT_YEAR.match(text) if order == "ymd" else None
     try:
-        form = find_format([text], "the head", order=order)
+        if short is not None:
+            letters = f"%y{short['mark']}%m{short['mark']}%d"
+            form = time_pattern.declared_format(with_clock(letters, text[short.end() :]))
+        else:
+            form = find_format([text], "the head", order=order)
     except QuestionError:
         form, either = find_format([text], "the head", order="dmy"), True
     except FormatError:

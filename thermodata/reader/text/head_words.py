@@ -29,10 +29,11 @@ _BEGAN = (
     "起始时间 開始日期 触发时间 시작 시작시간"
 )
 _RECORDED = (
-    "measurement measured measuring recording recorded record acquisition acquired test log logging logged "
-    "session run scan messung messdatum messzeitpunkt aufnahme aufnahmedatum aufnahmezeitpunkt aufzeichnung "
-    "aufzeichnungsdatum versuch versuchsdatum prüfung prüfdatum testdatum misura misurazione acquisizione "
-    "registrazione prova mesure enregistrement essai medición medicion medida adquisición adquisicion registro "
+    "measurement measurements measured measuring recording recorded record acquisition acquired test log logging "
+    "logged session run scan messung messdatum messzeitpunkt aufnahme aufnahmedatum aufnahmezeitpunkt aufzeichnung "
+    "aufzeichnungsdatum messungen versuch versuchsdatum prüfung prüfdatum testdatum misura misure misurazione "
+    "misurazioni acquisizione registrazione prova mesure enregistrement essai medición medicion medida adquisición "
+    "adquisicion registro "
     "ensayo medição aquisição měření mereni záznam zaznam záznamu zkouška měřeno pomiar pomiaru rejestracja "
     "rejestracji mérés meting 測定 測定日時 測定日 計測日時 记录时间 测量时间 测试时间 采集时间 試験日"
 )

@@ -27,6 +27,7 @@ def names_and_units(
         units_row = _labelled_units(texts)
     if units_row is not None and 0 <= units_row < len(texts):
         row = texts.pop(units_row)
+        row = ["", *row[1:]] if OF_UNITS.fullmatch(row[0].strip(" :")) else row  # what the row is called is no unit
         units = _as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
     at_all = _spanning(texts, width)
     spanning = [texts[i] for i in at_all]
@@ -42,11 +43,14 @@ def names_and_units(
         spanning = spanning[: named + 1]
     names = spanning[-1] if spanning else [""] * width
     at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
+    if at:
+        names = _with_units_below(texts[at - 1], names)
     over = [""] * width
     found = [split_unit(n)[1] for n in names]
     if at and any(texts[at - 1]):
         of_heads = _units_of_heads(texts[at - 1], names)
         over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
+        names = _of_channels(texts[: at - 1], names)
         found = [own or split_unit(n)[1] or head for own, n, head in zip(found, names, of_heads, strict=True)]
     return names, [u or f for u, f in zip(units, found, strict=True)], over
 
@@ -252,3 +256,26 @@ def _under(above: list[str], names: list[str]) -> list[str]:
         carried.append(group)
     apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
     return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
+
+
+def _with_units_below(above: Sequence[str], names: Sequence[str]) -> list[str]:
+    """Names, where a cell of their row is a unit alone in brackets: that belongs to the name above it ('Sonda Z' over
+    '[mV]', beside 'column [°C]')."""
+    alone = [n[:1] + n[-1:] in ("[]", "()") and looks_like_unit(n[1:-1]) for n in names]
+    return [f"{a} {n}" if a and unit else n for a, n, unit in zip(above, names, alone, strict=True)]
+
+
+def _of_channels(rows: Sequence[Sequence[str]], names: list[str]) -> list[str]:
+    """Statistics that repeat (MIN, MAX, MIN, MAX), each with its channel, by the lowest row above them that tells them
+    apart: 'spindle/MIN'. Other names stay."""
+    again = [k for k, n in enumerate(names) if n and names.count(n) > 1]
+    if not all(_STATISTIC.fullmatch(names[k]) for k in again):
+        return names
+    for row in reversed(rows):
+        channel, of = "", dict[int, str]()
+        for k in again:
+            channel = row[k] or channel
+            of[k] = f"{channel}/{names[k]}" if channel else ""
+        if all(of.values()) and len(set(of.values())) == len(again):
+            return [of.get(k, n) for k, n in enumerate(names)]
+    return names

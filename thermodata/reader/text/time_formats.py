@@ -36,11 +36,14 @@ _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
 
 @dataclass(frozen=True, slots=True)
 class Stamps:
-    """t_ns: shape (n,), `NAT` where a cell holds no time; absolute: False for times of day without a date."""
+    """t_ns: shape (n,), `NAT` where a cell holds no time; absolute: False for times of day without a date, and for
+    durations; zero_ns: what a relative time of 0 is in the cells; of_day: whether that is a time of day."""
 
     t_ns: Int1D
     absolute: bool
     notes: tuple[str, ...]
+    zero_ns: int = 0
+    of_day: bool = False
 
 
 def share(cells: Sequence[str], form: TimeFormat) -> float:
@@ -225,7 +228,7 @@ def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | N
     (form,) = find_formats([""], [list(cells)], declared, where)
     ns = timestamp.parse(list(cells), form)
     if form.role == "time":
-        return times_of_day(ns, form.cycle_ns)
+        return times_of_day(ns, form.cycle_ns, form.of_day)
     if form.zoned:
         return Stamps(ns, True, ())
     utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
@@ -247,6 +250,10 @@ def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
     return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
 
 
-def times_of_day(of_day_ns: Int1D, cycle_ns: int = DAY_NS) -> Stamps:
-    """Times of day without a date count from the first; each step back by half a day is the next midnight."""
-    return Stamps(DayCount(cycle_ns).relative(of_day_ns), False, (DayCount.note(cycle_ns),))
+def times_of_day(of_day_ns: Int1D, cycle_ns: int = DAY_NS, of_day: bool = True) -> Stamps:
+    """Times of day without a date count from the first; each step back by half a day is the next midnight. of_day:
+    False for durations that are written like them."""
+    days = DayCount(cycle_ns)
+    since = days.relative(of_day_ns)
+    good = of_day_ns[of_day_ns != NAT]
+    return Stamps(since, False, (DayCount.note(cycle_ns),), int(good[0]) if good.size else 0, of_day)

@@ -55,6 +55,11 @@ class TimeFormat:
     columns: int = 1  # that hold its parts, from its own on
 
     @property
+    def of_day(self) -> bool:
+        """Whether cells are written as times of day, as durations may be too."""
+        return self.role == "time" and self.pattern is not None and "H" in self.pattern.groupindex
+
+    @property
     def cycle_ns(self) -> int:
         """Behind what a time without a date begins anew: an hour where it has no hours, else a day."""
         return DAY_NS // 24 if self.pattern is not None and "N" in self.pattern.groupindex else DAY_NS

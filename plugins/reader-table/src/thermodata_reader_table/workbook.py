@@ -18,6 +18,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.counted import counted
+from thermodata.reader.text.begin import NOT_TAKEN
 from thermodata.reader.text.layout import Layout, find, one_clock
 from thermodata.reader.text.on_its_side import refuse_sideways
 from thermodata.reader.zone import NAT
@@ -128,25 +129,19 @@ def read(path: Path, source: Source) -> Read:
             f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
             "declare table: {sheet: ...}: " + ", ".join(tables)
         )
-    losses: list[Loss] = []
-    found: dict[str, list[Stream]] = {}
-    for sheet, layout in tables.items():
-        table = Table(
-            sheet,
-            book.sheets[sheet],
-            layout,
-            f"{path.name} sheet '{sheet}'" if several else path.name,
-            source,
-            book.percent.get(sheet, {}),
-        )
-        found[sheet] = []
-        for stream in table.streams(sheet if several else None):
-            streams, said, lost = taken_apart(stream, table.where, sheet if several else None)
-            found[sheet] += streams
-            notes += said
-            losses += lost
+    read_sheets, found = _streams(path, source, book, tables, start_above=True)
+    begun = [sheet for sheet, table in read_sheets.items() if table.begun]
+    if begun and len({s.times.absolute for streams in found.values() for s in streams}) > 1:
+        notes.append(f"a start stands above the rows of sheet '{begun[0]}' and of no other, {NOT_TAKEN}")
+        read_sheets, found = _streams(path, source, book, tables, start_above=False)
+    for sheet, table in read_sheets.items():
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
-        losses += table.losses
+    losses = [loss for table in read_sheets.values() for loss in table.losses]
+    for sheet, table in read_sheets.items():
+        apart = [taken_apart(stream, table.where, sheet if several else None) for stream in found[sheet]]
+        found[sheet] = [stream for streams, _, _ in apart for stream in streams]
+        notes += [note for _, said, _ in apart for note in said]
+        losses += [loss for _, _, lost in apart for loss in lost]
     for sheet in _of_another_clock(found):
         notes.append(f"sheet '{sheet}' is not read: its times are of another kind than those of the other sheets")
         del found[sheet]
@@ -161,6 +156,21 @@ def read(path: Path, source: Source) -> Read:
             )
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+
+
+def _streams(
+    path: Path, source: Source, book: Book, layouts: Mapping[str, Layout], start_above: bool
+) -> tuple[dict[str, Table], dict[str, list[Stream]]]:
+    """(the table, the streams) of each sheet. start_above: whether a start that stands above its rows counts."""
+    tables: dict[str, Table] = {}
+    found: dict[str, list[Stream]] = {}
+    several = len(layouts) > 1
+    for sheet, layout in layouts.items():
+        where = f"{path.name} sheet '{sheet}'" if several else path.name
+        rows, percent = book.sheets[sheet], book.percent.get(sheet, Counter[int]())
+        tables[sheet] = Table(sheet, rows, layout, where, source, percent, start_above)
+        found[sheet] = list(tables[sheet].streams(sheet if several else None))
+    return tables, found
 
 
 def _naming(sheet: str, error: ThermodataError) -> ThermodataError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -52,7 +52,8 @@ class Stream:
 
 
 class Table:
-    """A sheet, column by column. decimal: of numbers that stand as text. percent: column -> numbers in per cent."""
+    """A sheet, column by column. decimal: of numbers that stand as text. percent: column -> numbers in per cent;
+    start_above: whether a start that stands above the rows counts; begun: whether one did."""
 
     def __init__(
         self,
@@ -62,8 +63,10 @@ class Table:
         where: str,
         source: Source,
         percent: Mapping[int, int] = MappingProxyType({}),
+        start_above: bool = True,
     ) -> None:
         self.percent = percent
+        self.start_above, self.begun = start_above, False
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
@@ -76,14 +79,10 @@ class Table:
 
     def streams(self, sheet: str | None) -> Iterator[Stream]:
         """sheet: its name where there are several."""
-        for group in self.layout.groups:
+        for group, times in zip(self.layout.groups, self._dated(), strict=True):
             own = group.stream != STREAM
             name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
             before = "" if sheet is None else f"{sheet}/"
-            times = self._times(group)
-            if not group.dated:
-                zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
-                times = begun(times, self.head, self.source, zone, self.where)
             self.notes += times.notes
             keep = self._rows_of(group, times.t_ns)
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
@@ -100,8 +99,19 @@ class Table:
                 if beyond.any():
                     over[before + self.layout.names[i]] = beyond[keep]
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
-            stamps = Stamps(times.t_ns[keep], times.absolute, ())
+            stamps = replace(times, t_ns=times.t_ns[keep], notes=())
             yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
+
+    def _dated(self) -> list[Stamps]:
+        """The times of each group, from the start that stands above the rows; that can't be one of some which count
+        from a start and of others which tell times of day."""
+        found = [self._times(group) for group in self.layout.groups]
+        if not self.start_above or len({s.of_day for s in found if not s.absolute}) > 1:
+            return found
+        zones = [stated_zone(self.layout.names[i] for i in g.time) or self.source.timezone for g in self.layout.groups]
+        begin = [begun(s, self.head, self.source, z, self.where) for s, z in zip(found, zones, strict=True)]
+        self.begun = any(s.absolute and not was.absolute for s, was in zip(begin, found, strict=True))
+        return begin
 
     def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
         """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time
@@ -171,7 +181,7 @@ class Table:
         found = times_of_texts([texts[k] for k in filled], zone, form, self.where)
         t_ns = np.full(len(texts), NAT, np.int64)
         t_ns[filled] = found.t_ns
-        return Stamps(t_ns, found.absolute, found.notes)
+        return replace(found, t_ns=t_ns)
 
     def _days(self, cells: tuple[Any, ...], epoch: Epoch) -> Int1D:
         """Local times of days that are counted from a date [ns], shape (n,), NAT where there is none; a cell that is

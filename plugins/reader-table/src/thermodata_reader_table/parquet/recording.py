@@ -26,7 +26,9 @@ def describe(path: Path, source: Source) -> Recording:
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(
-        Signal(n, STREAM, split_unit(n)[1], table.dtype(i)) for i, n in enumerate(table.names) if i != table.time
+        Signal(n, STREAM, split_unit(n)[1], table.dtype(i))
+        for i, n in enumerate(table.names)
+        if i not in (table.time, *table.beside)
     )
     start = (int(good[0]) if good.size else 0) if found.absolute else None
     return Recording(signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes))
@@ -37,7 +39,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = Table(path, source)
     times = table.stamps().t_ns
     at = missing = 0
-    columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i != table.time]
+    columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i not in (table.time, *table.beside)]
     size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
     for batch in table.batches(size):
         t_ns = times[at : at + batch.num_rows]

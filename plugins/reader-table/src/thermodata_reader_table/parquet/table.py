@@ -25,6 +25,7 @@ from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_questions import no_time
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
+from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
 from thermodata_reader_table.parquet.footer_check import check_footer
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
 
@@ -42,6 +43,12 @@ def damage_as_format_error(path: Path) -> Iterator[None]:
         raise FormatError(
             "not a readable Parquet file", where=path.name, got=(str(error).splitlines() or ["?"])[0]
         ) from None
+
+
+def _is_text(kind: Any) -> bool:
+    import pyarrow.types as pt
+
+    return bool(pt.is_string(value_type(kind)) or pt.is_large_string(value_type(kind)))
 
 
 class Table:
@@ -74,6 +81,7 @@ class Table:
         self.period = None if period is None else period_s(period, path.name)
         self.time: int | None = None
         self.unit: str | None = None
+        self.beside: tuple[int, ...] = ()  # columns that hold the rest of the time: its time of day, its parts
         if self.period is None:
             self.time, self.unit = self._find()
 
@@ -95,13 +103,17 @@ class Table:
 
         said = one_time(self.source.table, self.path.name)
         wanted, unit = said.get("column"), said.get("unit")
-        if isinstance(wanted, list):
+        others = list(wanted[1:]) if isinstance(wanted, list | tuple) else []
+        if isinstance(wanted, list | tuple):
             wanted = wanted[0]
+        self.beside = tuple(find_column(w, self.names, self.path.name) for w in others)
         if wanted == UNKNOWN and UNKNOWN not in self.names:
             raise unanswered("time.column", "the name of the column of times", self.path.name)
         units = [split_unit(n)[1] for n in self.names]
         if wanted is not None:
             column = find_column(wanted, self.names, self.path.name)
+            if self.beside:
+                return column, None
         else:
             stamped = [i for i, f in enumerate(self.schema) if pt.is_timestamp(f.type)]
             spans = [i for i, f in enumerate(self.schema) if pt.is_duration(f.type)]
@@ -110,19 +122,19 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                with damage_as_format_error(self.path):
-                    head = next(self.batches(100), None)
-                    rows = [list(r) for r in zip(*(c.to_pylist() for c in head.columns), strict=True)] if head else []
+                rows = self._first_rows()
                 try:
                     column = find_time(self.names, units, rows, self.path.name)[0]
                 except FormatError:
                     if (question := no_time(self.names, rows, self.path.name)) is None:
                         raise
                     raise question from None
-        if pt.is_timestamp(self.schema.field(column).type):
-            return column, None
+            kind = self.schema.field(column).type
+            if pt.is_timestamp(kind) or pt.is_date(kind) or _is_text(kind):
+                clock = clock_beside(column, self.names, self._first_rows(), self.path.name)
+                self.beside = () if clock is None else (clock,)
         kind = self.schema.field(column).type
-        if pt.is_date(kind) or pt.is_string(value_type(kind)) or pt.is_large_string(value_type(kind)):
+        if pt.is_timestamp(kind) or pt.is_date(kind) or pt.is_time(kind) or _is_text(kind):
             return column, None
         if not (pt.is_integer(kind) or pt.is_floating(kind) or pt.is_decimal(kind) or pt.is_duration(kind)):
             raise FormatError(
@@ -142,6 +154,12 @@ class Table:
                 raise unit_question(self.names[column], values, self.path.name)
             self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
+
+    def _first_rows(self) -> list[list[Any]]:
+        """Cells of the first rows."""
+        with damage_as_format_error(self.path):
+            head = next(self.batches(100), None)
+            return [list(r) for r in zip(*map(as_cells, head.columns), strict=True)] if head else []
 
     def _one_of(self, columns: list[int]) -> int:
         """The time among columns of times: the only one, or the one that is called so. FormatError for others."""
@@ -164,17 +182,24 @@ class Table:
         """The times of all rows, or of the first some: by the time column, or counted at the declared period."""
         import pyarrow as pa
 
-        top = self.places[self.time or 0].split(".")[0]
-        batches = self.batches(_ROWS, [top]) if rows is None else islice(self.batches(rows, [top]), 1)
-        kept = [b.column(str(self.time or 0)) for b in batches]
+        wanted = (self.time or 0, *self.beside)
+        tops = [self.places[i].split(".")[0] for i in wanted]
+        batches = self.batches(_ROWS, tops) if rows is None else islice(self.batches(rows, tops), 1)
+        kept = [[b.column(str(i)) for i in wanted] for b in batches]
         if self.time is None:
-            steps = np.arange(sum(map(len, kept)))
+            steps = np.arange(sum(len(k[0]) for k in kept))
             return time_formats.Stamps(to_ns(steps, self.period or 0.0), False, ())
         if not kept:
             return time_formats.Stamps(np.zeros(0, np.int64), False, ())
         with damage_as_format_error(self.path):
-            column = pa.chunked_array([c for k in kept for c in k.chunks], self.schema.field(self.time).type)
-            return self._times(column)
+            columns = [
+                pa.chunked_array([c for k in kept for c in k[n].chunks], self.schema.field(i).type)
+                for n, i in enumerate(wanted)
+            ]
+            if self.beside:
+                form = one_time(self.source.table, self.path.name).get("format")
+                return joined([self.names[i] for i in wanted], columns, self.source.timezone, form, self.path.name)
+            return self._times(columns[0])
 
     def _times(self, column: Any) -> time_formats.Stamps:
         """Times of the time column, or of a part of it. Local times want the whole column: the order of all its
@@ -190,9 +215,7 @@ class Table:
             return times_of_numbers(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
             form = one_time(self.source.table, self.path.name).get("format")
-            return time_formats.times_of_texts(
-                [str(v or "") for v in column.to_pylist()], self.source.timezone, form, self.path.name
-            )
+            return time_formats.times_of_texts(texts(column), self.source.timezone, form, self.path.name)
         zone = getattr(kind, "tz", None)
         naive = nanoseconds(column.cast(pa.timestamp("ns", zone)))
         if zone is not None:
