@@ -223,3 +223,19 @@ def test_a_table_with_a_label_is_none(tmp_path: Path) -> None:
     program = np.repeat(["O1001", "O1002", "O1003"], 30)
     pq.write_table(pa.table({"time": t, "program": program, "value": np.arange(90.0)}), tmp_path / "a.parquet")
     assert [s.name for s in Reader().describe(tmp_path / "a.parquet", Source()).signals] == ["program", "value"]
+
+
+def test_names_may_hold_dots_beside_structs_that_are_taken_apart(tmp_path: Path) -> None:
+    path = tmp_path / "x.parquet"
+    table = {
+        "t [s]": np.arange(5.0),
+        "Temp": np.arange(5.0) + 10,
+        "Temp. Motor [degC]": np.arange(5.0) + 20,
+        "Temp.a": np.arange(5.0) + 30,
+        "hall": pa.array([{"top.left": float(i), "b": 2.0 * i} for i in range(5)]),
+    }
+    pq.write_table(pa.table(table), path)
+    values = {name: v for (_, name), v in load(Reader(), path, Source()).values.items()}
+    assert set(values) == {"Temp", "Temp. Motor [degC]", "Temp.a", "hall/top.left", "hall/b"}
+    for name, first in (("Temp", 10.0), ("Temp. Motor [degC]", 20.0), ("Temp.a", 30.0), ("hall/top.left", 0.0)):
+        assert values[name].tolist() == [first + i for i in range(5)]

@@ -60,7 +60,7 @@ def _series(table: Table) -> Series | None:
 def _words(table: Table, column: int) -> list[str]:
     """Some of what a column of words holds, each once: read on until there are two, since the names of a table that was
     melted stand one after the other."""
-    top = table.places[column].split(".")[0]
+    top = table.places[column][0]
     found: dict[str, None] = {}
     for batch in table.batches(1_000_000, [top]):
         part = batch.column(str(column)).cast(pa.string())

@@ -24,24 +24,28 @@ def value_type(kind: Any) -> Any:
     return kind.value_type if pt.is_dictionary(kind) else kind
 
 
-def flat(schema: Any) -> tuple[Any, list[str]]:
-    """The schema with structs taken apart, and the path of each column; lists and maps are left out."""
+# a column, and the parts of a struct below it: names may themselves hold dots ("Temp. Motor [degC]")
+Place = tuple[str, ...]
+
+
+def flat(schema: Any) -> tuple[Any, list[Place]]:
+    """The schema with structs taken apart, and the place of each column; lists and maps are left out."""
     import pyarrow as pa
     import pyarrow.types as pt
 
     fields: list[Any] = []
-    places: list[str] = []
+    places: list[Place] = []
 
-    def add(field: Any, place: str, name: str, depth: int) -> None:
+    def add(field: Any, place: Place, name: str, depth: int) -> None:
         if pt.is_struct(field.type) and depth < 8:
             for inner in field.type:
-                add(inner, f"{place}.{inner.name}", f"{name}/{inner.name}", depth + 1)
+                add(inner, (*place, inner.name), f"{name}/{inner.name}", depth + 1)
         elif not pt.is_nested(field.type):
             fields.append(pa.field(name, field.type))
             places.append(place)
 
     for field in schema:
-        add(field, field.name, field.name, 0)
+        add(field, (field.name,), field.name, 0)
     return pa.schema(fields), places
 
 
@@ -53,14 +57,11 @@ def left_out(schema: Any) -> list[str]:
     return [f"columns of lists are not read: {', '.join(names[:8])}"] if names else []
 
 
-def column_at(batch: Any, place: str) -> Any:
-    """A column, or a part of a struct; a name may itself hold dots."""
+def column_at(batch: Any, place: Place) -> Any:
+    """A column, or a part of a struct."""
     import pyarrow.compute as pc
 
-    if place in batch.schema.names:
-        return batch.column(batch.schema.names.index(place))
-    first, *rest = place.split(".")
-    column = batch.column(batch.schema.names.index(first))
-    for name in rest:
+    column = batch.column(batch.schema.names.index(place[0]))
+    for name in place[1:]:
         column = pc.struct_field(column, name)
     return column

@@ -70,7 +70,7 @@ class Table:
             raise FormatError(
                 "two columns of one name, which Parquet's own readers mix up",
                 where=path.name,
-                got=twice[0],
+                got="/".join(twice[0]),
                 hint="write the file again with names of their own",
             )
         self.names = unique([str(n).strip() for n in self.schema.names])
@@ -89,12 +89,12 @@ class Table:
         """Tables with one column a signal, structs taken apart; FormatError where a damaged part is met."""
         import pyarrow as pa
 
-        wanted = list(dict.fromkeys(place.split(".")[0] for place in self.places)) if columns is None else columns
+        wanted = list(dict.fromkeys(place[0] for place in self.places)) if columns is None else columns
         with damage_as_format_error(self.path):
             for batch in self.file.iter_batches(rows, columns=wanted):
                 yield pa.table(
-                    [column_at(batch, place) for place in self.places if place.split(".")[0] in wanted],
-                    names=[str(i) for i, place in enumerate(self.places) if place.split(".")[0] in wanted],
+                    [column_at(batch, place) for place in self.places if place[0] in wanted],
+                    names=[str(i) for i, place in enumerate(self.places) if place[0] in wanted],
                 )
 
     def _find(self) -> tuple[int, str | None]:
@@ -183,7 +183,7 @@ class Table:
         import pyarrow as pa
 
         wanted = (self.time or 0, *self.beside)
-        tops = [self.places[i].split(".")[0] for i in wanted]
+        tops = [self.places[i][0] for i in wanted]
         batches = self.batches(_ROWS, tops) if rows is None else islice(self.batches(rows, tops), 1)
         kept = [[b.column(str(i)) for i in wanted] for b in batches]
         if self.time is None:
@@ -240,7 +240,7 @@ class Table:
         return "str"
 
     def _complete(self, column: int) -> bool:
-        meta, place = self.file.metadata, self.places[column]
+        meta, place = self.file.metadata, ".".join(self.places[column])
         for number in range(meta.num_row_groups):
             group = meta.row_group(number)
             leaf = next(
