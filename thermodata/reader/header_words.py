@@ -37,3 +37,5 @@ LABEL_WORDS = (
     *("gerät", "maschine", "anlage", "ort", "standort", "achse", "zařízení", "stroj", "místo", "osa"),
 )
 VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")
+# columns that hold the unit of the value beside them
+UNIT_WORDS = ("unit", "units", "einheit", "jednotka", "engineeringunits", "unité", "unità", "unidad")

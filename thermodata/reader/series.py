@@ -8,8 +8,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
-from thermodata.reader.interleaved import series_columns, words_of
+from thermodata.reader.header_words import UNIT_WORDS
+from thermodata.reader.interleaved import bare_header, series_columns, words_of
 
 SERIES = "series"  # the property of a signal that says which it is of
 Named = Callable[[str, str], str]
@@ -23,13 +25,15 @@ def slash(series: str, name: str) -> str:
 @dataclass(frozen=True, slots=True)
 class Series:
     """How the rows of one stream are taken apart. tags: the signals whose words name a series, together; held: the
-    signals that had a value in each series; streams: of each; named: a signal's name by series and name."""
+    signals that had a value in each series; streams: of each; named: a signal's name by series and name; units: of the
+    series whose one column of numbers has its unit in a column beside it: (that column, the unit)."""
 
     stream: str
     tags: tuple[str, ...]
     held: Mapping[str, frozenset[str]]
     streams: Mapping[str, str]
     named: Named = slash
+    units: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     def note(self) -> str:
         """What was done, for whoever reads the recording's notes."""
@@ -41,12 +45,22 @@ class Series:
         """The signals of each series, in place of those of the stream."""
         mine = [s for s in signals if s.stream == self.stream and s.name not in self.tags]
         made = [
-            replace(s, name=self.named(one, s.name), stream=self.streams[one], properties={**s.properties, SERIES: one})
+            replace(
+                s,
+                name=self.named(one, s.name),
+                stream=self.streams[one],
+                unit=s.unit if s.unit or s.dtype == "str" else self.unit(one),
+                properties={**s.properties, SERIES: one},
+            )
             for one, held in self.held.items()
             for s in mine
             if s.name in held
         ]
         return (*(s for s in signals if s.stream != self.stream), *made)
+
+    def unit(self, series: str) -> str | None:
+        """The unit that the rows of a series name for their one number."""
+        return self.units[series][1] if series in self.units else None
 
     def rows(self, block: Block) -> dict[str, Int1D]:
         """Which rows of a block each series has, also those that the first look did not meet ('' names none)."""
@@ -72,6 +86,12 @@ class TakenApart:
                 self._count(f"rows of '{one}'" if one else "rows that name no series", rows.size)
                 continue
             held = self.series.held[one]
+            if one in self.series.units:
+                column, unit = self.series.units[one]
+                same = np.array([word in ("", unit) for word in words_of(column, item.values[column][rows])], bool)
+                if not same.all():
+                    self._count(f"rows of '{one}' in another unit than '{unit}'", int((~same).sum()))
+                    rows = rows[same]
             values = {self.series.named(one, k): v[rows] for k, v in item.values.items() if k in held}
             flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
             at = None if item.at is None else item.at[rows]
@@ -117,7 +137,32 @@ def find_series(
         while stream in taken or stream in streams.values():
             stream += "#2"
         held[one], streams[one] = some | frozenset(kept), stream
-    return Series(block.stream, tags, held, streams, named) if len(held) > 1 else None
+    if len(held) < 2:
+        return None
+    return Series(block.stream, tags, held, streams, named, _units(block, names, held))
+
+
+def _units(block: Block, names: Array, held: Mapping[str, frozenset[str]]) -> dict[str, tuple[str, str]]:
+    """The unit that the rows of each series name, of those with one column of numbers. FormatError where one has
+    several."""
+    column = next((k for k, v in block.values.items() if v.dtype.kind == "O" and bare_header(k) in UNIT_WORDS), None)
+    units: dict[str, tuple[str, str]] = {}
+    if column is None:
+        return units
+    for one, some in held.items():
+        found = sorted(set(words_of(column, block.values[column][names == one])) - {""})
+        if sum(block.values[k].dtype.kind in "iuf" for k in some if k in block.values) != 1 or not found:
+            continue
+        if len(found) > 1:
+            raise FormatError(
+                f"'{one}' has several units",
+                where=f"column '{column}'",
+                expected="one",
+                got=" and ".join(found[:3]),
+                hint="give the values of each unit a name of their own",
+            )
+        units[one] = column, found[0]
+    return units
 
 
 def _names(block: Block, tags: Sequence[str]) -> list[str]:

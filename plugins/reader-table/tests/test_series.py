@@ -71,6 +71,33 @@ def test_ids_that_are_numbers_name_their_channels_with_their_header(tmp_path: Pa
     assert found == {f"Sensor-ID {d}/T": [20 + 10 * d + k / 8 for k in range(N)] for d in (1, 2)}
 
 
+def test_a_unit_in_each_row_is_that_of_its_series(tmp_path: Path) -> None:
+    units = ("degC", "um")
+    rows = [f"{stamp(10 * k)},{('T1', 'dX')[d]},{20 + d + k / 8},{units[d]}" for k in range(N) for d in (0, 1)]
+    data = read(tmp_path / "a.csv", "when,what,how much,unit", rows)
+    assert {s.name: s.unit for s in data.recording.signals if s.dtype != "str"} == {
+        "T1/how much": "degC",
+        "dX/how much": "um",
+    }
+    assert not data.losses
+    with pytest.raises(FormatError, match="'T1' has several units"):
+        read(tmp_path / "b.csv", "when,what,how much,unit", [*rows[:-4], rows[-4].replace("degC", "degF"), *rows[-3:]])
+
+
+def test_a_unit_that_changes_behind_the_first_look_is_a_loss(tmp_path: Path) -> None:
+    rows = [f"{stamp(k // 2 / 5)},h{k % 2},{k},degC" + " " * 40 for k in range(30_000)]
+    rows[10_001] = rows[10_001].replace("degC", "degF")
+    data = read(tmp_path / "a.csv", "time,host,T,unit", rows)
+    assert [loss.reason[:42] for loss in data.losses] == ["1 rows of 'h1' in another unit than 'degC'"]
+    assert 10_001 not in values(data)["h1/T"]
+
+
+def test_a_unit_beside_several_numbers_stays_a_column(tmp_path: Path) -> None:
+    rows = [f"{stamp(10 * k)},h{d},{20 + d},{k},degC" for k in range(N) for d in (0, 1)]
+    data = read(tmp_path / "a.csv", "time,host,T,n,unit", rows)
+    assert {s.unit for s in data.recording.signals} == {None}
+
+
 def test_a_sensor_that_comes_later_than_the_first_look_is_a_loss(tmp_path: Path) -> None:
     rows = [f"{stamp(k / 10)},h{k % 2},{k}" + " " * 40 for k in range(30_000)]
     rows[10_001] = f"{stamp(1000.1)},h7,{10_001}" + " " * 40

@@ -38,7 +38,10 @@ def taken_apart(stream: Stream, where: str, sheet: str | None) -> tuple[list[Str
                 series.streams[one],
                 replace(stream.times, t_ns=t_ns[rows]),
                 {new: stream.values[k][rows] for k, new in called.items()},
-                {new: stream.units[k] for k, new in called.items()},
+                {
+                    new: stream.units[k] or (None if stream.values[k].dtype == object else series.unit(one))
+                    for k, new in called.items()
+                },
                 stream.at[rows],
                 {new: stream.over[k][rows] for k, new in called.items() if k in stream.over},
                 stream.sheet,

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.errors import FormatError
-from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
+from thermodata.reader.header_words import NAME_WORDS, UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.text import timestamp
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Grid
@@ -24,9 +24,8 @@ _TIMES = (
     *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
-_UNITS = ("unit", "units", "einheit", "jednotka", "engineeringunits")
 _STATUS = (*("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity", "dataintegrity"),)
-_OTHERS = (*_STATUS, *_UNITS, "datatype")
+_OTHERS = (*_STATUS, *UNIT_WORDS, "datatype")
 _ROWS = 2000  # below the header, by which the times are known
 
 
@@ -120,7 +119,7 @@ def find_layout(
             if form is None:
                 continue
             zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
-            unit = next((names.index(n) for n in _UNITS if n in names), None)
+            unit = next((names.index(n) for n in UNIT_WORDS if n in names), None)
             series = Series((), {})
             if influx:
                 series = series_of_influx(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
