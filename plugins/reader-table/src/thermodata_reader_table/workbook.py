@@ -180,6 +180,7 @@ def _naming(sheet: str, error: ThermodataError) -> ThermodataError:
         ask=f"sheet '{sheet}': {error.ask}",
         declare=error.declare,
         meanwhile=error.meanwhile,
+        times=error.times,
     )
 
 
