@@ -66,12 +66,22 @@ class QuestionError(FormatError):
     """A log that reads in several ways and does not say which: only who wrote it knows.
 
     ask: the question, in one line. declare: the part of `sources.*.table` that answers it, with 'unknown' where the
-    answer goes; meanwhile: the same with an answer by which the file can be looked at, and never stored.
+    answer goes; meanwhile: the same with an answer by which the file can be looked at, and never stored; times: the
+    columns that are the time once it is answered, and signals until then.
     """
 
-    def __init__(self, what: str, *, ask: str, declare: Mapping[str, Any], meanwhile: Mapping[str, Any], **more: Any):
+    def __init__(
+        self,
+        what: str,
+        *,
+        ask: str,
+        declare: Mapping[str, Any],
+        meanwhile: Mapping[str, Any],
+        times: Sequence[str] = (),
+        **more: Any,
+    ):
         super().__init__(what, **more)
-        self.ask, self.declare, self.meanwhile = ask, declare, meanwhile
+        self.ask, self.declare, self.meanwhile, self.times = ask, declare, meanwhile, tuple(times)
 
 
 class CalibrationError(UsageError):

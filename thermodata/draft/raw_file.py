@@ -4,7 +4,7 @@ A workbook whose sheets are tests is as many files."""
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -28,10 +28,12 @@ _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes."""
+    """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes; times: columns
+    that are the time once it is answered."""
 
     ask: str
     declare: Mapping[str, Any]
+    times: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,13 +127,21 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:
                 raise
-            asked.append(Asked(question.ask, question.declare))
+            asked.append(Asked(question.ask, question.declare, question.times))
             table = merged(table, question.meanwhile)
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
+    recording = _without_times(recording, {name for a in asked for name in a.times})
     return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+
+
+def _without_times(recording: Recording, times: Set[str]) -> Recording:
+    """The recording without the columns that are its time once a question is answered: no channels are drafted of
+    them."""
+    left = tuple(s for s in recording.signals if s.name not in times and s.name.partition("/")[2] not in times)
+    return replace(recording, signals=left) if left else recording
 
 
 def _asked_order(note: str) -> str:

@@ -12,9 +12,11 @@ from thermodata.reader.text.time_pattern import is_date_text, is_time_of_day
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta
 # "t" is a time, "T" a temperature
 TIME_WORD = re.compile(
-    r"^(t|ts|t_s|time_s|(?i:epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
+    r"^(t|ts|t_s|time_s|[Tt]id|(?i:t_?stamp|epoch([ _](s|ms))?|unix([ _]?time)?([ _](s|ms))?|"
     r"time|zeit|čas|cas|temps|tiempo|tempo|datum|date|dátum|uhrzeit|timestamp|date[ _/]?time|datetime|"
-    r"(dat[eu]m?|dátum|data|fecha)( ?[/&+,_-] ?| (und|and|a|y|e|et) | )(time|(uhr)?zeit|čas|cas|hora|heure)|"
+    r"(dat[eu]m?|dato|dátum|data|fecha|дата)( ?[/&+,_-] ?| (und|and|a|y|e|et|i|en|og|och|és|и) | )"
+    r"(time|(uhr)?zeit|čas|cas|hora|heure|ora|czas|godzina|tijd|tid|idő|время)|"
+    r"ora|orario|czas|godzina|tijd|tijdstip|tidspunkt|klockslag|idő|időpont|время|"
     r"laufzeit|zeitstempel|elapsed([ _]?time)?|rel(ative)?[ _.]?time|heure|horodatage|hora|fecha|"
     r"時間|時間戳|日期|日期時間|时间|时间戳|时刻|日期时间|日時|日付|時刻|시간|시각|일시))\.?:?$"
 )

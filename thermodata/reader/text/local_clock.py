@@ -47,9 +47,11 @@ class LocalClock:
 class DayCount:
     """Times of day without a date, in file order: they count from the first, and each step back by half a day or more
     is the next midnight; in a file that stands newest first each step ahead by as much is the midnight before.
-    cycle_ns: an hour in place of the day where they are minutes and seconds."""
+    cycle_ns: an hour in place of the day where they are minutes and seconds, more than a day where they never begin
+    anew."""
 
     NOTE = "times of day without a date: counted from the first row"
+    NOTE_SPANS = "spans of time: counted from the first row"
     NOTE_MINUTES = "times in minutes and seconds: counted from the first row"
 
     def __init__(self, cycle_ns: int = _DAY) -> None:
@@ -61,6 +63,8 @@ class DayCount:
 
     @classmethod
     def note(cls, cycle_ns: int) -> str:
+        if cycle_ns > _DAY:
+            return cls.NOTE_SPANS
         return cls.NOTE if cycle_ns == _DAY else cls.NOTE_MINUTES
 
     @property

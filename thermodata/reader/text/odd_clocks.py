@@ -44,6 +44,7 @@ def clock_question(
         got=f"{days[0]} and {first}",
         hint=f"declare table: {{time: {{column: {column}, format: '%d.%m.%Y %H:%M:%S'}}}} in strptime's letters, or "
         "time: {period: 10 s}",
+        times=[names[place], names[other]],
         ask=f"format of the time in columns {column[0]} and {column[1]}, in strptime's letters, or period: 10 s? "
         f"'{days[0]}' tells no hour, and '{first}' is not read",
         declare={"time": {"column": column, "format": UNKNOWN}},

@@ -15,6 +15,7 @@ from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
+from thermodata.reader.text.spans import are_spans
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -158,6 +159,9 @@ def find_time(
         return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
     if (units[0] or "").strip().lower() in SECONDS and share(0, is_number, 0.6):
         return (0,)
+    spans = [i for i in range(width) if (is_time_header(names[i]) or not _named(names[i])) and _are_rising(filled[i])]
+    if spans:
+        return (spans[0],)
     damaged = [i for i in range(width) if i not in standing and share(i, is_dated, 0.3)]
     if damaged:
         return (damaged[0],)
@@ -168,6 +172,17 @@ def find_time(
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _named(header: str) -> bool:
+    """Whether a column has a name of its own."""
+    return re.fullmatch(r"column \d+|Unnamed: \d+|index", header) is None
+
+
+def _are_rising(cells: Sequence[Cell]) -> bool:
+    """Whether cells are spans of time (10 sec, 0 days 00:00:10) that differ."""
+    texts = [c for c in cells if isinstance(c, str)]
+    return len(texts) == len(cells) > 1 and len(set(texts)) > 1 and are_spans(texts)
 
 
 def _tell_the_hour(cells: Sequence[Cell]) -> bool:

@@ -23,6 +23,7 @@ from thermodata.reader.text.clock_letters import refuse_unread, with_clock
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import declared_parts
 from thermodata.reader.text.local_clock import DayCount
+from thermodata.reader.text.spans import SPAN, are_spans
 from thermodata.reader.text.time_pattern import DATE, DATETIME, DAY_NS, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
 from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
@@ -124,6 +125,8 @@ def find_format(
     """The format of cells of one column, whether they name an offset from UTC or not; errors as above. order: the
     declared one of day and month."""
     few = _spread(cells, _FEW)
+    if share(few, SPAN) > 0.8 and are_spans(more() or cells):
+        return SPAN
     if share(few, ELAPSED) > 0.8 and _goes_on(more() or cells, ELAPSED):
         return ELAPSED
     for least in (0.8, 0.3):

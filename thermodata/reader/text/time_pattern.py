@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
@@ -10,6 +11,7 @@ from thermodata.reader.text.clock_pattern import BLANK, CLOCK, HALF
 from thermodata.reader.text.zone_words import ZONE
 
 DAY_NS = 86_400 * 1_000_000_000
+NEVER_NS = 40_000 * DAY_NS
 
 _YEAR = r"(?:(?P<Y>\d{4})|(?P<y>\d{2}))"
 _DATES = {
@@ -53,6 +55,7 @@ class TimeFormat:
     zoned: bool | None = None
     strptime: str | None = None  # a declared format with names of months and the like
     columns: int = 1  # that hold its parts, from its own on
+    reads: Callable[[str], int] | None = None  # of what no pattern fits: nanoseconds of a cell, NAT where it is none
 
     @property
     def of_day(self) -> bool:
@@ -61,7 +64,9 @@ class TimeFormat:
 
     @property
     def cycle_ns(self) -> int:
-        """Behind what a time without a date begins anew: an hour where it has no hours, else a day."""
+        """Behind what a time without a date begins anew: an hour where it has no hours, else a day; a span never."""
+        if self.reads is not None:
+            return NEVER_NS
         return DAY_NS // 24 if self.pattern is not None and "N" in self.pattern.groupindex else DAY_NS
 
 

@@ -28,20 +28,33 @@ def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionErr
     if worded is None:
         return time_question(names, data, where)
     place, words = worded
-    return _format_question((place,), guess_format(words), words[0], where)
+    return _format_question((place,), names, guess_format(words), words[0], where)
 
 
 def worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
     """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
-    None where there is no such column."""
+    else of the one column of texts that are stamps of one format, whatever it is called. None where there is none."""
     if not any(sum(is_number(r[i]) for r in data) > 0.6 * len(data) for i in range(len(names))):
         return None
+    stamped: list[tuple[int, list[str]]] = []
     for i, name in enumerate(names):
         cells = [r[i] for r in data if r[i] not in ("", None)]
         words = [c.strip() for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
-        if is_time_header(name) and cells and len(words) > 0.8 * len(cells):
+        if not cells or len(words) <= 0.8 * len(cells):
+            continue
+        if is_time_header(name):
             return i, words
-    return None
+        if _are_stamps(words):
+            stamped.append((i, words))
+    return stamped[0] if len(stamped) == 1 else None
+
+
+def _are_stamps(words: Sequence[str]) -> bool:
+    """Whether texts are dates with a time of day, in one format, that differ from row to row."""
+    if len(words) < _FEWEST_ROWS or 2 * len(set(words)) < len(words):
+        return False
+    form = guess_format(words)
+    return form is not None and re.search("%[yY]", form) is not None and re.search("%[HI]", form) is not None
 
 
 def time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
@@ -50,12 +63,13 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
     if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
         return None
-    rising = _rising(data)
+    place, rising = _likely_time(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
-        return unit_question(names[0], rising, where, 1)
+        return unit_question(names[place], rising, where, place + 1)
     epoch = None if rising is None else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
-    unit = epoch or (low if (low := names[0].strip().lower()) in SECONDS else "s")
-    other = f"; or is '{names[0]}' the time? then time: {{column: 1, unit: {unit}}}" if rising is not None else ""
+    unit = epoch or (low if (low := names[place].strip().lower()) in SECONDS else "s")
+    proposed = f"; or is '{names[place]}' the time? then time: {{column: {place + 1}, unit: {unit}}}"
+    other = proposed if rising is not None else ""
     return QuestionError(
         "no time column found",
         where=where,
@@ -68,9 +82,22 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     )
 
 
-def _rising(data: Sequence[Sequence[Cell]]) -> Array | None:
-    """The numbers of the first column where they rise from row to row in even steps, as a time does or a count."""
-    values = np.array([v for r in data if (v := number_of(r[0])) is not None], np.float64)
+def _likely_time(data: Sequence[Sequence[Cell]]) -> tuple[int, Array | None]:
+    """(place, numbers) of the column that may be the time: the first one where its numbers rise in even steps, but for
+    another that does where the first only numbers the rows."""
+    first = _rising(data, 0)
+    if first is None or first[0] not in (0, 1) or not (np.diff(first) == 1).all():
+        return 0, first
+    for place in range(1, len(data[0])):
+        values = _rising(data, place)
+        if values is not None and not (np.diff(values) == 1).all():
+            return place, values
+    return 0, first
+
+
+def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
+    """The numbers of a column where they rise from row to row in even steps, as a time does or a count."""
+    values = np.array([v for r in data if (v := number_of(r[place])) is not None], np.float64)
     steps = np.diff(values)
     even = values.size >= max(2, 0.9 * len(data)) and bool((steps > 0).all())
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
@@ -129,15 +156,15 @@ def joined_question(
 
     form, first = stamps(place)
     if form is not None and "%H" in form:
-        return _format_question((place,), form, first, where)
+        return _format_question((place,), names, form, first, where)
     if form is not None and (of_day := _joined_clock(place, names, data)) is not None:
-        return _format_question((place, of_day[0]), f"{form} {of_day[1]}", first, where)
+        return _format_question((place, of_day[0]), names, f"{form} {of_day[1]}", first, where)
     if not mostly([r[place] for r in data], is_clocked, 0.8, len(data)):
         return None
     for i in (i for i, name in enumerate(names) if i != place and is_time_header(name)):
         form, first = stamps(i)
         if form is not None and "%H" not in form:
-            return _format_question((i, place), form, first, where)
+            return _format_question((i, place), names, form, first, where)
     return None
 
 
@@ -181,6 +208,7 @@ def zone_question(names: list[str], data: list[list[Cell]], where: str, columns:
             got=cell,
             hint=f"declare what it is in the source: timezone: {shown}; and table: {{time: {{column: {i + 1}, "
             f"format: '{form if spelled else '%Y-%m-%d %H:%M:%S ' + word}'}}}}",
+            times=[names[i]],
             ask=f"zone of the times: what is '{word}'? write timezone: {shown} into this source",
             declare=said,
             meanwhile=said if spelled else {"time": {"period": 1.0}},
@@ -194,7 +222,9 @@ def without_word(cell: Cell) -> Cell:
     return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
 
 
-def _format_question(columns: tuple[int, ...], form: str | None, got: str, where: str) -> QuestionError:
+def _format_question(
+    columns: tuple[int, ...], names: list[str], form: str | None, got: str, where: str
+) -> QuestionError:
     """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
     column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
     asked = (
@@ -207,6 +237,7 @@ def _format_question(columns: tuple[int, ...], form: str | None, got: str, where
         expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
         got=got,
         hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}",
+        times=[names[c] for c in columns],
         ask=f"format of the times: is '{got}' {form}?" if form else asked,
         declare=said,
         meanwhile=said if form else {"time": {"period": 1.0}},

@@ -45,6 +45,10 @@ def parse(cells: Any, form: TimeFormat) -> Int1D:
     result = np.full(n, NAT, np.int64)
     if not n:
         return result
+    if form.reads is not None:
+        cells = [c or "" for c in column.to_pylist()]
+        each = {c: form.reads(c) for c in set(cells)}
+        return np.array([each[c] for c in cells], np.int64)
     if form.pattern is None:
         return _by_strptime(column.to_pylist(), form)
     column = _plain_blanks(column)
@@ -137,6 +141,8 @@ def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
 
 def parse_one(cell: str, form: TimeFormat) -> int:
     """One cell; NAT where it is no time."""
+    if form.reads is not None:
+        return form.reads(cell)
     if form.strptime is not None:
         return int(_by_strptime([cell], form)[0])
     match = form.pattern.fullmatch(cell) if form.pattern else None

@@ -150,8 +150,10 @@ def bind(plan: TestPlan) -> None:
             try:
                 raw, signal, unit = find_signal(source.raws, channel.signal)
             except NoSignalError as error:
-                if not channel.may_lack(plan.test.id):
-                    plan.problems.append(_no_signal(name, error, plan.test.id))
+                if _is_the_time(channel.signal, source.spec):
+                    plan.notes.append(f"channel '{name}' is the time of '{source.name}': its line can be deleted")
+                elif not channel.may_lack(plan.test.id):
+                    plan.problems.append(_no_signal(name, error, plan.test.id, source.spec))
                 continue
             except UsageError as error:
                 plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
@@ -185,10 +187,27 @@ def _say_what_parts_it(plan: TestPlan) -> None:
         )
 
 
-def _no_signal(name: str, error: NoSignalError, test: str) -> str:
+def _no_signal(name: str, error: NoSignalError, test: str, spec: SourceSpec) -> str:
     said = "; ".join(str(error).splitlines())
     lead = " Or" if "try: " in said else "; try:"
-    return f"channel '{name}': {said}{lead} 'missing_in: [{test}]' in the channel where the test's files lack it"
+    time = "; delete the channel where its column is the time that is declared" if _times(spec) else ""
+    return f"channel '{name}': {said}{lead} 'missing_in: [{test}]' in the channel where the test's files lack it{time}"
+
+
+def _is_the_time(wanted: str, spec: SourceSpec) -> bool:
+    """Whether a name is that of a column which the source declares as its time: that is no signal."""
+    return any(isinstance(c, str) and c.casefold() == wanted.casefold() for c in _times(spec))
+
+
+def _times(spec: SourceSpec) -> list[int | str]:
+    """The columns that a source declares as its times."""
+    said = spec.table.time if spec.table is not None else None
+    each = said if isinstance(said, list) else [said] if said is not None else []
+    return [c for one in each if one.column is not None for c in _listed(one.column)]
+
+
+def _listed(columns: int | str | list[int | str]) -> list[int | str]:
+    return columns if isinstance(columns, list) else [columns]
 
 
 def _unit_problem(channel: Channel, unit: str | None, signal: Signal, raws: Iterable[RawStream]) -> str | None:

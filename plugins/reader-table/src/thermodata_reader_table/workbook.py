@@ -186,6 +186,7 @@ def _naming(sheet: str, error: ThermodataError) -> ThermodataError:
         ask=f"sheet '{sheet}': {error.ask}",
         declare=error.declare,
         meanwhile=error.meanwhile,
+        times=error.times,
     )
 
 

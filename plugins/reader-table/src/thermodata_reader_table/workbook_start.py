@@ -29,7 +29,7 @@ def begun(times: Stamps, head: Sequence[Sequence[Any]], source: Source, zone: st
     if begin is None:
         notes = (*times.notes, *([doubt] if doubt else []))
         return Stamps(times.t_ns, False, notes, times.zero_ns, times.of_day)
-    known = [n for n in times.notes if n not in (DayCount.NOTE, DayCount.NOTE_MINUTES)]
+    known = [n for n in times.notes if n not in (DayCount.NOTE, DayCount.NOTE_MINUTES, DayCount.NOTE_SPANS)]
     if begin.of_day:
         local_ns = np.where(since_ns == NAT, NAT, since_ns + np.int64(begin.ns))
         dated = times_of_dates(local_ns.view("datetime64[ns]"), zone)
