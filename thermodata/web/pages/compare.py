@@ -15,6 +15,7 @@ from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.difference import Difference
 from thermodata.modelling.differences import Course, between, over_tests
+from thermodata.modelling.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.history import versions
@@ -24,8 +25,8 @@ from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.models import ModelRow, model_rows, term_order
-from thermodata.view.predictions import residual_courses, residual_strips
-from thermodata.view.residuals import Key, against, autocorrelation, predicted_tests, residuals
+from thermodata.view.predictions import Prediction, residual_courses, residual_strips
+from thermodata.view.residuals import Key, against, predicted_tests, residuals
 from thermodata.web.command import command
 from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
@@ -234,8 +235,12 @@ def _undo(newest: ModelRow, models: list[ModelRow]) -> ModelRow | None:
     return next((m for m in models if m.model == newest.parent), None)
 
 
-def _correlated(parts: list[Any]) -> Chart:
-    lag_s, correlation = autocorrelation(parts, _MOST_LAG_S)
+def _correlated(parts: list[Prediction]) -> Chart:
+    left = [np.where(p.valid, p.residual, np.nan) for p in parts]
+    steps = np.concatenate([np.diff(p.t_s) for p in parts])
+    step_s = float(np.median(steps)) if len(steps) else 1.0
+    correlation = autocorrelation(left, lags_told(left, step_s, _MOST_LAG_S))
+    lag_s = step_s * np.arange(len(correlation))
     near = [Limit(1 / np.e, "1/e")]
     panel = Panel(
         "autocorrelation of the residual",
