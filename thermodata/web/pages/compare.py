@@ -20,7 +20,7 @@ from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.history import versions
 from thermodata.report.words import base_role, pooled
-from thermodata.schema.result import Score
+from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names
@@ -95,7 +95,7 @@ def show(request: Request) -> Response:
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
         roles=_roles([r.scores for r in results]),
         over_roles=_over_roles(lines, courses),
-        parameters=_parameters([r.parameters for r in results]),
+        parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
         chain=chain,
         waterfall=_waterfall(chain),
@@ -194,9 +194,10 @@ def _roles(scores: list[list[Score]]) -> list[tuple[str, list[float | None]]]:
     return [(role, [pooled(each, role) for each in scores]) for role in names]
 
 
-def _parameters(each: list[dict[str, Any]]) -> list[tuple[str, list[Any]]]:
-    names = dict.fromkeys(name for some in each for name in some)
-    return [(name, [some.get(name) for some in each]) for name in names]
+def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
+    """(name, those of the results that have it)."""
+    names = dict.fromkeys(name for result in results for name in result.parameters)
+    return [(name, [result if name in result.parameters else None for result in results]) for name in names]
 
 
 def _maps(
