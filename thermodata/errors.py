@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, Self
 
 
 class ThermodataError(Exception):
@@ -26,6 +27,12 @@ class ThermodataError(Exception):
     ) -> None:
         self.what, self.where, self.expected, self.got, self.hint = what, where, expected, got, hint
         super().__init__(str(self))
+
+    def at(self, where: str) -> Self:
+        """The same error, said of another place."""
+        moved = copy(self)
+        moved.where = where
+        return moved
 
     def __reduce__(self) -> tuple[Any, ...]:
         # by default its text would become its `what` where it comes from another process

@@ -253,6 +253,30 @@ def test_nothing_to_fit_is_said(world: Dataset, spec: Spec) -> None:
         fit_model(spec(*EFFECTS), dead)
 
 
+@pytest.mark.parametrize("samples", [1, 2])
+def test_a_step_about_as_long_as_the_tests(world: Dataset, spec: Spec, samples: int) -> None:
+    def short(t: TestData) -> TestData:
+        at = slice(None, samples)
+        values, valid = ({k: v[at] for k, v in of.items()} for of in (t.values, t.valid))
+        return replace(t, t_s=43200.0 * np.arange(samples), values=values, valid=valid, in_window=t.in_window[at])
+
+    coarse = replace(world, tests=tuple(short(t) for t in world.tests), step_s=43200.0)
+    if samples == 1:
+        with pytest.raises(UsageError, match="step leaves one sample a test"):
+            fit_model(spec(*EFFECTS), coarse)
+    else:
+        fitted = fit_model(spec("spindle_bearing"), coarse)
+        assert all(p.low is None or np.isnan(p.low) for p in fitted.parameters().values())
+
+
+def test_a_phase_that_no_test_has_is_refused_with_those_that_there_are(world: Dataset, spec: Spec) -> None:
+    tests = tuple(replace(t, phases={"idle": (0.0, 20000.0)}) for t in world.tests)
+    for wanted in ({"phases": ["warming"]}, {"phases": ["idle", "warming"]}):
+        with pytest.raises(UsageError, match="no phase 'warming'") as error:
+            fit_model(spec(*EFFECTS, **wanted), replace(world, tests=tests))
+        assert error.value.expected == "cooling, heating, idle, steady"
+
+
 def test_an_empty_model_predicts_nothing(world: Dataset, spec: Spec) -> None:
     fitted = fit_model(spec(), world).responses[0]
     assert not fitted.predict(world.tests[0]).any()

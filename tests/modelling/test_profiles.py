@@ -12,8 +12,10 @@ from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.apart import cooled
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fitted_response import Values
 from thermodata.modelling.joint import fitted_problem
 from thermodata.modelling.labels import fastest_first
+from thermodata.modelling.parameters import interval
 from thermodata.modelling.profile import Profile
 from thermodata.modelling.profiles import profiles_of
 from thermodata.schema.result import Check, Parameter
@@ -272,3 +274,25 @@ def test_where_few_samples_show_the_same_they_are_searched_instead_of_all(
     assert sizes
     assert max(few) < min(sizes) / 2
     assert found.low == pytest.approx(whole.low, rel=0.1)
+
+
+def test_an_interval_beyond_the_bounds_says_that_nothing_is_known(spec: Spec) -> None:
+    """A driver that hardly moves tells nothing of its lag."""
+    one = {"effect": "lag", "id": "l", "drivers": {"u": "T"}, "bounds": {"tau": [1.0, 600.0]}}
+    tests = [_test(seed, 3.0, 6.0, 0.3, {60.0: 0.01}) for seed in (5, 6)]
+    fitted = _fit(spec, tests, one)
+    found = fitted.parameters()["l.tau"]
+    assert (found.low, found.high) == (None, None)
+    (check,) = [c for c in fitted.checks() if c.name == "not_determined:l.tau"]
+    assert not check.passed
+    assert "from 1 to 600 min" in check.advice
+    known = _fit(spec, [_test(seed, 3.0, 6.0, 0.3, {60.0: 3.0}) for seed in (5, 6)], one)
+    assert not [c for c in known.checks() if c.name.startswith("not_determined")]
+
+
+def test_an_end_beyond_a_bound_is_open() -> None:
+    values = Values({"tau": 200.0}, {"gain": 1.0}, half={"tau": 1.5, "gain": 3.0}, log_names=frozenset({"tau"}))
+    low, high = interval("tau", values, (1.0, 600.0))
+    assert low == pytest.approx(200.0 / np.exp(1.5))
+    assert high is None
+    assert interval("gain", values) == (-2.0, 4.0)

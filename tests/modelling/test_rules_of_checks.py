@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import bound_checks, checks
+from thermodata.modelling.fitted_response import Values
 from thermodata.modelling.parameters import gain_unit
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.schema.result import Check
@@ -57,9 +58,7 @@ def term(
 ) -> Any:
     """A fitted term as the checks see it."""
     effect = effect or Straight()
-    values = SimpleNamespace(
-        params=dict(params or {"tau": 30.0}), gains={"gain": gain}, sd=dict(sd or {}), silent=frozenset(silent)
-    )
+    values = Values(dict(params or {"tau": 30.0}), {"gain": gain}, dict(sd or {}), silent=frozenset(silent))
     bound = SimpleNamespace(
         spec=SimpleNamespace(fixed=dict.fromkeys(fixed, 1.0), bounds=dict(bounds or {})),
         covers=lambda test: True,

@@ -34,7 +34,7 @@ def test_what_several_tests_have_for_the_same_reason_stands_together_and_each_mo
         ("sensor", ["two"], None, "T_b is stuck"),
         ("step", ["one"], 90.0, "a slip"),
         ("step", ["two"], 30.0, "a slip"),
-        ("parameters", [""], None, "refit it"),
+        ("parameters", [None], None, "refit it"),
     ]
     assert log_faults([]) == []
 
@@ -43,10 +43,16 @@ def test_the_terminal_names_all_tests_of_a_fault_in_one_line() -> None:
     text = diagnosis_text(diagnosis().model_copy(update={"artefacts": FAULTS}))
     assert "  ! sensor in shop/one, shop/two. T_a is stuck\n" in text
     assert "  ! step in shop/one at 30 s: 5.00 um. a slip\n" in text
-    assert "  ! parameters in shop. refit it" in text
+    assert "  ! parameters in all tests of shop. refit it" in text
 
 
 def test_a_size_without_a_moment_is_told_without_one() -> None:
     turned = Artefact(kind="sign", campaign="shop", test="two", at_s=None, size_um=2.94, why="it is turned")
     text = diagnosis_text(diagnosis().model_copy(update={"artefacts": [turned]}))
     assert "  ! sign in shop/two: 2.94 um. it is turned" in text
+
+
+def test_what_all_tests_share_names_no_test_and_is_null_in_json() -> None:
+    (shared,) = log_faults([fault("parameters", "", "refit it")])
+    assert shared.where == ["all tests"]
+    assert '"test":null' in fault("parameters", "").model_dump_json()

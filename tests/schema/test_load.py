@@ -34,7 +34,7 @@ def test_the_example_of_the_design_loads() -> None:
         ("window: [0 h, 16 h]", "phases: {late: [17 h, 18 h]}, window: [0 h, 16 h]", 27, "outside the test's window"),
         ("id: feed_z10", "id: SP9000", 25, "stands twice"),
         ("source: daq, signal: n,", "source: dag, signal: n,", 16, "did you mean 'daq'"),
-        ("T_bearing_front:", "T__front:", 12, "T__front"),
+        ("T_bearing_front:", "T__front:", 14, "T__front"),
         ("  t03:", "  jump_z:", 22, "stands twice"),
     ],
 )
@@ -49,6 +49,34 @@ def test_a_mistake_names_its_line_and_the_right_word(
         load_campaign(path)
     assert f"c.yaml:{line}" in str(caught.value)
     assert says in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("campaign", "campaign_1"),
+        ("T__front", "T_front"),
+        ("1st", "ch_1st"),
+        ("dx", "channels 'dX' and 'dx' differ only in case"),
+    ],
+)
+def test_a_wrong_name_of_a_channel_is_told_at_its_line(tmp_path: Path, name: str, says: str) -> None:
+    path = tmp_path / "c.yaml"
+    text = """schema: thermodata/campaign/1
+id: c
+sources: {daq: {reader: crio, files: "raw/{test}.tdms"}}
+channels:
+  dX: {source: daq, signal: X, quantity: temperature}
+  NAME: {source: daq, signal: Y, quantity: temperature}
+tests: [{id: one, kind: mixed}]
+"""
+    path.write_text(text.replace("NAME", name))
+    with pytest.raises(SpecError) as caught:
+        load_campaign(path)
+    assert caught.value.where == f"c.yaml:6 (channels.{name})"
+    assert caught.value.got == name
+    assert says in str(caught.value)
+    assert caught.value.hint
 
 
 def test_nested_aliases_do_not_fill_the_memory(tmp_path: Path) -> None:

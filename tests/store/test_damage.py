@@ -8,8 +8,9 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
-from store_fakes import CAMPAIGN, NpzReader, write_campaign
+from store_fakes import CAMPAIGN, NpzReader, daq, times, write_campaign, write_log
 
 from thermodata.cli.app import run
 from thermodata.errors import StoreError
@@ -75,6 +76,36 @@ def test_an_altered_file_is_found_by_the_check_and_made_again(filled: Store, cam
     assert ingest(filled, campaign).losses == []
     assert path.read_bytes() == whole
     assert samples(filled) == before
+
+
+@pytest.mark.parametrize("repair", [False, True])
+@pytest.mark.parametrize("harm", ["gone", "cut", "altered"])
+def test_one_damaged_stream_of_several_is_read_again(store: Store, tmp_path: Path, harm: str, repair: bool) -> None:
+    if harm == "altered" and not repair:
+        pytest.skip("only the check opens all pages")
+    campaign = write_campaign(
+        tmp_path / "lab",
+        CAMPAIGN.replace(
+            "  T_b:", "  T_c: {source: daq, signal: T3, unit: degC, quantity: temperature, at: hall.top}\n  T_b:"
+        ),
+    )
+    for i, test in enumerate(("one", "two")):
+        own = daq(seed=i)
+        slow = {"t_ns": times(120, 10.0), "T3": 20 + np.arange(120) / 100}
+        write_log(campaign.parent / f"raw/{test}_a.npz", {**own, "slow": slow})
+    assert ingest(store, campaign).losses == []
+    before = samples(store)
+    (path,) = (p for p in files(store, "raw") if p.name.endswith("-main.parquet"))
+    whole = path.read_bytes()
+    spoil(path, harm)
+    if repair:
+        check_store(store, repair=True)
+    NpzReader.reads = 0
+    assert ingest(store, campaign).losses == []
+    assert NpzReader.reads == 1
+    assert path.read_bytes() == whole
+    assert samples(store) == before
+    assert check_store(store).damaged == []
 
 
 @pytest.mark.parametrize("harm", ["gone", "cut"])

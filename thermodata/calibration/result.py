@@ -83,11 +83,11 @@ class CalibrationResult:
 
 
 def check(name: str, value: float | None, threshold: float | None, passed: bool, advice: str) -> Check:
-    """One row of a calibration's checks; advice is empty where there is nothing to do."""
+    """One row of a calibration's checks; advice is None where there is nothing to do."""
     return {
         "name": name,
         "value": None if value is None else float(value),
         "threshold": None if threshold is None else float(threshold),
         "passed": bool(passed),
-        "advice": "" if passed else advice,
+        "advice": None if passed else advice,
     }

@@ -12,6 +12,7 @@ from importlib import import_module
 import click
 
 from thermodata.cli.common import known_failure
+from thermodata.cli.interrupting import noticing_interrupts
 from thermodata.errors import ThermodataError, unknown_name
 from thermodata.version import __version__
 
@@ -117,41 +118,44 @@ def run(argv: Sequence[str] | None = None) -> int:
         # a letter that the terminal's encoding lacks is shown by its number
         if hasattr(stream, "reconfigure") and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(errors="backslashreplace")
-    try:
-        code = cli.main(args=None if argv is None else list(argv), prog_name="thermodata", standalone_mode=False)
-        sys.stdout.flush()
-        return code if isinstance(code, int) else 0
-    except ThermodataError as error:
+    with noticing_interrupts() as interrupted:
+        try:
+            code = cli.main(args=None if argv is None else list(argv), prog_name="thermodata", standalone_mode=False)
+            sys.stdout.flush()
+            return code if isinstance(code, int) else 0
+        except (KeyboardInterrupt, click.Abort):
+            return _fail("interrupted", 1)
+        except Exception as error:
+            return _fail("interrupted", 1) if interrupted() else _failed(error)
+
+
+def _failed(error: Exception) -> int:
+    """Says what went wrong; the exit code."""
+    if isinstance(error, ThermodataError):
         return _fail(str(error), error.exit_code)
-    except click.UsageError as error:
+    if isinstance(error, click.UsageError):
         where = f"\ntry: {error.ctx.command_path} --help" if error.ctx else ""
         return _fail(error.format_message() + where, 2)
-    except click.ClickException as error:
+    if isinstance(error, click.ClickException):
         return _fail(error.format_message(), 1)
-    except (KeyboardInterrupt, click.Abort):
-        return _fail("interrupted", 1)
-    except BrokenPipeError:
+    if isinstance(error, BrokenPipeError):
         # the reader of stdout has gone (| head): that's its right; the interpreter must not flush again
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except OSError as error:
-        known = known_failure(error)
-        if known is not None:
-            return _fail(str(known), known.exit_code)
+    known = known_failure(error)
+    if known is not None:
+        return _fail(str(known), known.exit_code)
+    if isinstance(error, OSError):
         return _fail(f"{error.strerror or error}" + (f"\nwhere: {error.filename}" if error.filename else ""), 1)
-    except Exception as error:
-        known = known_failure(error)
-        if known is not None:
-            return _fail(str(known), known.exit_code)
-        if os.environ.get("THERMODATA_DEBUG"):
-            raise
-        last = traceback.extract_tb(error.__traceback__)[-1]
-        return _fail(
-            f"a defect in thermodata: {type(error).__name__}: {error}\n"
-            f"where: {last.filename}:{last.lineno} in {last.name}\n"
-            "try: THERMODATA_DEBUG=1 shows the whole traceback",
-            1,
-        )
+    if os.environ.get("THERMODATA_DEBUG"):
+        raise error
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return _fail(
+        f"a defect in thermodata: {type(error).__name__}: {error}\n"
+        f"where: {last.filename}:{last.lineno} in {last.name}\n"
+        "try: THERMODATA_DEBUG=1 shows the whole traceback",
+        1,
+    )
 
 
 def _warn(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:

@@ -86,7 +86,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         ],
     )
     failed = [
-        f"  ! {row['calibration']}: {c['name']}: {c.get('advice', '')}"
+        f"  ! {row['calibration']}: {c['name']}: {c.get('advice') or ''}"
         for row in shown
         for c in row.get("checks") or []
         if not c.get("passed", True)

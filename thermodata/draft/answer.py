@@ -64,7 +64,7 @@ def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | N
                 "measuring": t.measuring,
                 "files": t.files,
                 "sure": t.kind.comment.startswith("sure"),
-                "basis": t.kind.comment,
+                "basis": t.kind.comment or None,
                 "questions": [*filter(None, (t.kind.question,)), *t.doubts, "role"],
                 "role_hint": t.kind.role_hint,
             }

@@ -14,8 +14,8 @@ from itertools import combinations, pairwise
 import numpy as np
 
 from thermodata.modelling.drivers import ZERO_AT_REST, names_of, start_value, step_s
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.sensitivity import Name, Sensitivity, bounds_of, sensitivity
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, bounds_of
+from thermodata.modelling.sensitivity import Name, Sensitivity, sensitivity
 from thermodata.modelling.slow_noise import Noise, make_noise
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.result import Check

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.modelling.fitted_response import FittedTerm
-from thermodata.modelling.parameters import by_kelvin
+from thermodata.modelling.fitted_response import FittedTerm, bounds_of
+from thermodata.modelling.parameters import UNDETERMINED, by_kelvin, interval
 from thermodata.plugin import Param
 from thermodata.schema.result import Check
 
@@ -14,7 +14,7 @@ AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 
 def at_bounds(term: FittedTerm) -> list[Check]:
     """Parameters and gains of an effect that a bound holds, and gains beyond what the library thinks possible."""
-    return [*_bounds(term), *_gain_bounds(term), *_plausible(term)]
+    return [*_bounds(term), *_undetermined(term), *_gain_bounds(term), *_plausible(term)]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:
@@ -24,7 +24,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
         for param in term.effect.params:
             if param.name in term.bound.spec.fixed or param.name in values.silent:
                 continue
-            low, high = term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
+            low, high = bounds_of(term, param)
             value = values.params[param.name]
             for end in (low, high):
                 if abs(value - end) <= AT_BOUND * (abs(end) if low > 0 else high - low):
@@ -38,6 +38,28 @@ def _bounds(term: FittedTerm) -> list[Check]:
                             f"behind it, or the bound is wrong{_wider(param, end)}",
                         )
                     )
+    return rows
+
+
+def _undetermined(term: FittedTerm) -> list[Check]:
+    """Parameters whose interval holds all values between their bounds: one that reaches to 1e17 min says no more."""
+    rows = []
+    for group, values in term.groups.items():
+        tag = f"[{group}]" if group else ""
+        for param in term.effect.params:
+            ends = interval(param.name, values, bounds_of(term, param))
+            if ends == (None, None) and (param.name in values.half or param.name in values.ends):
+                low, high = bounds_of(term, param)
+                rows.append(
+                    Check(
+                        name=f"{UNDETERMINED}{term.id}.{param.name}{tag}",
+                        value=values.params[param.name],
+                        threshold=None,
+                        passed=False,
+                        advice=f"{param.meaning} is not determined: these tests allow all from {low:g} to {high:g} "
+                        f"{param.unit}; fix it, or add a test in which its driver moves",
+                    )
+                )
     return rows
 
 

@@ -11,6 +11,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.arx import identify_arx, placeholder
 from thermodata.modelling.bound import BoundResponse
 from thermodata.modelling.checks import checks
+from thermodata.modelling.counted_samples import refuse_unknown_phases
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.joint import fit_jointly
@@ -33,6 +34,8 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     inside = _fitter_of_models_inside(data, base)
     roles, bound = resolve(spec, data, base, inside)
     wanted = None if spec.phases is None else tuple(spec.phases)
+    for names in (wanted, *(effect.phases for effect in spec.effects)):
+        refuse_unknown_phases(names, data.tests)
     skipped = list[str]()
     keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
     open_tests: list[list[TestData]] = []

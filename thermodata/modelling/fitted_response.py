@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.phases import phases
 from thermodata.modelling.roles import Key
-from thermodata.plugin import Bool1D, Effect, Float1D, Float2D
+from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Param
 from thermodata.schema.result import Check
 from thermodata.view.dataset import TestData
 
@@ -184,6 +184,11 @@ class FittedResponse:
         gap = self.measured(test) - self.predict(test)
         how = "free" if test.key in self.calibrate else "zero"
         return gap - _offset(gap, self.mask(test), test, how)
+
+
+def bounds_of(term: FittedTerm, param: Param) -> tuple[float, float]:
+    """Between which a parameter is searched: the model file's, else the effect's."""
+    return term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
 
 
 def has_response(bound: BoundResponse, test: TestData) -> bool:

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thermodata.errors import UsageError
 from thermodata.modelling.bound import BoundResponse, BoundTerm, each_group_its_own
 from thermodata.modelling.coarse import rough, search_from_coarse
+from thermodata.modelling.counted_samples import refuse_too_few
 from thermodata.modelling.design import GRID, MOMENTS, Design, Nonlinear, factor
 from thermodata.modelling.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.labels import fastest_first
@@ -37,13 +37,7 @@ def fit_jointly(
     order = [*members, *held]
     terms = [bound.terms[i] if i in members else each_group_its_own(bound.terms[i]) for i in order]
     design = Design(bound, terms, tests, wanted)
-    if not design.n:
-        raise UsageError(
-            "no sample counts in the calibration tests",
-            where=f"response '{bound.name}'",
-            got=", ".join(f"{t.campaign}/{t.test}" for t in tests) or "no test",
-            hint="look at the response's flags (thermodata quality) and at 'phases'",
-        )
+    refuse_too_few(bound.name, tests, design.counts)
     fixed = {order.index(i): term for i, term in held.items()}
     problem = make_problem(design, fixed)
 

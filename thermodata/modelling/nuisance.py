@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import unknown_name
 from thermodata.modelling.bound import PLACE, BoundResponse
-from thermodata.modelling.phases import phases
+from thermodata.modelling.phases import TOLD, phases
 from thermodata.plugin import Bool1D, Float1D, Float2D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
@@ -57,7 +57,7 @@ class Nuisance:
 def known_weights(spec: Model, data: Dataset) -> None:
     """Refuses weights that belong to nothing: SpecError names the nearest test or phase."""
     tests = {name for t in data.tests for name in (t.test, f"{t.campaign}/{t.test}")}
-    names = tests | {p for t in data.tests for p in t.phases} | {"heating", "steady", "cooling"}
+    names = tests | {p for t in data.tests for p in t.phases} | set(TOLD)
     for name in spec.weights:
         if name not in names:
             raise unknown_name("test or phase", name, sorted(names), where=f"model '{spec.name}': weights")

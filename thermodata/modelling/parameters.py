@@ -6,8 +6,10 @@ import math
 from collections.abc import Sequence
 
 from thermodata.calibration.expression import parse
-from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
+from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
 from thermodata.schema.result import Parameter
+
+UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
 
 
 def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
@@ -30,15 +32,16 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             if param.name in values.silent:
                 continue
             name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
-            by_name.setdefault(name, _parameter(values.params[param.name], param.unit, param.name, values))
+            ends = interval(param.name, values, bounds_of(term, param))
+            by_name.setdefault(name, _told(values.params[param.name], param.unit, ends))
         if term.bound.spec.one_gain:
-            by_name[f"{term.id}.{FACTOR}{tag}"] = _parameter(values.factor, "1", FACTOR, values)
+            by_name[f"{term.id}.{FACTOR}{tag}"] = _told(values.factor, "1", interval(FACTOR, values))
             tag = ""
         for gain in term.effect.gains:
             unit = gain_unit(response, term, gain.unit)
             if f"{term.id}.{gain.name}{tag}" in by_name and term.bound.spec.one_gain:
                 continue
-            by_name[f"{term.id}.{gain.name}{tag}"] = _parameter(values.gains[gain.name], unit, gain.name, values)
+            by_name[f"{term.id}.{gain.name}{tag}"] = _told(values.gains[gain.name], unit, interval(gain.name, values))
     return by_name
 
 
@@ -71,14 +74,28 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
     return "K" if unit == "degC" else unit or "1"
 
 
-def _parameter(value: float, unit: str, name: str, values: Values) -> Parameter:
+def interval(
+    name: str, values: Values, bounds: tuple[float, float] = (-math.inf, math.inf)
+) -> tuple[float | None, float | None]:
+    """The ends of the interval of 95 %. None: not known, or not within the bounds, beyond which nothing was asked: the
+    data set no end there."""
+    value, half = values.params.get(name, values.gains.get(name, values.factor)), values.half.get(name)
+    low: float | None
+    high: float | None
     if name in values.ends:
         low, high = values.ends[name]
-        return Parameter(value=value, unit=unit, low=low, high=high)
-    half = values.half.get(name)
-    if half is None:
-        return Parameter(value=value, unit=unit)
-    if name in values.log_names and value > 0:
+    elif half is None:
+        return None, None
+    elif name in values.log_names and value > 0:
         spread = math.exp(min(half, 100.0))
-        return Parameter(value=value, unit=unit, low=value / spread, high=value * spread)
-    return Parameter(value=value, unit=unit, low=value - half, high=value + half)
+        low, high = value / spread, value * spread
+    else:
+        low, high = value - half, value + half
+    return (
+        None if low is None or low <= bounds[0] else low,
+        None if high is None or high >= bounds[1] else high,
+    )
+
+
+def _told(value: float, unit: str, ends: tuple[float | None, float | None]) -> Parameter:
+    return Parameter(value=value, unit=unit, low=ends[0], high=ends[1])

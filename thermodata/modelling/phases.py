@@ -8,6 +8,7 @@ from thermodata.plugin import Bool1D
 from thermodata.view.dataset import TestData
 
 _ACTIVITY = ("rotational_speed", "feed", "power", "load")
+TOLD = ("heating", "steady", "cooling")  # where a test declares none
 STEADY = 0.9  # heating ends where the response has covered this part of its way
 SHORTEST_S = 600.0
 
@@ -35,7 +36,7 @@ def phases(test: TestData, response: str) -> dict[str, Bool1D]:
     begun = np.zeros(n, bool)
     first = int(np.argmax(active))
     begun[first:] = True
-    masks = {"heating": heating, "steady": steady, "cooling": begun & ~active}
+    masks = dict(zip(TOLD, (heating, steady, begun & ~active), strict=True))
     return {name: mask & test.in_window for name, mask in masks.items() if (mask & test.in_window).any()}
 
 

@@ -56,6 +56,11 @@ def autocorrelation(parts: Sequence[Float1D], lags: int) -> Float1D:
     return np.asarray(np.where(pairs == found[3], found[0] / found[0, 0], over_gaps))
 
 
+def lags_told(parts: Sequence[Float1D], step_s: float, longest_s: float) -> int:
+    """Up to which lag [samples] an autocorrelation is told: beyond half of the longest test too few pairs are left."""
+    return max(0, min(int(longest_s / step_s), max((len(r) for r in parts), default=1) // 2))
+
+
 def ljung_box(r: Float1D, n: int, lags: int) -> LjungBox:
     """[ljungbox1978]. r: autocorrelation from lag 0 on; n: samples that count."""
     from scipy.stats import chi2

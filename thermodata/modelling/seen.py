@@ -18,7 +18,7 @@ from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.laws import TermLaw, laws
 from thermodata.modelling.linear_parts import CurvedError, Path, paths
 from thermodata.modelling.of_tests import OfTests
-from thermodata.modelling.residual_tests import Against, LjungBox, against, autocorrelation, ljung_box
+from thermodata.modelling.residual_tests import Against, LjungBox, against, autocorrelation, lags_told, ljung_box
 from thermodata.modelling.state_space import System, system_of
 from thermodata.plugin import Float1D
 from thermodata.schema.result import Check
@@ -27,7 +27,7 @@ from thermodata.view.dataset import Dataset, TestData
 POINTS = 240  # of a curve
 BELOW = 30.0  # the lowest frequency is that much below the slowest corner
 SETTLED = 5.0  # time constants that a step response shows
-LONGEST = 1440  # lags of the autocorrelation
+LONGEST, LONGEST_S = 1440, 8 * 3600.0  # lag of the autocorrelation [samples], [s]
 LJUNG_BOX = (10, 20, 50)  # lags
 
 
@@ -98,7 +98,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
     tests = [t for t in data.tests if t.key in response.calibrate and response.can_predict(t)]
     residuals = [np.where(response.mask(t), response.residual(t), np.nan)[t.in_window] for t in tests]
     count = int(sum(np.isfinite(r).sum() for r in residuals))
-    most = min(LONGEST, max((len(r) for r in residuals), default=1) // 2, max(1, int(8 * 3600 / data.step_s)))
+    most = min(LONGEST, lags_told(residuals, data.step_s, max(data.step_s, LONGEST_S)))
     correlation = autocorrelation(residuals, most)
     return Seen(
         response.name,

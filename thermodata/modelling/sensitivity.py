@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.modelling.bound import each_group_its_own
 from thermodata.modelling.design import Design
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.fitted_response import FittedResponse, bounds_of
 from thermodata.plugin import Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
@@ -60,10 +60,6 @@ def sensitivity(response: FittedResponse, tests: Sequence[TestData]) -> Sensitiv
                 found[term.id, f"{gain.name}{tag}"] = base[:, j]
     columns = np.column_stack(list(found.values())) if found else np.zeros((design.n, 0))
     return Sensitivity(columns, tuple(found), residual, tuple(design.parts))
-
-
-def bounds_of(term: FittedTerm, param: Param) -> tuple[float, float]:
-    return term.bound.spec.bounds.get(param.name, (param.lower, param.upper))
 
 
 def _moved(value: float, param: Param, bounds: tuple[float, float]) -> tuple[float, float]:

@@ -77,6 +77,8 @@ class Noise:
             return nothing(0)
         size = _size(jacobian)
         bands = _Bands(jacobian / size, _long_enough(parts))
+        if not bands.count.size:
+            return nothing(k)
         plain = np.linalg.pinv(bands.products.sum(axis=0), rcond=1e-12, hermitian=True)
         power = _spectra(bands.frequency, self.memory, self.slow, self.lowest) * self.white[:, None]
         meat = np.einsum("gb,bij->gij", power, bands.products)
@@ -140,7 +142,7 @@ class _Bands:
         place = np.floor(np.log(np.pi / np.maximum(omega, 1e-12)) / np.log(BAND)).astype(int)
         order = np.argsort(place, kind="stable")
         starts = np.flatnonzero(np.diff(place[order], prepend=-1))
-        ends = np.append(starts[1:], len(order))
+        ends = np.append(starts, len(order))[1:]
         rows = [order[a:b] for a, b in zip(starts, ends, strict=True)]
         self.count = np.array([len(r) for r in rows], dtype=np.float64)
         self.frequency = np.array([np.exp(np.mean(np.log(omega[r]))) for r in rows])

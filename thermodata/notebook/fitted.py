@@ -177,7 +177,7 @@ class Fit(Shown):
             heads = [*_SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
         heads = [(key, text.replace("[um]", f"[{self.unit}]")) for key, text in heads]
         fitted = [
-            {"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)}
+            {"parameter": k, "value": p.value, "unit": p.unit, "range": span(self.result, k)}
             for k, p in self.result.parameters.items()
         ]
         columns = [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")]

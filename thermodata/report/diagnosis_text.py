@@ -85,7 +85,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(
             "artefacts\n"
             + "\n".join(
-                f"  ! {a.kind} in {', '.join('/'.join(filter(None, t)) for t in a.tests)}"
+                f"  ! {a.kind} in {', '.join(a.places)}"
                 + ("" if a.at_s is None else f" at {duration(a.at_s)}")
                 + ("" if a.size_um is None else f": {number(a.size_um)} um")
                 + f". {a.why}"

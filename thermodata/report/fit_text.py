@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from thermodata.modelling.differences import TestDifference
     from thermodata.schema.diagnosis import WeakSpot
-    from thermodata.schema.result import FitResult, Parameter, Score
+    from thermodata.schema.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak
 
 HISTORY = (
@@ -36,7 +36,8 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
     if scores:
         parts.append(scores_text(result.scores))
     parameters = [
-        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(p)} for k, p in result.parameters.items()
+        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(result, k)}
+        for k, p in result.parameters.items()
     ]
     if parameters:
         parts.append(
@@ -45,17 +46,24 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
     failed = [c for c in result.checks if not c.passed]
     if failed:
         parts.append(
-            "worth a look\n"
-            + "\n".join(f"  ! {c.name}: {number(c.value)} (limit {number(c.threshold)}). {c.advice}" for c in failed)
+            "worth a look\n" + "\n".join(f"  ! {c.name}: {number(c.value)}{_limit(c)}. {c.advice}" for c in failed)
         )
     return "\n\n".join(parts)
 
 
-def span(parameter: Parameter) -> str:
-    """'0.9 … 1.2', '0.9 …' where these tests set no upper end, or '-' where the uncertainty is not known."""
-    low, high = parameter.low, parameter.high
-    ends = ["" if end is None else number(end) for end in (low, high)]
-    return "-" if low is None and high is None else " … ".join(ends).strip()
+def _limit(check: Check) -> str:
+    return "" if check.threshold is None else f" (limit {number(check.threshold)})"
+
+
+def span(result: FitResult, name: str) -> str:
+    """The interval of a parameter: '0.9 … 1.2', '0.9 …' where these tests set no upper end, 'not determined' where they
+    set none within its bounds, or '-' where it is held or its uncertainty is not known."""
+    ends = (result.parameters[name].low, result.parameters[name].high)
+    if ends == (None, None):
+        # with several responses the name begins with that of one
+        names = {f"not_determined:{known}" for known in (name, name.partition("/")[2])}
+        return "not determined" if any(c.name in names for c in result.checks) else "-"
+    return " … ".join("" if end is None else number(end) for end in ends).strip()
 
 
 def scores_text(scores: list[Score], phases: bool = False) -> str:

@@ -12,13 +12,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class LogFault:
-    """tests: (campaign, test) of each that has it; at_s, size_um: where it is one moment of one test."""
+    """tests: (campaign, test) of each that has it, None for all tests of the campaign; at_s, size_um: where it is one
+    moment of one test."""
 
     kind: str
-    tests: tuple[tuple[str, str], ...]
+    tests: tuple[tuple[str, str | None], ...]
     at_s: float | None
     size_um: float | None
     why: str
+
+    @property
+    def where(self) -> list[str]:
+        """The tests that have it, by their names alone."""
+        return ["all tests" if test is None else test for _, test in self.tests]
+
+    @property
+    def places(self) -> list[str]:
+        """The same with their campaigns."""
+        return [f"all tests of {c}" if test is None else f"{c}/{test}" for c, test in self.tests]
 
 
 def log_faults(artefacts: Sequence[Artefact]) -> list[LogFault]:

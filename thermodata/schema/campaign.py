@@ -33,7 +33,7 @@ from thermodata.schema.campaign_tests import (
     Tool,
     Zero,
 )
-from thermodata.schema.declared import STORED, Direction, Moment, Seconds, Strict, Um, Value
+from thermodata.schema.declared import STORED, Direction, Moment, Seconds, Strict, Um, Value, WrongKeyError
 from thermodata.schema.quantity import QUANTITIES
 
 NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_]*$")
@@ -114,14 +114,29 @@ class Campaign(Strict):
         seen: dict[str, str] = {}
         for name in value:
             if not NAME.match(name) or "__" in name or name.lower() in RESERVED_NAMES:
-                raise ValueError(
-                    f"channel name '{name}': letters, digits and single '_', starting with a letter, "
-                    f"and none of {', '.join(sorted(RESERVED_NAMES))}"
+                raise WrongKeyError(
+                    name,
+                    f"no name for a channel: '{name}'",
+                    expected="letters, digits and single '_', starting with a letter, and none of "
+                    + ", ".join(sorted(RESERVED_NAMES)),
+                    hint=f"for example {_allowed(name)}: the channel's 'signal' stays as the file has it",
                 )
             if name.lower() in seen:
-                raise ValueError(f"channels '{seen[name.lower()]}' and '{name}' differ only in case")
+                raise WrongKeyError(
+                    name,
+                    f"channels '{seen[name.lower()]}' and '{name}' differ only in case",
+                    expected="names that are unique ignoring case, as columns of a table are",
+                    hint=f"for example {name}_2, or what tells the two apart",
+                )
             seen[name.lower()] = name
         return value
+
+
+def _allowed(name: str) -> str:
+    """A name that is like a refused one."""
+    word = re.sub(r"_+", "_", re.sub(r"[^A-Za-z0-9]", "_", name)).strip("_")
+    word = word if word[:1].isalpha() else f"ch_{word}".rstrip("_")
+    return f"{word}_1" if word.lower() in RESERVED_NAMES else word
 
 
 __all__ = [

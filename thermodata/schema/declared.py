@@ -17,6 +17,14 @@ Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z", "+A", "-A", "+B", "-B", 
 STORED = {"stored": True}  # validation context of what model_dump_json wrote: plain numbers in canonical units
 
 
+class WrongKeyError(ValueError):
+    """What is wrong with a key of a mapping, where its values are not: said at the line of the key."""
+
+    def __init__(self, key: str, what: str, *, expected: str, hint: str) -> None:
+        super().__init__(what)
+        self.key, self.expected, self.hint = key, expected, hint
+
+
 def in_unit(unit: str) -> BeforeValidator:
     """Takes a number in a unit, or text with one of its own; ValueError for text that is neither."""
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator
 
 from thermodata.schema.missing_heat import Unknown
 from thermodata.schema.result import Parameter, Result
@@ -156,12 +158,15 @@ class Candidate(Result):
     courses: list[CandidateCourse] = []
 
 
+Named = Annotated[str | None, BeforeValidator(lambda name: name or None)]
+
+
 class Artefact(Result):
     """A fault of the logs, beside any verdict.
 
     kind: step, clock_offset, sign, gain, parameters, sensor or copy
     campaign: id
-    test: id; empty where all tests share it
+    test: id; null where all tests share it
     at_s: from the test's start [s]
     size_um: its size, in the response's unit; null for a sensor
     why: the evidence in a sentence
@@ -169,7 +174,7 @@ class Artefact(Result):
 
     kind: str
     campaign: str
-    test: str
+    test: Named
     at_s: float | None
     size_um: float | None
     why: str

@@ -9,6 +9,7 @@ from typing import Any, TypeVar, get_args
 from pydantic import BaseModel, ValidationError
 
 from thermodata.errors import SpecError, nearest
+from thermodata.schema.declared import WrongKeyError
 from thermodata.schema.lines import Document, Place, at_place, dotted_place
 
 M = TypeVar("M", bound=BaseModel)
@@ -88,6 +89,15 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
     if kind == "missing":
         return SpecError(
             f"the key '{name}' is missing", where=document.where(place[:-1]), expected=f"{dotted_place(place)}: ..."
+        )
+    fault = detail.get("ctx", {}).get("error")
+    if isinstance(fault, WrongKeyError):
+        return SpecError(
+            str(fault),
+            where=document.where((*place, fault.key)),
+            expected=fault.expected,
+            got=fault.key,
+            hint=fault.hint,
         )
     value = at_place(document.data, place)
     message = str(detail["msg"]).removeprefix("Value error, ")

@@ -1,4 +1,4 @@
-"""Where in a file the word stands that was refused once the file was read: a name that only the data know is wrong."""
+"""Where in a file stands what was refused once the file was read: what only the data, or the plugins, show is wrong."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.lines import Document, Place, at_place, read_document
+from thermodata.schema.lines import Document, Place, at_place, dotted_place, read_document
 
 _EFFECT = re.compile(r"effect '([^']+)'")
 
@@ -23,8 +23,19 @@ def located(error: ThermodataError, path: Path) -> ThermodataError:
     place = _place(document, error.got.strip("'"), _EFFECT.search(error.where or ""))
     if place is None:
         return error
-    where = document.where(place) + (f", {error.where}" if error.where else "")
-    return type(error)(error.what, where=where, expected=error.expected, got=error.got, hint=error.hint)
+    return error.at(document.where(place) + (f", {error.where}" if error.where else ""))
+
+
+def placed(error: ThermodataError, path: Path) -> ThermodataError:
+    """The same error with file and line, if its `where` begins with a place of the file, such as `calibrations.jump_z`;
+    the error as it is where it doesn't."""
+    dotted, comma, rest = (error.where or "").partition(", ")
+    try:
+        document = read_document(path)
+    except (ThermodataError, OSError):
+        return error
+    place = next((p for p in document.line if p and dotted_place(p) == dotted), None)
+    return error if place is None else error.at(document.where(place) + comma + rest)
 
 
 def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place | None:

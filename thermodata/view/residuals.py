@@ -50,34 +50,6 @@ def residuals(store: Store, model: str, keys: Sequence[Key], response: str) -> l
     return [p for p in found if p.response == response]
 
 
-def autocorrelation(parts: Sequence[Prediction], most_lag_s: float) -> tuple[Float1D, Float1D]:
-    """(lag [s], correlation) of the residuals of all tests together, each about its own mean; what did not count is
-    left out of the products. Shapes (lags,); empty where there are no two samples."""
-    steps = [float(np.median(np.diff(p.t_s))) for p in parts if len(p.t_s) > 1]
-    if not steps:
-        return np.empty(0), np.empty(0)
-    step = float(np.median(steps))
-    lags = np.arange(int(min(most_lag_s / step, 400)) + 1)
-    over, power, counts = np.zeros(len(lags)), 0.0, np.zeros(len(lags))
-    total = 0
-    for p in parts:
-        there = p.valid & np.isfinite(p.residual)
-        if not there.any():
-            continue
-        centred = np.where(there, p.residual - p.residual[there].mean(), 0.0)
-        power += float(np.sum(centred**2))
-        total += int(there.sum())
-        for lag in lags[lags < len(centred)]:
-            over[lag] += float(np.sum(centred[lag:] * centred[: len(centred) - lag]))
-            counts[lag] += float(np.sum(there[lag:] & there[: len(there) - lag]))
-    if power <= 0:
-        return np.empty(0), np.empty(0)
-    known = counts > 0
-    correlation = np.full(len(lags), np.nan)
-    correlation[known] = (over[known] / counts[known]) / (power / total)
-    return np.asarray(lags * step, dtype=np.float64), correlation
-
-
 def against(store: Store, parts: Sequence[Prediction], channel: str, bins: int = 12) -> Against:
     """The residual of each sample over the channel at its time. UsageError for a channel that the tests have not."""
     value, residual, unit = [], [], ""

@@ -41,7 +41,7 @@ def environment() -> jinja2.Environment:
     )
     made.filters.update(
         number=lambda value, digits=3: typeset(number(value, digits)),
-        span=lambda parameter: typeset(span(parameter)),
+        span=lambda result, name: typeset(span(result, name)),
         signed=lambda value: f"{'+' if value > 0 else ''}{number(value)}",
         duration=duration,
         typeset=typeset,

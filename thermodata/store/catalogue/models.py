@@ -173,7 +173,7 @@ def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
     for candidate in diagnosis.candidates:
         add("candidate", candidate, rank=candidate.rank)
     for i, artefact in enumerate(diagnosis.artefacts, 1):
-        add("artefact", artefact, artefact.campaign, artefact.test, i)
+        add("artefact", artefact, artefact.campaign, artefact.test or "", i)
     with store.write(views=False) as con:
         _must_exist(con, model)
         con.execute(

@@ -66,13 +66,11 @@ def read_inventory(
     tests: Collection[str] | None = None,
     keys: Collection[str] = (),
 ) -> Inventory:
-    """The catalogue's rows about a campaign. Raw files that are gone or cut are left out.
+    """The catalogue's rows about a campaign. Raw data of which any stream is gone or cut is left out.
 
     store: the folder; None where the raw files don't matter, which each are opened to see whether they are whole.
     tests: only the rows of these, but for the table `test`, and the raw data of these keys; None: all."""
     inventory = Inventory(campaign, generation_of(con))
-    seen: set[str] = set()
-    folder = str(store)
     some, named = "", []
     elsewhere = "layer in ('raw', 'superseded')" if store else "false"
     if tests is not None:
@@ -83,11 +81,8 @@ def read_inventory(
         f"select * from file where (campaign = ?{some}) or ({elsewhere})",
         [campaign, *named, *([sorted(keys)] if tests is not None else [])],
     )
-    for row in files if store else ():
-        wanted = row["layer"] in ("raw", "superseded") and row["path"] not in seen
-        if wanted and is_whole(os.path.join(folder, row["path"])):
-            seen.add(row["path"])
-            inventory.raws.setdefault(row["key"], []).append(RawStream.from_row(row))
+    if store:
+        inventory.raws = _whole_files(files, str(store))
     for table in BY_TEST:
         grouped: dict[str, list[Row]] = {}
         # `start` would come as a Python datetime, which is optional and says what start_ns says
@@ -113,6 +108,20 @@ def read_inventory(
             if clock is not None:
                 inventory.clocks[clock.key] = clock
     return inventory
+
+
+def _whole_files(rows: list[Row], folder: str) -> dict[str, list[RawStream]]:
+    """Key -> the streams of the raw data whose files are all there: a source file is read again as a whole, so the
+    streams that are left of a damaged one must not stand for it."""
+    streams: dict[str, dict[str, Row]] = {}
+    for row in rows:
+        if row["layer"] in ("raw", "superseded"):
+            streams.setdefault(row["key"], {}).setdefault(row["path"], row)
+    return {
+        key: [RawStream.from_row(row) for row in own.values()]
+        for key, own in streams.items()
+        if all(is_whole(os.path.join(folder, path)) for path in own)
+    }
 
 
 def meta_of(row: Row) -> Mapping[str, Any]:

@@ -10,9 +10,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.errors import StoreError
+from thermodata.errors import StoreError, UsageError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
+from thermodata.schema.locate import placed
 from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
@@ -30,6 +31,7 @@ from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.tidy.calibrations import evaluate
+from thermodata.store.tidy.check_derived import check_derived
 from thermodata.store.tidy.plan import bind
 
 if TYPE_CHECKING:
@@ -87,6 +89,11 @@ def ingest(
             return _ingest(store, Path(campaign_path), watch, campaign, every_test)
         except OtherwiseError:
             every_test = True  # which raises it no more, and is no attempt
+        except UsageError as error:  # what only the files, or the plugins, show is wrong in the campaign file
+            found = placed(error, Path(campaign_path)) if campaign is None else error
+            if found is error:
+                raise
+            raise found from error
         except VanishedError as error:
             attempts -= 1
             if not attempts:
@@ -102,6 +109,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = load_campaign(path) if given is None else given
+    check_derived(campaign)
     files = CampaignFiles(store.path, path.absolute().parent, campaign, watch)
     files.survey()
     here = files.seen(path.absolute())

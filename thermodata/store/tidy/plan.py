@@ -133,7 +133,8 @@ def effective(campaign: Campaign, test: Test) -> dict[str, Channel]:
 
 
 def bind(plan: TestPlan) -> None:
-    """Finds the signal of every channel; what can't be found becomes a problem with the nearest right name."""
+    """Finds the signal of every channel; what can't be found becomes a problem with the nearest right name. Derived
+    channels are those of a campaign that passed `check_derived`."""
     channels = effective(plan.campaign, plan.test)
     for name, channel in channels.items():
         if channel.schedule is not None:
@@ -165,7 +166,7 @@ def bind(plan: TestPlan) -> None:
             plan.bound[name] = Bound(name, channel, source.name, raw.stream, signal, channel.unit or unit)
     for name, channel in channels.items():
         if channel.derive is not None:
-            _bind_derived(plan, channels, name, channel, ())
+            _bind_derived(plan, channels, name, channel)
     order = list(plan.campaign.channels)
     plan.bound = {n: plan.bound[n] for n in sorted(plan.bound, key=order.index)}
     _say_what_parts_it(plan)
@@ -229,28 +230,25 @@ def _unit_problem(channel: Channel, unit: str | None, signal: Signal, raws: Iter
     return unit_contradiction(channel, unit)
 
 
-def operands(expression: str, names: Iterable[str]) -> list[str]:
+def operands(expression: str) -> list[str]:
     """The channels of an expression in the order of their first appearance."""
-    wanted = set(names)
-    found = [w for w in re.findall(r"[A-Za-z_][A-Za-z0-9_]*", expression) if w in wanted]
-    return list(dict.fromkeys(found))
+    from thermodata.calibration.expression import parse
+
+    words, names = re.findall(r"[^\W\d]\w*(?:\.[^\W\d]\w*)*", expression), parse(expression).names
+    return list(dict.fromkeys(word for word in words if word in names))
 
 
-def _bind_derived(
-    plan: TestPlan, channels: Mapping[str, Channel], name: str, channel: Channel, above: tuple[str, ...]
-) -> Bound | None:
+def _bind_derived(plan: TestPlan, channels: Mapping[str, Channel], name: str, channel: Channel) -> Bound | None:
+    """None where an operand is absent in this test: so is what derives from it."""
     if name in plan.bound:
         return plan.bound[name]
-    if name in above:
-        raise UsageError("derived channels form a circle", where=f"channel {name}", got=" -> ".join((*above, name)))
-    used = operands(channel.derive or "", channels)
     home: Bound | None = None
-    for operand in used:
+    for operand in operands(channel.derive or ""):
         bound = plan.bound.get(operand)
-        if bound is None and channels[operand].derive is not None:
-            bound = _bind_derived(plan, channels, operand, channels[operand], (*above, name))
+        if bound is None and operand in channels and channels[operand].derive is not None:
+            bound = _bind_derived(plan, channels, operand, channels[operand])
         if bound is None:
-            return None  # an operand is absent in this test: so is what derives from it
+            return None
         if home is None or (home.source == SCHEDULE and bound.source != SCHEDULE):
             home = bound
     if home is None:

@@ -57,7 +57,7 @@ from finding where kind = 'candidate'"""
 
 ARTEFACT = """create view artefact as
 select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
-       coalesce(nullif(test, ''), payload->>'$.test') as test, model, payload->>'$.kind' as kind,
+       coalesce(nullif(test, ''), nullif(payload->>'$.test', '')) as test, model, payload->>'$.kind' as kind,
        cast(payload->>'$.at_s' as double) as at_s, cast(payload->>'$.size_um' as double) as size_um,
        payload->>'$.why' as why
 from finding where kind = 'artefact'"""

@@ -15,17 +15,18 @@ from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.difference import Difference
 from thermodata.modelling.differences import Course, between, over_tests
+from thermodata.modelling.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.history import versions
 from thermodata.report.words import base_role, pooled
-from thermodata.schema.result import Score
+from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.models import ModelRow, model_rows, term_order
-from thermodata.view.predictions import residual_courses, residual_strips
-from thermodata.view.residuals import Key, against, autocorrelation, predicted_tests, residuals
+from thermodata.view.predictions import Prediction, residual_courses, residual_strips
+from thermodata.view.residuals import Key, against, predicted_tests, residuals
 from thermodata.web.command import command
 from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
@@ -94,7 +95,7 @@ def show(request: Request) -> Response:
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
         roles=_roles([r.scores for r in results]),
         over_roles=_over_roles(lines, courses),
-        parameters=_parameters([r.parameters for r in results]),
+        parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
         chain=chain,
         waterfall=_waterfall(chain),
@@ -193,9 +194,10 @@ def _roles(scores: list[list[Score]]) -> list[tuple[str, list[float | None]]]:
     return [(role, [pooled(each, role) for each in scores]) for role in names]
 
 
-def _parameters(each: list[dict[str, Any]]) -> list[tuple[str, list[Any]]]:
-    names = dict.fromkeys(name for some in each for name in some)
-    return [(name, [some.get(name) for some in each]) for name in names]
+def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
+    """(name, those of the results that have it)."""
+    names = dict.fromkeys(name for result in results for name in result.parameters)
+    return [(name, [result if name in result.parameters else None for result in results]) for name in names]
 
 
 def _maps(
@@ -234,8 +236,12 @@ def _undo(newest: ModelRow, models: list[ModelRow]) -> ModelRow | None:
     return next((m for m in models if m.model == newest.parent), None)
 
 
-def _correlated(parts: list[Any]) -> Chart:
-    lag_s, correlation = autocorrelation(parts, _MOST_LAG_S)
+def _correlated(parts: list[Prediction]) -> Chart:
+    left = [np.where(p.valid, p.residual, np.nan) for p in parts]
+    steps = np.concatenate([np.diff(p.t_s) for p in parts])
+    step_s = float(np.median(steps)) if len(steps) else 1.0
+    correlation = autocorrelation(left, lags_told(left, step_s, _MOST_LAG_S))
+    lag_s = step_s * np.arange(len(correlation))
     near = [Limit(1 / np.e, "1/e")]
     panel = Panel(
         "autocorrelation of the residual",

@@ -1,0 +1,33 @@
+"""Ctrl-C, noticed where it is pressed: libraries in C answer it by errors of their own, as if something had failed."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+
+@contextmanager
+def noticing_interrupts() -> Iterator[Callable[[], bool]]:
+    """Gives a function that tells whether SIGINT came since. KeyboardInterrupt is raised as ever; DuckDB makes a
+    RuntimeError of it, and who opens a file or a catalogue may take that for damage."""
+    came = False
+
+    def notice(number: int, frame: FrameType | None) -> None:
+        nonlocal came
+        came = True
+        signal.default_int_handler(number, frame)
+
+    ours = (
+        threading.current_thread() is threading.main_thread()  # only there a handler can be set
+        and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )
+    if ours:
+        signal.signal(signal.SIGINT, notice)
+    try:
+        yield lambda: came
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)

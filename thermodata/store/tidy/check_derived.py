@@ -1,0 +1,62 @@
+"""Refuses expressions of derived channels that could be evaluated in no test, before anything is read for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from thermodata.errors import UsageError, unknown_name
+from thermodata.schema.campaign import Campaign, Channel
+from thermodata.store.tidy import derive
+from thermodata.store.tidy.plan import effective
+
+
+def check_derived(campaign: Campaign) -> None:
+    """UsageError at the first `derive` that is no expression, names no channel of the campaign, or derives from
+    itself. A channel that is only absent in a test is there: what derives from it is absent then too."""
+    for prefix, channels in _told(campaign):
+        for name, channel in channels.items():
+            if channel.derive is not None:
+                _check(campaign, channels, name, f"{prefix}channels.{name}.derive")
+
+
+def _told(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
+    """(place of what they are declared in, channels): of the campaign, and of each test that derives otherwise."""
+    yield "", campaign.channels
+    for i, test in enumerate(campaign.tests):
+        own = [name for name, override in test.channels.items() if "derive" in override.model_fields_set]
+        if own:
+            channels = effective(campaign, test)
+            yield f"tests[{i}].", {n: channels[n] for n in (*own, *(c for c in channels if c not in own))}
+
+
+def _check(campaign: Campaign, channels: Mapping[str, Channel], name: str, where: str) -> None:
+    for used in _names(channels[name].derive or "", where):
+        if used not in campaign.channels:
+            raise unknown_name("channel", used, list(campaign.channels), where=where)
+    circle = _circle(channels, (name,), where)
+    if circle:
+        raise UsageError(
+            "derived channels form a circle",
+            where=where,
+            expected="an expression over channels that are logged in the end",
+            got=" -> ".join(circle),
+            hint=f"derive '{circle[-2]}' from something else",
+        )
+
+
+def _circle(channels: Mapping[str, Channel], above: tuple[str, ...], where: str) -> tuple[str, ...]:
+    """The way from a channel back to itself; empty where there is none."""
+    text = channels[above[-1]].derive if above[-1] in channels else None
+    for name in sorted(_names(text, where)) if text is not None else ():
+        if name in above:
+            return (*above[above.index(name) :], name)
+        if found := _circle(channels, (*above, name), where):
+            return found
+    return ()
+
+
+def _names(text: str, where: str) -> frozenset[str]:
+    try:
+        return derive.names(text)
+    except UsageError as error:
+        raise error.at(f"{where}, {error.where}" if error.where else where) from error
