@@ -274,6 +274,25 @@ def test_a_shift_that_goes_with_the_square_of_the_speed_is_explained() -> None:
     assert in_tests(*((r + 8.0 * u**2, u) for r, u in speeds)) == []
 
 
+def either_way(*levels: float, of: float = 5.0) -> tuple[Float1D, Float1D]:
+    """What speeds up does the same as what slows down."""
+    residual, command = jumps_of(*levels)
+    return residual + of * np.cumsum(np.abs(np.diff(command, prepend=command[0]))), command
+
+
+def test_a_shift_that_goes_with_how_far_a_command_changes_is_explained() -> None:
+    """Neither a line through the changes nor through their squares foretells it: what goes up comes down."""
+    moving = [(1.0, 0.0), (0.5, 1.0, 0.5), (1.0, 0.4, 1.0), (0.6, 0.0)]
+    assert in_tests(*(either_way(*levels) for levels in moving), quantity="feed") == []
+    assert in_tests(*(either_way(*levels) for levels in moving), quantity="temperature") != [], "a body has a sign"
+
+
+def test_a_slip_when_a_command_changes_that_does_nothing_elsewhere_is_one() -> None:
+    idle = [either_way(*levels, of=0.0) for levels in [(1.0, 0.0), (0.5, 1.0, 0.5), (1.0, 0.4, 1.0)]]
+    assert in_tests(slipped(idle[0], 100), *idle[1:], quantity="feed") == [("t0", 5)]
+    assert in_tests(slipped(idle[1], 140), idle[0], idle[2], quantity="feed") == [("t0", 5)]
+
+
 @pytest.mark.parametrize(("lag", "explained"), [(0, True), (8, True), (10, True), (13, False)])
 def test_a_command_may_be_late_by_ten_minutes_everywhere(lag: int, explained: bool) -> None:
     """Clocks differ; a sample of 60 s more is in the three intervals around the change."""

@@ -457,8 +457,8 @@ class TestAnswer:
         assert (found.rmse_um, found.explainable) == pytest.approx((1.0, 0.91))
         assert first.p_value == pytest.approx(0.005)
         assert (
-            "(10 of 10 tests) the error falls (1.00 -> 0.30 um), its size from the other tests, and it makes 10 of 10"
-            in first.why
+            "(10 of 10 tests) the error falls (1.00 -> 0.30 um), its size from the other tests and the known effects "
+            "fitted to all, and it makes 10 of 10" in first.why
         )
         assert "its gain differs between tests by 10%" in first.why
         assert "chance does as well in 0.5% of responses in which nothing is missing" in first.why

@@ -313,6 +313,14 @@ def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None
     assert ("on left-out tests (1.40 um of the response's 5.10) that nothing logged is likely" in text) is not likely
 
 
+@pytest.mark.parametrize(("left", "more"), [(5.0, False), (5.2, True)])
+def test_an_error_larger_than_the_response_says_how_it_can_be(left: float, more: bool) -> None:
+    text = verdict_sentence(found("unknown", [one("screw", probability=0.01)], rmse_um=left, response_um=5.1))
+    worse = "more than the response's 5.10: fitted to the other tests, the model foretells a test worse than none would"
+    assert (f"on left-out tests (5.20 um, {worse})" in text) is more
+    assert ("on left-out tests (5.00 um of the response's 5.10)" in text) is not more
+
+
 @pytest.mark.parametrize(
     ("right", "said"),
     [

@@ -2,7 +2,7 @@
 
 They do not transfer between tests, so leave-one-test-out cannot see them. A step that a command makes elsewhere too
 (speed, feed, a switch) is no artefact: centrifugal shifts look like steps. Nor is one tread of a coarse reading, nor a
-bend where heat begins or ends, nor what only the model does.
+bend where heat begins or ends, nor what comes back, nor what only the model does.
 """
 
 from __future__ import annotations
@@ -16,7 +16,15 @@ import numpy as np
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.commanded import Commands
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
+from thermodata.diagnosis.sudden import (
+    beyond_slopes,
+    comes_back,
+    most_sudden,
+    over_three,
+    size_of_step,
+    suddenly,
+    time_of_step,
+)
 from thermodata.diagnosis.windows import in_windows
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
@@ -42,6 +50,7 @@ class Step:
     size: float
     z: float  # times the usual change, of lines through both sides
     alone: float = 0.0  # times the most sudden other change of the test, where that tells
+    within_s: float = 0.0
 
 
 def find_steps(problem: Problem) -> list[Step]:
@@ -49,9 +58,9 @@ def find_steps(problem: Problem) -> list[Step]:
     where a test was measured in windows.
 
     The jump between neighbouring samples must exceed Z_LIMIT times the robust size of all jumps over the same
-    span, and the level before and after must differ by as much for SIDE_S. Where much is missing in the model, lines
-    differ everywhere; then Z_ALONE suffices, if nothing else in the test is half as sudden. It must stand out from the
-    slopes right beside it, and the response itself must make it.
+    span, and lines over SIDE_S before and after must lie as far apart; nor may it come back in that time. Where much is
+    missing in the model, lines differ everywhere; then Z_ALONE suffices, if nothing else in the test is half as sudden.
+    It must stand out from the slopes right beside it, and the response itself must make it.
     """
     steps = _steps(problem, tread_of_response(problem))
     windows = in_windows(problem)
@@ -106,10 +115,11 @@ def _steps_in(
         # what happens there is judged where it stands out most: the shoulders of a bend are no slips
         looked[max(0, i - side // 2) : i + side // 2] = True
         own, seen = (beyond_slopes(x, t, i, float(size[i]), side) for x in (r, y))
-        if not is_at_once(float(size[i]), own, seen) or explained(i):
+        if not is_at_once(float(size[i]), own, seen) or comes_back(r, t, i, side) or explained(i):
             continue
         by = size_of_step(r, t, i, side)
-        steps.append(Step(block.test, float((t[i - 1] + t[i]) / 2), by, float(score[i]), alone))
+        at, within = float((t[i - 1] + t[i]) / 2), time_of_step(r, t, i, by)
+        steps.append(Step(block.test, at, by, float(score[i]), alone, within))
         since = np.where(np.arange(len(r)) >= i, by, 0.0)
         r, y = r - since, y - since
     return steps
@@ -177,8 +187,8 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             test=s.test.test,
             at_s=s.at_s,
             size_um=s.size,
-            why=f"the displacement jumps by {s.size:+.1f} {unit} from one measurement to the next, "
-            f"{_stands_out(s)}, and stays; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
+            why=f"the displacement jumps by {s.size:+.1f} {unit} within {s.within_s:.0f} s, {_stands_out(s)}, "
+            "and does not decay; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
         )
         for s in steps
     ]

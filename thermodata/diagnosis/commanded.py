@@ -3,7 +3,8 @@
 A centrifugal shift looks like a slip of the probe, but it comes with every change of the speed. A pump that cycles is
 never far from a slip, but its other changes make no step. So a change explains a step only where the other changes of
 the same channel, at the same distance in time, foretell it: by a straight line through zero, jump of the residual over
-change of the command, or of its square (centrifugal force). So does a temperature, where a body is changed for another.
+change of the command, or of its square (centrifugal force), or over how far it changes, whichever way (what speeds up
+heats as much as what slows down). So does a temperature, where a body is changed for another.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
 JUMPING = (*COMMANDS, "temperature")
 POWERS = (1, 2)
+EITHER_WAY = 0  # no power: how far it changes, up or down
+WAYS = (*POWERS, EITHER_WAY)
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
 MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
@@ -32,8 +35,8 @@ ALIKE = 0.15  # least share of the others' squared jumps that goes with the comm
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """A command in one block. change: power -> shape (m,), over three intervals; rows: power -> where that is a change
-    of its own. hole: shape (m,), whether the interval before a sample is one in which nobody logged the command."""
+    """A command in one block. change: way -> shape (m,), over three intervals; rows: way -> where that is a change of
+    its own. hole: shape (m,), whether the interval before a sample is one in which nobody logged the command."""
 
     change: Mapping[int, Float1D]
     rows: Mapping[int, Int1D]
@@ -63,13 +66,14 @@ class Commands:
         own, jump = command[block], float(self._jumps[block][i])
         if own is None or not np.isfinite(jump):
             return False
-        for power in POWERS:
-            near = own.rows[power][np.abs(own.rows[power] - i) <= int(COMMAND_S / self._step_s) + 1]
+        for way in WAYS:
+            near = own.rows[way][np.abs(own.rows[way] - i) <= int(COMMAND_S / self._step_s) + 1]
             for row in near.tolist():
-                x, y = self._elsewhere(command, self._jumps, block, i, i - row, power)
-                if tells(jump, float(own.change[power][row]), x, y, at_once=abs(i - row) <= 1):
+                x, y = self._elsewhere(command, self._jumps, block, i, i - row, way)
+                if tells(jump, float(own.change[way][row]), x, y, at_once=abs(i - row) <= 1):
                     return True
-        # what a command did while nobody logged it, neither the model knows nor we: at most its largest change
+        # what a command did while nobody logged it, neither the model knows nor we: at most its largest change; what
+        # it does whichever way it goes cannot stay, or the machine would walk off
         return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
 
     def _might(self, command: Sequence[_Course | None], block: int, i: int, power: int) -> bool:
@@ -81,19 +85,19 @@ class Commands:
         return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
 
     def _elsewhere(
-        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, power: int
+        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
     ) -> tuple[Float1D, Float1D]:
         """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
         x, y = [np.empty(0)], [np.empty(0)]
         for k, course in enumerate(command):
             if course is None:
                 continue
-            rows = course.rows[power]
+            rows = course.rows[way]
             rows = rows[(rows + lag >= 0) & (rows + lag < len(jumps[k]))]
             if k == block:
                 rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
             there = jumps[k][rows + lag]
-            x.append(course.change[power][rows][np.isfinite(there)])
+            x.append(course.change[way][rows][np.isfinite(there)])
             y.append(there[np.isfinite(there)])
         return np.concatenate(x), np.concatenate(y)
 
@@ -144,6 +148,8 @@ def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float]
     # a motor that cools once its axis rests is no other body; and a body expands by its temperature, not by the square
     moved = change if told else {1: suddenly(value, block.t_s, BESIDE + 2), 2: np.zeros(len(value))}
     rows = {p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * span[p]) for p in POWERS}
+    change[EITHER_WAY] = np.abs(change[1])
+    rows[EITHER_WAY] = rows[1] if told else np.empty(0, np.int64)
     # a hole begins after the last logged sample and ends before the next one
     hole = old.copy()
     hole[1:] |= old[:-1]

@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from thermodata.plugin import Bool1D, Float1D
+from thermodata.plugin import Bool1D, Float1D, Float2D
 
 HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 BESIDE = 5  # intervals that a slope beside a step is taken over
+BACK_TO = 0.1  # of a step, that is left at the end of its side at most, where it is said to come back
+NEARLY_ALL = 0.9  # of a step: what is said of how long it takes holds for so much of it
+TIMES = 6  # constants that a return is asked for
+BACK = 0.35  # of the squared error that what stays leaves: what comes back leaves less
 
 
 def over_three(values: Float1D, t_s: Float1D) -> Float1D:
@@ -72,3 +76,32 @@ def size_of_step(x: Float1D, t: Float1D, i: int, side: int) -> float:
     at = (t[i - 1] + t[i]) / 2
     before, after = slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many)
     return float(np.polyfit(t[after] - at, x[after], 1)[1] - np.polyfit(t[before] - at, x[before], 1)[1])
+
+
+def comes_back(x: Float1D, t: Float1D, i: int, side: int) -> bool:
+    """Whether the step of x (shape (m,)) before sample i returns to where it came from within a side.
+
+    On the same smooth course (a parabola over both sides), what decays to a tenth at most must leave much less squared
+    error than what stays. The course carries what heat does beside it: a slip on a slope that leads back is still one.
+    """
+    # one of the two samples at the step is the mean of both levels, where a step parts it
+    rows = np.concatenate([np.arange(max(0, i - side), i - 1), np.arange(i + 1, min(len(x), i + side))])
+    u = (t[rows] - t[i]) / (side * float(np.median(np.diff(t))))
+    course, stays = np.vander(u, 3), np.where(rows >= i, 1.0, 0.0)
+    slowest = 1 / float(np.log(1 / BACK_TO))
+    decays = [stays * np.exp(-np.maximum(u, 0.0) / tau) for tau in np.geomspace(slowest / 2**3, slowest, TIMES)]
+    left = [_left(np.column_stack([course, after]), x[rows]) for after in (stays, *decays)]
+    return min(left[1:]) < BACK * left[0]
+
+
+def _left(columns: Float2D, x: Float1D) -> float:
+    """Squared error that the columns, shape (n, k), leave of x, shape (n,)."""
+    return float(np.sum((x - columns @ np.linalg.lstsq(columns, x, rcond=None)[0]) ** 2))
+
+
+def time_of_step(x: Float1D, t: Float1D, i: int, size: float) -> float:
+    """The shortest time around the interval before sample i, of three intervals at most, in which nearly all of a step
+    of this size happens [s]."""
+    spans = ((i - 1, i), (i - 2, i), (i - 1, i + 1), (i - 2, i + 1))
+    whole = [t[b] - t[a] for a, b in spans if (x[b] - x[a]) * np.sign(size) >= NEARLY_ALL * abs(size)]
+    return float(min(whole, default=t[i + 1] - t[i - 2]))

@@ -37,8 +37,10 @@ def why(
     way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
         f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error {way} "
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests}, and it makes "
-        f"{improves} of {count} more probable; its gain differs between {tests} by {s.spread:.0%}"
+        # unlike the errors on left-out tests, for which the known effects are left out as well
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests} and the known effects "
+        f"fitted to all, and it makes {improves} of {count} more probable; "
+        f"its gain differs between {tests} by {s.spread:.0%}"
     )
     chance = p_value(s.evidence, investigation.measure.chance)
     if among(member, judgement.claims):

@@ -44,11 +44,19 @@ def _between(found: Diagnosis) -> str:
 
 
 def on_left_out(found: Diagnosis) -> str:
-    """' on left-out tests (1.4 um of the response's 5.1)'."""
-    if found.rmse_um is None:
+    """' on left-out tests (1.4 um of the response's 5.1)'. A left-out test is foretold by a model that the others
+    fitted, so the error may be larger than the response itself: then it says so."""
+    left, response = found.rmse_um, found.response_um
+    if left is None:
         return ""
-    of = "" if found.response_um is None else f" of the response's {number(found.response_um)}"
-    return f" on left-out tests ({number(found.rmse_um)} um{of})"
+    if response is None:
+        return f" on left-out tests ({number(left)} um)"
+    if left > response:
+        return (
+            f" on left-out tests ({number(left)} um, more than the response's {number(response)}: fitted to the other "
+            "tests, the model foretells a test worse than none would)"
+        )
+    return f" on left-out tests ({number(left)} um of the response's {number(response)})"
 
 
 def noise_words(found: Diagnosis) -> str:
