@@ -93,6 +93,8 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
         return []
     if timed.stated is not None:
         said = [] if source.timezone in (None, timed.stated) else [f"the declared {source.timezone} is not used"]
+        if timed.above:
+            return [f"times in {timed.stated} by a line above the rows: '{timed.above[:60]}'"]
         names = "', '".join(table.layout.names[i] for i in timed.group.time)
         return ["; ".join([f"times in {timed.stated} by their header '{names}'", *said])]
     if source.timezone is None:

@@ -28,7 +28,7 @@ from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells
-from thermodata.reader.text.zone_words import stated_zone
+from thermodata.reader.text.zone_words import stated_zone, zone_above
 from thermodata.reader.zone import NAT
 
 _HEAD_LINES = 500  # in which the layout shows
@@ -131,6 +131,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     body = [r for r in (*top_rows, *later) if len(r) == width]
     refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
+    if source.timezone is None and (zone := zone_above(cells(line) for line in head[: layout.first])) is not None:
+        groups = tuple(g if g.stated else replace(g, stated=zone[0], above=zone[1]) for g in groups)
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}

@@ -21,13 +21,15 @@ from thermodata.reader.time_units import SECONDS
 @dataclass(frozen=True, slots=True)
 class TimedGroup:
     """Columns with one time, and how that is written. formats: one a time column, none for numbers; stated: the zone
-    that their headers say, None where they say none; once: the date stands in some rows only, for those behind it."""
+    that their headers, or a line above the rows, say, None where they say none; once: the date stands in some rows
+    only, for those behind it; above: that line."""
 
     stream: str
     group: Group
     formats: tuple[TimeFormat, ...]
     stated: str | None = None
     once: bool = False
+    above: str = ""
 
     @property
     def of_day(self) -> bool:

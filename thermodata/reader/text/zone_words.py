@@ -6,7 +6,7 @@ CST may be Chicago, Shanghai or Havana: such a word is asked about, never taken 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 _HOUR_NS = 3600 * 1_000_000_000
 # hours east of Greenwich; those of Europe in English, German and Czech, those of the United States by RFC 5322
@@ -76,3 +76,33 @@ def stated_zone(headers: Iterable[str]) -> str | None:
         hours = int(match["hours"] or 0)
         return f"Etc/GMT{'-' if match['sign'] == '+' else '+'}{hours}" if hours else "UTC"  # signs as POSIX has them
     return None
+
+
+_ABOVE = re.compile(
+    r"(?i)(?:utc[ -]?offset|time ?zone|tz|zeitzone|fuseau(?: horaire)?|fuso(?: orario)?|zona horaria|časové pásmo|"
+    r"strefa czasowa|tijdzone|tidszon|időzóna|часовой пояс|タイムゾーン|时区|時區|표준시간대)"
+)
+_OFFSET_ALONE = re.compile(
+    r"(?i)\(?(?:UTC|GMT)?\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?00)?(?:\s?h)?\)?|UTC|GMT|Z"
+)
+
+
+def zone_above(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
+    """(IANA name, the line) of a zone that a line above the rows says: 'Zeitzone: UTC+1'. None where none says one, or
+    they say several, or one with places, whose clocks are put ahead in summer: '(UTC+01:00) Berlin'."""
+    found: dict[str, str] = {}
+    for cells in lines:
+        text = " ".join(c.strip() for c in cells if c.strip()).strip("#%;/* \t\"'")
+        label, mark, value = re.sub(r"\s*[=;]\s*|\s*:\s+", ": ", text, count=1).partition(": ")
+        if not mark and (word := _ABOVE.match(text)):
+            label, value = word[0], text[word.end() :]
+        if not _ABOVE.fullmatch(label.strip()):
+            continue
+        offset = _OFFSET_ALONE.fullmatch(value.strip())
+        if offset is None:
+            return None
+        hours = int(offset["hours"] or 0)
+        if hours > 12:
+            return None
+        found[f"Etc/GMT{'-' if offset['sign'] == '+' else '+'}{hours}" if hours else "UTC"] = text
+    return next(iter(found.items())) if len(found) == 1 else None
