@@ -51,9 +51,25 @@ def test_86_losses_of_one_cause_are_one_line_with_the_first_place() -> None:
 def test_notes_of_one_cause() -> None:
     notes = [f"day{i}, nc: the clock was set ahead by {i} s" for i in range(1, 7)] + ["a place is unknown: bearng"]
     assert notes_in_words(notes, ["nc", *(f"day{i}" for i in range(9))]) == [
-        "6 times: day1, nc: the clock was set ahead by 1 s; also in day2, nc, day3, nc, day4, nc and 2 more",
+        "6 times: day1, nc: the clock was set ahead by 1 s; also in day2, nc (2 s), day3, nc (3 s), day4, nc (4 s) "
+        "and 2 more (from 1 to 6)",
         "a place is unknown: bearng",
     ]
+
+
+def test_figures_of_the_others_are_told() -> None:
+    offsets = {"day1": "+8.468 s", "day2": "+9.40 s", "etve": "-31.2 s"}
+    notes = [f"{test}, rec: clock aligned to 'nc2': {offset}" for test, offset in offsets.items()]
+    assert notes_in_words(notes, ["rec", *offsets]) == [
+        "3 times: day1, rec: clock aligned to 'nc2': +8.468 s; also in day2, rec (+9.40 s), etve, rec (-31.2 s)"
+    ]
+
+
+def test_names_of_others_without_a_place_are_told() -> None:
+    texts = [f"calibration 'jump_{a}': its moves are unknown; try: moves: [100 um, -100 um]" for a in "XYZ"]
+    told = "also in calibration 'jump_Y', calibration 'jump_Z'"
+    assert told in notes_in_words(texts)[0]
+    assert told in losses_in_words([{"reason": text} for text in texts])[0]
 
 
 def flag(test: str, channel: str, detail: str, n: int = 3) -> dict[str, object]:

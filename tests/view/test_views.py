@@ -145,6 +145,17 @@ def test_wide_views_have_units_as_comments(small: Store) -> None:
     ) == [("[um] displacement, axis Z, at tcp, relative to table",)]
 
 
+def test_every_column_of_numbers_says_its_unit(small: Store) -> None:
+    assert (
+        sql(
+            small,
+            "select table_name, column_name from duckdb_columns() where not internal and comment is null "
+            "and data_type in ('DOUBLE', 'DOUBLE[]', 'TIMESTAMP_NS')",
+        )
+        == []
+    )
+
+
 def test_phases_gaps_and_quality(small: Store) -> None:
     assert sql(small, "select * from phase") == [
         ("c", "a", "heating", 0.0, 30.0),

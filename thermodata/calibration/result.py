@@ -67,27 +67,31 @@ class CalibrationResult:
         return all(bool(c["passed"]) for c in self.checks)
 
     def row(self, campaign: str) -> dict[str, Any]:
-        """The row of table `calibration`; crosstalk, checks and detail are plain data, to be stored as JSON."""
+        """The row of table `calibration`; crosstalk, checks and detail are plain data, to be stored as JSON: an advice
+        that there is none of is null there."""
+        # here, for the keys of tidy files hold the checks as they are
         return {
             "campaign": campaign,
             "calibration": self.name,
             "offset_value": self.offset,
             **{k: getattr(self, k) for k in _SAME_NAME},
+            "checks": [row | {"advice": row["advice"] or None} for row in self.checks],
         }
 
     @classmethod
     def from_row(cls, row: Mapping[str, Any]) -> CalibrationResult:
         """The reverse of `row` (JSON columns already decoded)."""
         offset = row["offset_value"]
-        return cls(name=row["calibration"], offset=0.0 if offset is None else offset, **{k: row[k] for k in _SAME_NAME})
+        known = {k: row[k] for k in _SAME_NAME} | {"checks": [c | {"advice": c["advice"] or ""} for c in row["checks"]]}
+        return cls(name=row["calibration"], offset=0.0 if offset is None else offset, **known)
 
 
 def check(name: str, value: float | None, threshold: float | None, passed: bool, advice: str) -> Check:
-    """One row of a calibration's checks; advice is None where there is nothing to do."""
+    """One row of a calibration's checks; advice is empty where there is nothing to do."""
     return {
         "name": name,
         "value": None if value is None else float(value),
         "threshold": None if threshold is None else float(threshold),
         "passed": bool(passed),
-        "advice": None if passed else advice,
+        "advice": "" if passed else advice,
     }

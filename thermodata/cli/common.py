@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import functools
+import os
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -57,6 +58,15 @@ def known_failure(error: Exception) -> ThermodataError | None:
     """What the user can do something about, in an exception of a library: a full disk, a damaged file of the store,
     a query that fails on a row. None for anything else."""
     if isinstance(error, OSError):
+        if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+            # Arrow says its file in its text only
+            named = re.search(r"local file '([^']+)'", str(error))
+            return UsageError(
+                "no right to read or write there",
+                where=str(error.filename) if error.filename else named[1] if named else None,
+                got=os.strerror(error.errno),
+                hint="name a folder of your own, or give yourself the right",
+            )
         if error.errno not in (errno.ENOSPC, errno.EDQUOT):
             return None
         return StoreError(

@@ -21,10 +21,10 @@ def ingest_command(session: Session, campaign: Path) -> int:
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
     from thermodata.cli.progress import progress_line
-    from thermodata.store.ingest.run import ingest
+    from thermodata.store.ingest.run import ingest, store_for
 
     with progress_line() as line:
-        summary = plain(ingest(session.store(create=True), campaign, progress=line).to_json())
+        summary = plain(ingest(store_for(session.store_path, campaign), campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
     return 3 if summary["losses"] else 0
 
@@ -69,9 +69,11 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         }
         for row in rows
     ]
+    several = len({row.get("campaign") for row in rows}) > 1
     text = table(
         shown,
         [
+            *([("campaign", "campaign")] if several else []),
             ("calibration", "calibration"),
             ("kind", "kind"),
             ("axis", "axis"),
@@ -86,7 +88,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         ],
     )
     failed = [
-        f"  ! {row['calibration']}: {c['name']}: {c.get('advice') or ''}"
+        f"  ! {row['campaign'] + ', ' if several else ''}{row['calibration']}: {c['name']}: {c.get('advice') or ''}"
         for row in shown
         for c in row.get("checks") or []
         if not c.get("passed", True)

@@ -12,6 +12,8 @@ MOST_PLACES = 3  # named beside the first
 _QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"")
 _PATH = re.compile(r"[^\s,:;()]*[/\\][^\s,:;()]*|[\w.-]+\.[A-Za-z]\w{1,5}\b")
 _NUMBER = re.compile(r"[-+]?\d(?:[\d.,:TZ+-]*\d)?(?:[eE][-+]?\d+)?")
+# what may differ between lines of one cause: a number comes with its unit
+_TOKEN = re.compile(rf"{_QUOTED.pattern}|{_PATH.pattern}|{_NUMBER.pattern}(?: ?(?:°C|[%A-Za-z]{{1,4}})\b)?")
 _WORD = re.compile(r"[\w.-]+")
 
 
@@ -49,23 +51,58 @@ def losses_in_words(losses: Sequence[Mapping[str, Any]], names: Collection[str] 
     for cause in by_cause(losses, lambda x: str(x["reason"]), names):
         line = f"{cause.text}{_place(cause.first)}"
         if len(cause.members) > 1:
-            others = dict.fromkeys(o for x in cause.members[1:] if (o := _short(x)) and o != _short(cause.first))
+            others = dict.fromkeys(
+                o
+                for x in cause.members[1:]
+                if (o := _short(x) or _differing(cause.text, str(x["reason"]))) and o != _short(cause.first)
+            )
             line = f"{len(cause.members)} times: {line}{_others(list(others))}"
         said.append(line)
     return said
 
 
 def notes_in_words(notes: Sequence[str], names: Collection[str] = ()) -> list[str]:
-    """A line a cause. A note begins with its place: 'day1, daq: ...' or 'raw/day1.csv: ...'."""
+    """A line a cause. A note begins with its place: 'day1, daq: ...' or 'raw/day1.csv: ...'; what stands otherwise in
+    the others is said with their places."""
     said = []
     for cause in by_cause(notes, str, names):
         line = cause.text
         if len(cause.members) > 1:
-            heads = [m.partition(": ")[0] for m in cause.members[1:]]
-            places = [h for h in heads if cause_of(h, names) == "~"]
-            line = f"{len(cause.members)} times: {line}{_others(list(dict.fromkeys(places)))}"
+            others = dict.fromkeys(_differing(cause.text, m) for m in cause.members[1:])
+            line = f"{len(cause.members)} times: {line}{_others([o for o in others if o])}{_span(cause.members)}"
         said.append(line)
     return said
+
+
+def _differing(first: str, other: str) -> str:
+    """What another line of the same cause has in place of the first one's names and figures: its head, where that is a
+    place, and in brackets what differs behind it."""
+    heads, bodies = zip(*(text.partition(": ")[::2] for text in (first, other)), strict=True)
+    if not bodies[0]:
+        heads, bodies = ("", ""), (first, other)
+    mine, theirs = (_TOKEN.findall(body) for body in bodies)
+    if len(mine) == len(theirs):
+        differs = [b for a, b in zip(mine, theirs, strict=True) if a != b]
+    else:  # lists of names of other lengths
+        differs = [b for b in theirs if b not in mine]
+    told = ", ".join(differs)
+    head = heads[1] if heads[1] != heads[0] else ""
+    return f"{head} ({told})" if head and told else head or told
+
+
+def _span(lines: Sequence[str]) -> str:
+    """From where to where the only figure that differs goes, where not every line is shown."""
+    if len(lines) <= MOST_PLACES + 1:
+        return ""
+    rows = [_NUMBER.findall(line.partition(": ")[2] or line) for line in lines]
+    if len({len(row) for row in rows}) > 1:
+        return ""
+    differ = [column for column in zip(*rows, strict=True) if len(set(column)) > 1]
+    try:
+        values = {float(text): text for text in differ[0]} if len(differ) == 1 else {}
+    except ValueError:  # a date
+        return ""
+    return f" (from {values[min(values)]} to {values[max(values)]})" if values else ""
 
 
 def said_at_ingest(summary: Mapping[str, Any]) -> dict[str, list[str]]:

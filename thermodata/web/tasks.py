@@ -52,8 +52,9 @@ def ingest(store: Path, tell: Tell, campaign: str) -> dict[str, Any]:
     """`thermodata ingest CAMPAIGN.yaml`."""
     from thermodata.report.causes import said_at_ingest
     from thermodata.store.ingest.run import ingest as run
+    from thermodata.store.ingest.run import store_for
 
-    found = run(Store(store, create=True), campaign, _Told(tell))
+    found = run(store_for(store, Path(campaign)), campaign, _Told(tell))
     summary = found.to_json()
     kept = {k: summary[k] for k in ("campaign", "tests", "files", "samples", "calibrations", "stale")}
     # what was lost, and what the engine wondered at, is read before anybody goes on

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -274,8 +275,11 @@ def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table:
     try:
         pq.write_table(table, part, compression=COMPRESSION, row_group_size=100_000)
         publish(part, target)
+    except OSError as error:
+        raise write_error(target, error) from error
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            part.unlink()
     return target.relative_to(store).as_posix()
 
 

@@ -44,7 +44,7 @@ class Store:
                 where=str(self.path),
                 hint="DuckDB separates search paths by commas: move or rename the folder",
             )
-        if not (self.path / CATALOGUE).exists():
+        if not self.is_at(self.path):
             if not create:
                 raise UsageError(
                     "there is no store here",
@@ -54,6 +54,11 @@ class Store:
                     hint="thermodata ingest CAMPAIGN.yaml makes one; --store names another folder",
                 )
             self._create()
+
+    @staticmethod
+    def is_at(path: Path) -> bool:
+        """Whether a folder is a store."""
+        return (path / CATALOGUE).exists()
 
     def __repr__(self) -> str:
         return f"Store({str(self.path)!r})"

@@ -105,11 +105,30 @@ def ingest(
                 ) from error
 
 
+def checked(path: Path) -> Campaign:
+    """A campaign file as far as it can be judged by itself. SpecError, or UsageError, with its line."""
+    campaign = load_campaign(path)
+    try:
+        check_derived(campaign)
+    except UsageError as error:
+        raise placed(error, path) from error
+    return campaign
+
+
+def store_for(path: Path, campaign_path: Path) -> Store:
+    """The store in a folder; made where there is none, and only for a campaign file that can be ingested: an empty one
+    would be taken for a store in which something stands."""
+    if not Store.is_at(path):
+        checked(campaign_path)
+    return Store(path, create=True)
+
+
 def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool) -> IngestSummary:
     """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
-    campaign = load_campaign(path) if given is None else given
-    check_derived(campaign)
+    campaign = checked(path) if given is None else given
+    if given is not None:
+        check_derived(campaign)
     files = CampaignFiles(store.path, path.absolute().parent, campaign, watch)
     files.survey()
     here = files.seen(path.absolute())
@@ -240,4 +259,4 @@ def _summed(counts: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return dict(sorted(total.items()))
 
 
-__all__ = ["IngestSummary", "ingest"]
+__all__ = ["IngestSummary", "checked", "ingest", "store_for"]

@@ -18,7 +18,7 @@ from thermodata.store.views.catalogue import Catalogue, read_catalogue
 from thermodata.store.views.dispatch import lookup_macros
 from thermodata.store.views.grid import grid_macros
 from thermodata.store.views.long import long_views, signal_macros
-from thermodata.store.views.result import result_views
+from thermodata.store.views.result import SCORE_COMMENTS, result_views
 from thermodata.store.views.wide import wide_views
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 _TABLE_COMMENTS = {
     "test": {
         "start_ns": "[ns] UTC since 1970, NULL for relative clocks",
+        "start": "UTC",
         "duration_s": "[s]",
         "window_s": "[s] from the start of the recording",
         "zero_s": "[s]",
@@ -45,11 +46,18 @@ _TABLE_COMMENTS = {
     "quality_event": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
     "calibration": {
         "gain": "in gain_unit",
+        "offset_value": "in the unit of the value, which is the first of gain_unit; value = gain * reading + offset",
         "uncertainty_pct": "[%]",
         "noise_um": "[um]",
         "nonlinearity_pct": "[%]",
         "drift_um": "[um]",
     },
+    "fit": {
+        "value": "in fit.unit",
+        "low": "in fit.unit; lower end of the interval of 95 %",
+        "high": "in fit.unit; upper end of the interval of 95 %",
+    },
+    "score_row": SCORE_COMMENTS,
 }
 
 _MADE = "made_from"

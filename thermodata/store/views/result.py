@@ -100,16 +100,33 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        payload->>'$.verdict' as verdict
 from finding where kind = 'portability'"""
 
+_OF_RESPONSE = "[um], or in the response's unit where that is no displacement"
+SCORE_COMMENTS = {
+    "fit": "[%] free run, not clipped",
+    "rmse_um": _OF_RESPONSE,
+    "ptp_um": f"{_OF_RESPONSE}: peak to peak, measured",
+    "ptp_residual_um": f"{_OF_RESPONSE}: peak to peak of the residual",
+    "max_um": _OF_RESPONSE,
+}
 _COMMENTS = {
     "phase": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
     "gap": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test", "duration_s": "[s]"},
     "quality": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
-    "score": {
-        "fit": "[%] free run, not clipped",
-        "rmse_um": "[um]",
-        "ptp_um": "[um] peak to peak, measured",
-        "ptp_residual_um": "[um] peak to peak",
-        "max_um": "[um]",
+    "score": SCORE_COMMENTS,
+    "candidate": {
+        "p_value": "[1]",
+        "rmse_um_before": _OF_RESPONSE,
+        "rmse_um_after": _OF_RESPONSE,
+        "fit_before": "[%]",
+        "fit_after": "[%]",
+        "locked_rmse_um_before": _OF_RESPONSE,
+        "locked_rmse_um_after": _OF_RESPONSE,
+    },
+    "artefact": {"at_s": "[s] from the start of the test", "size_um": _OF_RESPONSE},
+    "diagnosis": {
+        "noise_um": _OF_RESPONSE,
+        "rmse_um": _OF_RESPONSE,
+        "explainable": "[1] largest fall of the squared error that a candidate gives",
     },
     "residual": {
         "t_s": "[s] from the start of the test",

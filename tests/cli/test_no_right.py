@@ -1,0 +1,44 @@
+"""A folder that may only be read: what, where, and what to do."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow.csv
+import pyarrow.parquet
+import pytest
+
+from .conftest import Said
+
+
+@pytest.fixture
+def refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who may write anywhere, as tests may, is refused by Arrow as others are."""
+
+    def refuse(table: Any, path: Any, *more: Any, **named: Any) -> None:
+        text = f"Failed to open local file '{path}'. Detail: [errno 13] Permission denied"
+        raise PermissionError(errno.EACCES, text)
+
+    monkeypatch.setattr(pyarrow.parquet, "write_table", refuse)
+    monkeypatch.setattr(pyarrow.csv, "write_csv", refuse)
+
+
+def test_a_store_that_may_only_be_read_takes_no_fit(say: Callable[..., Said], campaign: Path, refused: None) -> None:
+    said = say("--store", campaign / "thermodata.store", "fit", campaign / "baseline.yaml")
+    assert said.code == 4
+    assert "the store can only be read" in said.err
+    assert "where: " in said.err
+    assert "try: give yourself the right" in said.err
+
+
+def test_a_folder_that_may_only_be_read_takes_no_export(
+    say: Callable[..., Said], campaign: Path, tmp_path: Path, refused: None
+) -> None:
+    said = say("--store", campaign / "thermodata.store", "export", "small", "day1", tmp_path / "out.csv")
+    assert said.code == 2
+    assert f"where: {tmp_path}{os.sep}" in said.err
+    assert "try: name a folder of your own" in said.err
