@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.clock_moves import moved
-from thermodata.diagnosis.clock_sides import Key, Part, in_order, in_words, part_of
+from thermodata.diagnosis.clock_sides import Key, Part, Sides, in_order, in_words, part_of
 from thermodata.diagnosis.clock_timings import Timing
 from thermodata.diagnosis.clock_timings import as_artefact as by_commands
 from thermodata.diagnosis.clocks import timings
@@ -162,6 +162,24 @@ def test_beyond_the_end_of_a_log_that_is_moved_nothing_is_valid() -> None:
     assert earlier.valid["v"].all()
     begun = replace(test, valid={**test.valid, "n": test.t_s >= 600.0})
     assert moved(begun, {"n": -600.0}).valid["n"][0], "what was logged later belongs here"
+
+
+@pytest.mark.parametrize(
+    ("unmoved", "moved", "off", "right"),
+    [
+        (0.3, 0.451, True, False),
+        (0.3, 0.449, False, False),
+        (0.451, 0.3, False, True),
+        (0.449, 0.3, False, False),
+        (-0.5, 0.19, False, False),
+        (-0.5, 0.21, True, False),
+    ],
+)
+def test_a_test_tells_where_one_time_foretells_more_than_the_other(
+    unmoved: float, moved: float, off: bool, right: bool
+) -> None:
+    one = Sides(keys((0,)), 3600.0, np.array([0.0, 3600.0]), np.array([[unmoved, moved]]))
+    assert (bool(one.off), bool(one.right)) == (off, right)
 
 
 def test_a_part_in_words() -> None:
