@@ -3,9 +3,9 @@
     uv run python tests/benchmarks/clocks.py [--first-seed 712] [--seeds 8]
 
 Lathes of the blind benchmark, whose logs agree, are asked as they are; then all that one source logged is moved by one
-or two hours, in all tests, or in one of those with a day's or an axis's work. Right: the shift to 10 min, of the source
-that was moved. Other source: as far, but the other of two is blamed. Neither: it is said that the two disagree.
-Of some: of all tests only some are told. False alarm: any clock that is said beside, by another shift.
+or two hours, in all tests, in one of those with a day's or an axis's work, or in all from one on. Right: the shift to
+10 min, of the source that was moved. Other source: as far, but the other of two is blamed. Neither: it is said that the
+two disagree. Of some: of all tests only some are told. False alarm: any clock that is said beside, by another shift.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.clocks import moved
+from thermodata.diagnosis.clock_moves import moved
 from thermodata.diagnosis.sound import sound
 from thermodata.effect import effects
 from thermodata.modelling.fit import fit_model
@@ -55,6 +55,17 @@ def outcome(source: str, minutes: float, test: str, clocks: list[ClockMoved], fa
     return [_of_its_own(source, minutes, test, clocks, faults), *["false alarm"] * len(beside)]
 
 
+def outcome_from(source: str, minutes: float, off: set[str], clocks: list[ClockMoved], opened: set[str]) -> list[str]:
+    """Of a source that is late from one test on. Right: in two open tests and more, and in none before."""
+    named = [c for c in clocks if (c.source != HOME if source == HOME else c.source == source)]
+    sign = 1 if source == HOME else -1
+    right = [c for c in named if c.test and abs(c.moved_s / 60 - sign * minutes) <= TO_MIN]
+    moved_in = {c.test for c in right} & opened
+    if len(right) < len(clocks) or moved_in - off:
+        return ["wrong shift"]
+    return ["right" if len(moved_in) > 1 else "of some" if moved_in else "silent"]
+
+
 def by_as_much(clock: ClockMoved, minutes: float) -> bool:
     return abs(abs(clock.moved_s / 60) - abs(minutes)) <= TO_MIN
 
@@ -83,7 +94,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=8)
     given = parser.parse_args()
     counts: dict[str, Counter[str]] = {}
-    rng = np.random.default_rng(given.first_seed)
+    rng, of_parts = np.random.default_rng(given.first_seed), np.random.default_rng(given.first_seed + 1)
     for seed in range(given.first_seed, given.first_seed + given.seeds):
         for stratum in STRATA:
             world = make_world(stratum, seed)
@@ -100,6 +111,15 @@ def main() -> None:
                     late = logged_late(data, source, minutes, test)
                     row = f"{source}, {'one test' if test else 'all tests'}"
                     counts.setdefault(row, Counter()).update(outcome(source, minutes, test, *said(fitted, late)))
+                order = [t.test for t in data.tests]
+                off = set(order[int(of_parts.integers(1, len(order) - 1)) :])
+                minutes, late = float(of_parts.choice(MINUTES)), data
+                for test in off:
+                    late = logged_late(late, source, minutes, test)
+                opened = {t.test for t in data.tests if t.role != "locked"}
+                clocks, _ = said(fitted, late)
+                row = f"{source}, from a test on"
+                counts.setdefault(row, Counter()).update(outcome_from(source, minutes, off, clocks, opened))
     columns = ("right", "other source", "neither", "of some", "wrong shift", "silent", "false alarm")
     print(f"| moved by one or two hours | {' | '.join(columns)} |\n|---|{'---|' * len(columns)}")
     for row, found in counts.items():

@@ -7,14 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.clocks import (
-    Timing,
-    as_artefact,
-    beyond_trend,
-    clock_is_off,
-    timings,
-    with_clocks_right,
-)
+from thermodata.diagnosis.clock_moves import with_clocks_right
+from thermodata.diagnosis.clock_timings import Timing, as_artefact, clock_is_off
+from thermodata.diagnosis.clocks import beyond_trend, timings
 from thermodata.diagnosis.problem import Problem
 from thermodata.schema.diagnosis import ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset
@@ -61,19 +56,19 @@ def test_a_clock_that_is_off_is_told_by_what_the_speed_moves_at_once(samples: in
 @pytest.mark.parametrize("samples", [-2, 0, 2])
 def test_a_clock_that_is_nearly_right_is_not_off(samples: int) -> None:
     asked = off_by(samples)
-    assert timings(asked, CHANNELS).off == []
+    assert timings(asked, CHANNELS).off() == []
 
 
 @pytest.mark.parametrize("samples", [0, 11])
 def test_heat_that_lags_tells_no_clock(samples: int) -> None:
     asked = off_by(samples, at_once=0.0)
-    assert timings(asked, CHANNELS).off == []
+    assert timings(asked, CHANNELS).off() == []
 
 
 @pytest.mark.parametrize("samples", [-120, -60, -11, -3, 3, 25, 57, 118])
 def test_a_clock_that_is_off_in_one_test_is_told_by_how_its_commands_act_in_the_others(samples: int) -> None:
     asked = off_by(0, apart={2: samples})
-    (found,) = timings(asked, CHANNELS).off
+    (found,) = timings(asked, CHANNELS).off()
     assert (found.source, found.test, found.shift_s) == ("nc", asked.blocks[2].test.test, -60.0 * samples)
     said = as_artefact(found, asked)
     assert (said.kind, said.test) == ("clock_offset", found.test)
@@ -83,7 +78,7 @@ def test_a_clock_that_is_off_in_one_test_is_told_by_how_its_commands_act_in_the_
 
 def test_a_clock_that_is_off_by_another_time_in_one_test_is_told_beside_the_others() -> None:
     asked, right = off_by(3, apart={2: 60}), off_by(0)
-    of_all, of_one = timings(asked, CHANNELS).off
+    of_all, of_one = timings(asked, CHANNELS).off()
     assert (of_all.test, of_all.shift_s) == ("", -180.0)
     assert (of_one.test, of_one.shift_s) == (asked.blocks[2].test.test, -3420.0)
     data = Dataset(60.0, tuple(b.test for b in asked.blocks), CHANNELS)
@@ -97,18 +92,18 @@ def test_a_clock_that_is_off_by_another_time_in_one_test_is_told_beside_the_othe
 def test_one_test_that_is_off_far_is_not_taken_for_the_clock_of_all() -> None:
     """Of three tests it pulls the best shift of all."""
     asked = off_by(0, tests=3, apart={1: 15})
-    (found,) = timings(asked, CHANNELS).off
+    (found,) = timings(asked, CHANNELS).off()
     assert (found.test, found.shift_s) == (asked.blocks[1].test.test, -900.0)
 
 
 @pytest.mark.parametrize("samples", [-2, 2])
 def test_a_clock_that_is_nearly_right_in_one_test_is_not_off(samples: int) -> None:
-    assert timings(off_by(0, apart={2: samples}), CHANNELS).off == []
+    assert timings(off_by(0, apart={2: samples}), CHANNELS).off() == []
 
 
 def test_of_half_of_the_tests_nobody_can_say_which_are_right() -> None:
-    assert len(timings(off_by(0, apart={0: 25, 1: -20}), CHANNELS).off) == 2
-    assert timings(off_by(0, tests=4, apart={0: 25, 1: -20}), CHANNELS).off == []
+    assert len(timings(off_by(0, apart={0: 25, 1: -20}), CHANNELS).off()) == 2
+    assert timings(off_by(0, tests=4, apart={0: 25, 1: -20}), CHANNELS).off() == []
 
 
 def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
@@ -118,7 +113,7 @@ def test_what_acts_at_once_in_one_test_only_tells_no_clock() -> None:
     late = np.flatnonzero(np.diff(first.test.values["n"]))[5] + 11
     slipped = first.response + 12.0 * (np.arange(len(first.response)) >= late)
     asked = replace(asked, blocks=(replace(first, response=slipped), *asked.blocks[1:]))
-    assert timings(asked, CHANNELS).off == []
+    assert timings(asked, CHANNELS).off() == []
 
 
 @pytest.mark.parametrize("slip", [-40.0, -12.0, 12.0, 40.0])
@@ -129,7 +124,7 @@ def test_a_slip_that_some_shift_lays_on_a_command_tells_no_clock(slip: float) ->
     late = np.flatnonzero(np.abs(np.diff(first.test.values["n"])) > 2000)[0] + 20
     slipped = first.response + slip * (np.arange(len(first.response)) >= late)
     asked = replace(asked, blocks=(replace(first, response=slipped), *asked.blocks[1:]))
-    assert timings(asked, CHANNELS).off == []
+    assert timings(asked, CHANNELS).off() == []
 
 
 @pytest.mark.parametrize("samples", [-60, 25])
@@ -138,7 +133,7 @@ def test_a_clock_that_is_off_in_one_test_is_told_beside_a_slip(samples: int) -> 
     one = asked.blocks[2]
     slipped = replace(one, response=one.response + 9.0 * (np.arange(len(one.response)) >= 150))
     asked = replace(asked, blocks=(*asked.blocks[:2], slipped, *asked.blocks[3:]))
-    (found,) = timings(asked, CHANNELS).off
+    (found,) = timings(asked, CHANNELS).off()
     assert (found.test, found.shift_s) == (one.test.test, -60.0 * samples)
 
 
@@ -173,7 +168,7 @@ def test_all_that_a_source_logged_is_put_where_it_happened() -> None:
     asked, right = off_by(11), off_by(0)
     data = Dataset(60.0, tuple(b.test for b in asked.blocks), CHANNELS)
     moved = with_clocks_right(
-        data, [ClockMoved(source=t.source, moved_s=t.shift_s) for t in timings(asked, CHANNELS).off]
+        data, [ClockMoved(source=t.source, moved_s=t.shift_s) for t in timings(asked, CHANNELS).off()]
     )
     for test, at, as_logged in zip(moved.tests, right.blocks, asked.blocks, strict=True):
         assert np.array_equal(test.values["n"][:-11], at.test.values["n"][:-11])

@@ -9,8 +9,11 @@ BESIDE = {
     "answer.py": ("the_answer", "the_locked_tests"),
     "artefact.py": ("steps",),
     "candidates.py": ("candidates", "unread_parts"),
+    "clock_moves.py": ("clocks_in_part",),
+    "clock_sides.py": ("clocks_in_part",),
+    "clock_timings.py": ("clocks_by_commands", "clocks_in_part"),
     "clocks.py": ("clocks_by_commands",),
-    "clocks_by_heat.py": ("clocks_by_heat",),
+    "clocks_by_heat.py": ("clocks_by_heat", "clocks_in_part"),
     "copies.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps", "clocks_by_heat"),
@@ -76,6 +79,11 @@ def check(old: str, new: str, why: str, file: str = "checks.py") -> Mutant:
 
 def calibration(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(f"thermodata/calibration/{file}", old, new, why, CALIBRATION)
+
+
+def starts(old: str, new: str, why: str) -> Mutant:
+    tests = ("tests/calibration/test_quality_starts.py",)
+    return Mutant("thermodata/calibration/quality_starts.py", old, new, why, tests)
 
 
 MUTANTS = [
@@ -666,9 +674,7 @@ MUTANTS = [
     diagnosis("clocks_by_heat.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
     diagnosis("clocks_by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
     diagnosis("clocks_by_heat.py", "if 2 * len(", "if len(", "half of the tests are blamed on the others, by heat"),
-    diagnosis(
-        "clocks_by_heat.py", "(one.campaign, one.test)]", "(one.campaign, one.test) or f]", "one test hides another"
-    ),
+    diagnosis("clocks_by_heat.py", "if f.of.key == one.key]", "if f]", "one test hides another"),
     diagnosis(
         "heat_balance.py", "MOST_OWN = 0.5", "MOST_OWN = 0.6", "a drive that hardly worked elsewhere moves a clock"
     ),
@@ -679,14 +685,23 @@ MUTANTS = [
     diagnosis("heat_balance.py", "LEAST_LEFT = 0.45", "LEAST_LEFT = 0.3", "what is left of a test moves its clock"),
     diagnosis("heat_balance.py", "telling[usual].mean()", "telling.mean()", "what tells nowhere speaks for a clock"),
     diagnosis("heat_balance.py", "self.share - self.rest < TELLS", "False", "a test in which the machine waits tells"),
-    diagnosis("clocks.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"),
+    diagnosis(
+        "clock_timings.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"
+    ),
     diagnosis("clocks.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"),
     diagnosis("clocks.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
-    diagnosis("clocks.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
-    diagnosis("clocks.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
-    diagnosis("clocks.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
+    diagnosis("clock_sides.py", "changes <= 1 or", "True or", "a clock that comes and goes in most tests is moved"),
+    diagnosis(
+        "clock_sides.py", "(more - less >= APART)", "(more >= less)", "what tells neither way speaks for a clock"
+    ),
+    diagnosis("clocks_by_heat.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
+    diagnosis("clock_timings.py", "abs(t.shift_s + all_s) <=", "abs(t.shift_s) <=", "all are moved for a part"),
+    diagnosis("clock_moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
+    diagnosis("clock_timings.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
+    diagnosis("clock_timings.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
+    diagnosis("clock_timings.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
     diagnosis("clocks.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"),
-    diagnosis("clocks.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
+    diagnosis("clock_timings.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
     diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
     diagnosis("commanded.py", "change if told else {", "change if True else {", "a motor that cools excuses a slip"),
@@ -770,6 +785,11 @@ MUTANTS = [
     check("UNSURE = 1.0", "UNSURE = 99.0", "lags that nothing tells pass"),
     check("RIPPLE = 1.0", "RIPPLE = 99.0", "quantisation of a sensor reaches the prediction"),
     # ---- calibrations and clocks
+    starts("LEAST_K = 8.0", "LEAST_K = 10.0", "a sensor that is off by 9 K passes"),
+    starts("_in_company(name, at, before, i, sign)]", "False]", "a machine that was warmed up fails"),
+    starts("back[1] > back[0] + COOLS_K", "False", "a motor that cools is a sensor that fails"),
+    starts("+ ALIKE_K", "+ 10 * ALIKE_K", "what is warm by another time each day fails"),
+    starts("if name not in found}", "}", "one that fails hides the next one"),
     calibration("jump_checks.py", "DATA_SHEET_PCT = 10.0", "DATA_SHEET_PCT = 90.0", "the wrong probe passes"),
     calibration("jump_checks.py", "UNCERTAINTY_PCT = 5.0", "UNCERTAINTY_PCT = 50.0", "poor calibrations pass"),
     calibration(

@@ -8,17 +8,19 @@ machine had levelled out. Where it drifted there, the drift is flagged with it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from thermodata.calibration.quality_starts import Start, off_from_start
 from thermodata.plugin import Array, Bool1D, Float1D, Float2D, Int1D
 
 POINTS = 32  # of a test, evenly spread over it
 _LEAST_K = 8.0
 _LEAVES_K = 2.0  # a drift begins where it leaves by more what was usual, and does not come back
 _RESTED_S = 4 * 3600.0  # bearings and motors cool in one to two hours
+_START_S = 600.0  # what is seen later than the others may be warm by then
 _LEVEL_K = 2.0  # four of five others within so much of their median: without a clock, a machine at rest
 _LEVEL_SHARE = 0.8
 _FOLLOWS_SHARE = (
@@ -34,13 +36,15 @@ _LEAST_BEFORE = 3  # points, or nobody knows what was usual
 @dataclass(frozen=True, slots=True)
 class Course:
     """A channel at a few moments of a test. t_s, values: shape (n,), in time order; NaN where nothing valid is. off:
-    shape (n,), where it is flagged as off already. powered: it stays warm or cold while the machine is switched on."""
+    shape (n,), where it is flagged as off already. powered: it stays warm or cold while the machine is switched on.
+    around: it is not of the machine, and has seasons and weather of its own."""
 
     t_s: Float1D
     values: Float1D
     quantity: str = "temperature"
     off: Bool1D | None = None
     powered: bool = False
+    around: bool = False
 
     @property
     def sound(self) -> Float1D:
@@ -75,6 +79,7 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     do. A channel needs three others to be compared with. Nothing is said where no later test began with a machine
     that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike), for then a part that
     stays hot would look the same; nor of what is powered, which looks so from the day on which it is switched on.
+    With clocks a channel is also off whose starts after a rest say so (`quality_starts`).
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
@@ -86,7 +91,26 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
         spans = [d.get(channel, _UNTOLD) for d in differences]
         level = [_level(t, channel) if rested is None or not i else rested[i] for i, t in enumerate(ordered)]
         offsets |= _from_the_failure_on(ordered, channel, spans, level)
+    if rested is not None:
+        starts = [_starts(test, d, {c for _, c in offsets}) for test, d in zip(ordered, differences, strict=True)]
+        for channel, (begin, size) in off_from_start(starts, [r > 0 for r in rested]).items():
+            offsets |= {(t.test, channel): Off(size) for t in ordered[begin:] if channel in t.series}
     return offsets
+
+
+def _starts(test: Levels, differences: Mapping[str, tuple[Float1D, Float1D]], off: Container[str]) -> dict[str, Start]:
+    """How channels start a test, and how far they leave that; not those that are known to be off."""
+    first_s = min((float(t_s[0]) for t_s, _ in differences.values()), default=0.0)
+    return {
+        name: Start(
+            float(d[0]),
+            float(d[0] - d.min()),
+            float(d.max() - d[0]),
+            asked=not (test.series[name].powered or test.series[name].around),
+        )
+        for name, (t_s, d) in differences.items()
+        if name not in off and t_s[0] - first_s <= _START_S
+    }
 
 
 def _rested(tests: Sequence[Levels]) -> list[float]:

@@ -7,80 +7,22 @@ whether the model has it or not, so the displacement itself is asked, in its jum
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.clock_timings import ABOUT_S, HOURS, MOST_S, Timing, Timings, clock_is_off
 from thermodata.diagnosis.commanded import POWERS, is_command
 from thermodata.diagnosis.known import FloatND
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.schema.diagnosis import Artefact, ClockMoved
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.dataset import ChannelInfo, TestData
 
-MOST_S = 1800.0  # shifts that are asked, either way,
 MOST_SAMPLES = 60  # and no more than these;
-HOURS, ABOUT_S = (1, 2), 300.0  # and whole hours, give or take: a time zone, or daylight saving,
 RIM = 2.0  # asked for so many times as far: what chance gives, and what is best beyond is no whole hour
 AROUND = 5  # samples on either side of a jump that its slope is taken over
 RIDGE = 0.1  # of a column's squares: what hardly changes in the other tests must not foretell a large jump
-LEAST_SHARE = 0.1  # of the squared jumps, which the other tests foretell at the best shift
-BEATS = 2.0  # times what they foretell unmoved
-LEAST_S = 150.0  # quick heat is late by up to 2 min where clocks are right
-GIVE_OR_TAKE = 2  # samples between the shift found and the right one, at most
-
-
-@dataclass(frozen=True, slots=True)
-class Timing:
-    """shift_s: by which a source's commands foretell most when moved later; of one test beyond what all are moved by.
-    share: of the squared jumps, foretold by the other tests at that shift. unmoved: the most within a sample of none.
-    campaign, test: the one that is asked of; '' for all of them. elsewhere: the most at shifts that are not near it."""
-
-    source: str
-    shift_s: float
-    share: float
-    unmoved: float
-    campaign: str = ""
-    test: str = ""
-    elsewhere: float = 0.0
-
-    @property
-    def tells(self) -> bool:
-        """Whether anything at all acts at once."""
-        return self.share >= LEAST_SHARE
-
-
-@dataclass(frozen=True, slots=True)
-class Timings:
-    """in_all: of each source. in_one: of each source in each test, as its commands act in the others."""
-
-    in_all: tuple[Timing, ...]
-    in_one: tuple[Timing, ...]
-    step_s: float
-
-    @property
-    def off(self) -> list[Timing]:
-        """Of single tests only where they are fewer than half: else nobody can say which are right."""
-        found = [t for t in self.in_all if clock_is_off(t, self.step_s)]
-        for source in [t.source for t in self.in_all]:
-            of_source = [t for t in self.in_one if t.source == source]
-            single = [t for t in of_source if clock_is_off(t, self.step_s)]
-            found += single if 2 * len(single) < len(of_source) else []
-        return found
-
-    @property
-    def told(self) -> frozenset[str]:
-        """Sources whose clock is known by what they command."""
-        return frozenset(t.source for t in self.in_all if t.tells)
-
-    @property
-    def told_in_one(self) -> dict[tuple[str, str], frozenset[str]]:
-        """The same by what they command in a test."""
-        tests = dict.fromkeys((t.campaign, t.test) for t in self.in_one)
-        return {
-            key: frozenset(t.source for t in self.in_one if (t.campaign, t.test) == key and t.tells) for key in tests
-        }
 
 
 def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
@@ -101,56 +43,6 @@ def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
 
 def commands_of(source: str, channels: Mapping[str, ChannelInfo]) -> list[tuple[str, ChannelInfo]]:
     return [(n, c) for n, c in sorted(channels.items()) if c.source == source and is_command(c)]
-
-
-def clock_is_off(timing: Timing, step_s: float) -> bool:
-    """step_s: between two samples, nearer than two of which nothing is known."""
-    late = abs(timing.shift_s) >= max(LEAST_S, (GIVE_OR_TAKE + 0.5) * step_s)
-    from_hour_s = abs(timing.shift_s - 3600.0 * round(timing.shift_s / 3600.0))
-    if abs(timing.shift_s) > MOST_S:
-        # among so many shifts some stands out by chance, in a test by itself
-        by_chance = timing.elsewhere if timing.test else 0.0
-        late &= from_hour_s <= ABOUT_S and timing.share >= BEATS * by_chance
-    return late and timing.tells and timing.share >= BEATS * timing.unmoved
-
-
-def with_clocks_right(data: Dataset, clocks: Sequence[ClockMoved]) -> Dataset:
-    """The same with what sources logged, in all tests or in one, later by so many seconds; moves add up."""
-    if not clocks:
-        return data
-    return replace(data, tests=tuple(moved(t, _shift_s(t, data.channels, clocks)) for t in data.tests))
-
-
-def _shift_s(test: TestData, channels: Mapping[str, ChannelInfo], clocks: Sequence[ClockMoved]) -> dict[str, float]:
-    """Channel -> by how much it is moved in a test."""
-    here = [c for c in clocks if not c.test or (c.campaign, c.test) == test.key]
-    moves = {n: sum(c.moved_s for c in here if c.source == info.source) for n, info in channels.items()}
-    return {n: shift_s for n, shift_s in moves.items() if shift_s}
-
-
-def moved(test: TestData, shift_s: Mapping[str, float]) -> TestData:
-    """The test with some channels later by shift_s; ends hold their value."""
-    values = {
-        name: np.interp(test.t_s - shift_s[name], test.t_s, v) if name in shift_s else v
-        for name, v in test.values.items()
-    }
-    return replace(test, values=values)
-
-
-def as_artefact(timing: Timing, problem: Problem) -> Artefact:
-    minutes, known_to = timing.shift_s / 60, GIVE_OR_TAKE * problem.step_s / 60
-    of = "in this test, by how they act in the others" if timing.test else "in tests left out"
-    return Artefact(
-        kind="clock_offset",
-        campaign=timing.campaign or problem.blocks[0].test.campaign,
-        test=timing.test,
-        at_s=None,
-        size_um=None,
-        why=f"with the clock of source '{timing.source}' moved by {minutes:+.0f} min (give or take {known_to:.0f}) its "
-        f"commands foretell {timing.share:.0%} of the squared jumps of the displacement {of}, unmoved "
-        f"{max(timing.unmoved, 0.0):.0%}. The choice is made with it moved; check the time zone and the "
-        "clocks, or declare clock: {offset: ...}",
-    )
 
 
 @dataclass(frozen=True, slots=True)

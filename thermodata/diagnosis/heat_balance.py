@@ -56,6 +56,11 @@ class Disagreement:
     tell: float = 1.0
 
     @property
+    def key(self) -> tuple[str, str]:
+        """Campaign and test."""
+        return self.campaign, self.test
+
+    @property
     def plain(self) -> bool:
         if self.share - self.rest < TELLS:
             return False  # a test in which the machine waits: what cools foretells itself
@@ -109,7 +114,7 @@ class Pair:
         found = self._disagreement(shares, telling)
         if found is None:
             return None
-        left, at = 1 - self._by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
+        left, at = 1 - self.by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
         rest = float(self._at_rest(i)[telling][:, at].mean())
         own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
         tell = float(telling[usual].mean())
@@ -125,6 +130,10 @@ class Pair:
             return [0.0] * len(about_s)
         mean = self._shares(i).mean(axis=0)
         return [float(mean[self._near(at_s)].max()) for at_s in about_s]
+
+    def told(self, i: int, gains: FloatND) -> Float2D:
+        """Of a test's squared rises, what gains, shape (channels, 1 or s, k), foretell: shape (channels, s)."""
+        return _share(self._left(i, gains), self.energy[i])
 
     def _near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= UNMOVED_S)
@@ -148,7 +157,7 @@ class Pair:
         gains = self._gains(_but(self.tests, i))[:, self.shifts_s == 0]
         return _share(self._left(i, gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
 
-    def _by_its_own(self, i: int) -> Float2D:
+    def by_its_own(self, i: int) -> Float2D:
         """The same of a test with the gains that it gives itself."""
         return _share(self._left(i, self._gains([i])), self.energy[i])
 

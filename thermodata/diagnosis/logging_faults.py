@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.diagnosis.candidates import NOT_DRIVERS
-from thermodata.diagnosis.clocks import moved
+from thermodata.diagnosis.clock_moves import moved
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.diagnosis import Artefact

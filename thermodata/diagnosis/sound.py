@@ -8,7 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from thermodata.diagnosis.clocks import as_artefact, timings, with_clocks_right
+from thermodata.diagnosis.clock_moves import with_clocks_right
+from thermodata.diagnosis.clock_sides import in_order
+from thermodata.diagnosis.clock_timings import as_artefact
+from thermodata.diagnosis.clocks import timings
 from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
 from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
@@ -19,7 +22,7 @@ from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
+from thermodata.schema.diagnosis import Artefact, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -77,23 +80,22 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     problem = compressed(response, found.data, found.tests, TARGET_ROWS)
     known = timings(problem, found.data.channels)
     word = Declared.of(found.data, response.name)
-    off = [t for t in known.off if t.source not in word.of_clock(t.campaign, t.test)]
-    clocks = [ClockMoved(source=t.source, campaign=t.campaign, test=t.test, moved_s=t.shift_s) for t in off]
+    in_one = {key: sources - word.of_all for key, sources in word.in_one.items()}
+    order = in_order([*found.tests, *found.fitted.tests(found.data, "locked")])
+    off = [t for t in known.off(order, in_one) if t.source not in word.of_clock(t.campaign, t.test)]
+    clocks = [move for t in off for move in t.moves()]
     faults = [as_artefact(t, problem) for t in off]
 
     data = with_clocks_right(found.data, clocks)
     tests = [t for t in data.tests if t.key in keys]
-    logs = compared(tests, data.channels, response.name, data.step_s)
+    locked = found.fitted.tests(data, "locked")
+    logs = compared(tests, data.channels, response.name, data.step_s, locked=locked, declared=in_one)
     late = late_logs(logs, known.told)
     if not late and all(c.test for c in clocks):  # of a log that was moved in all tests the ends are not known
         late = late_in_one(logs, known.told_in_one)
     late = [one for one in late if not word.settles(one)]
     faults += [by_heat(one, tests[0].campaign) for one in late]
-    clocks += [
-        ClockMoved(source=one.source, campaign=one.of.campaign, test=one.of.test, moved_s=one.shift_s)
-        for one in late
-        if one.source is not None
-    ]
+    clocks += [move for one in late for move in one.moves()]
     if not clocks:
         return replace(found, faults=tuple(faults))
     data = with_clocks_right(found.data, clocks)

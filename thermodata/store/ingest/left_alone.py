@@ -58,6 +58,7 @@ class TestNote:
     start_s: float | None = None
     quantities: dict[str, str] = field(default_factory=dict)
     powered: list[str] = field(default_factory=list)
+    around: list[str] = field(default_factory=list)
     courses: list[list[Any]] = field(default_factory=list)
     verdicts: list[list[Any]] = field(default_factory=list)
     overruled: list[int] = field(default_factory=list)
@@ -81,7 +82,7 @@ class TestNote:
     def levels(self, test: str) -> tuple[Levels, dict[str, Reading]] | None:
         """What its channels were like, for the tests beside it."""
         files = [("test", {"to_s": to_s, "levels": levels}) for to_s, levels in self.courses]
-        return levels_of(test, self.start_s, self.quantities, self.powered, files)
+        return levels_of(test, self.start_s, self.quantities, self.powered, self.around, files)
 
 
 @dataclass(frozen=True, slots=True)

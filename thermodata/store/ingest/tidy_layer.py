@@ -15,7 +15,7 @@ from pathlib import Path
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, StoreError, ThermodataError
 from thermodata.schema.campaign import Campaign
-from thermodata.schema.places import is_powered
+from thermodata.schema.places import is_around, is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.empty_channels import empty_channels
@@ -147,6 +147,7 @@ def _note_courses(note: TestNote, test: _Tidied) -> None:
     own = {name: b.channel for name, b in test.plan.bound.items() if name in named}
     note.quantities = {name: channel.quantity for name, channel in own.items()}
     note.powered = [name for name, channel in own.items() if is_powered(channel.at)]
+    note.around = [name for name, channel in own.items() if is_around(channel.at)]
 
 
 def _note_verdicts(note: TestNote, test: _Tidied) -> None:

@@ -189,12 +189,14 @@ def levels_of(
     start_s: float | None,
     quantities: Mapping[str, str],
     powered: Container[str],
+    around: Container[str],
     files: Sequence[tuple[str, Mapping[str, Any]]],
 ) -> tuple[Levels, dict[str, Reading]] | None:
     """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
 
     start_s: on the absolute clock; None where the test has none. quantities: of its channels. powered: those that
-    stay warm or cold while the machine is on. files: the part of the test that each holds, and what is noted of it.
+    stay warm or cold while the machine is on. around: those that are
+    not of the machine. files: the part of the test that each holds, and what is noted of it.
     """
     series: dict[str, Course] = {}
     pauses: list[tuple[float, float]] = []
@@ -211,7 +213,7 @@ def levels_of(
         for name, values in levels["values"].items():
             off = np.zeros(len(t_s), dtype=bool)
             off[levels["off"].get(name, [])] = True
-            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off, name in powered)
+            series[name] = Course(t_s, _numbers(values), quantities.get(name, ""), off, name in powered, name in around)
         pauses += [(a, b) for a, b in levels["pauses"]]
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
     if not series:
