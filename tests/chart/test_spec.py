@@ -123,3 +123,9 @@ def test_the_files_of_a_page() -> None:
             "script>",
         ):
             assert never not in asset(name), (name, never)
+
+
+def test_the_language_is_mended_before_anything_asks_for_it() -> None:
+    """uPlot formats by `navigator.language` as it loads, and fails as a whole where that is none (LANG=C)."""
+    text = script()
+    assert 0 <= text.index("new Intl.NumberFormat(navigator.language)") < text.index("uPlot")

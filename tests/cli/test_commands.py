@@ -141,7 +141,13 @@ def test_the_store_may_stand_after_the_command_or_in_the_environment(
             "error: the store is busy\nwhere: s\nexpected: a turn, got: 60 s\ntry: again\n",
         ),
         (KeyboardInterrupt(), 1, "error: interrupted\n"),
-        (PermissionError(13, "Permission denied", "x.tdms"), 1, "error: Permission denied\nwhere: x.tdms\n"),
+        (
+            PermissionError(13, "Permission denied", "x.tdms"),
+            1,
+            "error: no right to read or write there\nwhere: x.tdms\n"
+            "got: Permission denied\n"
+            "try: name a folder of your own, or give yourself the right\n",
+        ),
     ],
 )
 def test_errors_become_lines_and_codes(

@@ -163,3 +163,11 @@ def test_a_candidate_becomes_a_line_of_the_model_file(world: Dataset, spec: Spec
     for wrong in ("feed_screw:T_nutt", "feed_srew:T_nut", "lag", "vertical_gradient:T_hall"):
         with pytest.raises(UsageError):
             candidate_spec(wrong, world.channels)
+
+
+def test_an_effect_of_a_plugin_that_is_not_installed_says_so_and_whose_it_is(world: Dataset, spec: Spec) -> None:
+    model = spec({"effect": "guide_heat", "id": "guide", "drivers": {"u": "T_nut"}})
+    with pytest.raises(UsageError, match="no effect 'guide_heat'") as error:
+        resolve(model, world)
+    assert error.value.where == f"model '{model.name}', effect 'guide'"
+    assert "if a plugin has it that is not installed here" in (error.value.hint or "")

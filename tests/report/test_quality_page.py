@@ -130,3 +130,24 @@ def test_losses_of_one_cause_are_one_line(tests: list[TestQuality]) -> None:
     body = render([lost])
     assert "40 times: raw/day2.tdms, byte 0: cut" in body
     assert "byte 7: cut" not in body
+
+
+def test_drifts_are_drawn_from_their_first_valid_value_and_told_apart() -> None:
+    bins = 50
+    none, flags = np.full(bins, np.nan), np.zeros(bins, np.uint16)
+    drift = np.linspace(0.0, 5.0, bins)
+    late = np.where(np.arange(bins) < 3, np.nan, drift)
+    traces = (
+        Trace("dX", "displacement", "um", drift, none, none, flags, 500, 0, 0),
+        Trace("dY", "displacement", "um", 550.0 + late, none, none, flags, 500, 0, 0),
+        Trace("T_air", "temperature", "degC", 20.0 + drift, none, none, flags, 500, 0, 0),
+    )
+    chart = draw_test(TestQuality("c", "day1", "spindle", 6e3, 0.0, 100.0, traces, (), ()))
+    shifted, absolute = (p for p in chart.panels if isinstance(p, Panel))
+    assert shifted.title == "displacement, from the first valid value"
+    assert shifted.range is not None
+    assert shifted.range[1] < 6.0
+    assert {s.name: float(np.nanmax(s.y)) for s in shifted.series} == pytest.approx({"dX": 5.0, "dY": 5.0 - drift[3]})
+    assert len({(s.colour, s.dash) for s in shifted.series}) == 2
+    assert absolute.title == "temperature"
+    assert float(absolute.series[0].y[0]) == 20.0

@@ -86,3 +86,10 @@ def test_a_jump_test_that_contradicts_its_declaration(store: Store, tmp_path: Pa
     error = refused(store, path)
     assert "contradicts the way the probe looks" in error.what
     assert error.where == "campaign.yaml:15 (calibrations.jump)"
+
+
+def test_a_derivation_that_gives_no_number_is_told(store: Store, tmp_path: Path) -> None:
+    lines = '  nil: {derive: "T_a / 0", quantity: temperature}\n' + DERIVED
+    (loss,) = ingest(store, with_channels(tmp_path / "lab", lines)).losses
+    assert "channel 'nil': its derivation 'T_a / 0' gives no number in any test" in loss["reason"]
+    assert loss["where"] == "line 14"

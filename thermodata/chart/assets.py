@@ -7,7 +7,16 @@ from importlib.resources import files
 
 from thermodata.errors import unknown_name
 
-SCRIPTS = ("uplot/uPlot.iife.min.js", "data.js", "paint.js", "readout.js", "chart.js", "heatmap.js", "mount.js")
+SCRIPTS = (
+    "language.js",
+    "uplot/uPlot.iife.min.js",
+    "data.js",
+    "paint.js",
+    "readout.js",
+    "chart.js",
+    "heatmap.js",
+    "mount.js",
+)
 """In the order in which a page has to load them."""
 # a comment behind code stands far to the right of it, and no text holds two slashes after spaces
 _TAIL = re.compile(r"\s{2,}//\s.*$")

@@ -61,7 +61,7 @@ def known_failure(error: Exception) -> ThermodataError | None:
         if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
             # Arrow says its file in its text only
             named = re.search(r"local file '([^']+)'", str(error))
-            return UsageError(
+            return ThermodataError(
                 "no right to read or write there",
                 where=str(error.filename) if error.filename else named[1] if named else None,
                 got=os.strerror(error.errno),

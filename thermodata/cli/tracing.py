@@ -123,17 +123,23 @@ def _files(files: list[Found]) -> str:
         for i, old in enumerate(reversed(file.get("earlier", [])), 1):
             rows.append({**old, "state": f"earlier {i}, until {old.get('superseded_at') or '-'}"})
     shown = table(
-        rows,
+        [{**row, "added_at": str(row["added_at"])[:19]} for row in rows],
         [
             ("source_path", "file"),
             ("stream", "stream"),
-            ("sha256", "SHA-256"),
             ("bytes", "bytes"),
             ("rows", "rows"),
             ("reader", "reader"),
             ("added_at", "stored (UTC)"),
             ("state", "version"),
         ],
+        widest=64,
+    )
+    # a table that is too wide for the screen goes on below with its first columns: a hash would stand in all of them
+    hashes = {(row["source_path"], row["sha256"], row["state"]): row for row in rows}
+    shown += "\n\n" + table(
+        list(hashes.values()),
+        [("source_path", "file"), *([("state", "version")] if len(rows) > len(files) else []), ("sha256", "SHA-256")],
         widest=64,
     )
     said = [f"  ! {f['source_path']}: {cell(x)}" for f in files for x in [*f["losses"], *f["notes"]]]

@@ -37,7 +37,11 @@ def effect(name: str) -> Effect:
         raise PluginError(f"effect '{name}' does not load", got=failed[name], hint="thermodata plugins")
     if not found:
         raise UsageError(f"no effect '{name}': no effects are installed", hint=INSTALL)
-    raise unknown_name("effect", name, list(found))
+    unknown = unknown_name("effect", name, list(found))
+    unknown.hint = (
+        f"{unknown.hint} " if unknown.hint else ""
+    ) + "if a plugin has it that is not installed here: pip install that plugin; 'thermodata plugins' lists what is"
+    raise unknown
 
 
 @lru_cache(maxsize=1)

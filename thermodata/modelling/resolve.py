@@ -7,13 +7,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, TypeVar, cast
 
-from thermodata.effect import effect as find_effect
 from thermodata.effect.binding import ANY, family_of, unnamed
 from thermodata.effect.places import holds, shown
 from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
 from thermodata.modelling import nested, prediction, shaped, transfer
 from thermodata.modelling.bound import BoundResponse, BoundTerm
 from thermodata.modelling.drivers import names_of
+from thermodata.modelling.make_effect import make_effect, refuse_unknown_effects
 from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.plugin import Effect
@@ -22,15 +22,6 @@ from thermodata.schema.terms import ids_of
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 Found = TypeVar("Found")
-_OWNED = {
-    "method": transfer.NAME,
-    "orders": transfer.NAME,
-    "delay": transfer.NAME,
-    "file": prediction.NAME,
-    "name": nested.NAME,
-    "gain": nested.NAME,
-    "parts": nested.NAME,
-}
 
 
 class MissingChannelError(SpecError):
@@ -42,6 +33,7 @@ def resolve(
 ) -> tuple[Roles, tuple[BoundResponse, ...]]:
     """Everything that the spec names, found. base: folder that `file` of an effect is relative to; fit_inside: fits a
     model that the spec holds as an effect to the same data."""
+    refuse_unknown_effects(spec)
     roles = resolve_roles(spec, data)
     by_campaign = {c: _channels(data, c) for c in dict.fromkeys(t.campaign for t in data.tests)}
     known_weights(spec, data)
@@ -197,27 +189,6 @@ def as_it_was_made(spec: EffectSpec) -> EffectSpec:
     if spec.effect != prediction.NAME or freed or "gain" in spec.fixed:
         return spec
     return spec.model_copy(update={"fixed": {**spec.fixed, "gain": 1.0}})
-
-
-def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
-    """The plugin's effect, or one of the two that the model file itself spells out."""
-    if spec.effect == transfer.NAME:
-        function = transfer.given(spec.fixed, where)
-        if function is not None:
-            return cast(Effect, function)
-        if spec.delay is not None and spec.method != "arx":
-            raise SpecError(
-                "'delay' belongs to method arx", where=f"effect '{where}'", hint="also: [dead_time], in seconds"
-            )
-        return cast(Effect, transfer.FreeFunction(spec.method or "varpro", spec.orders or (2, 2)))
-    if spec.effect == prediction.NAME:
-        if spec.file is None:
-            raise SpecError("an effect 'prediction' needs 'file'", where=where, expected="file: theirs.csv")
-        return cast(Effect, prediction.read_prediction((base or Path()) / spec.file))
-    for key, owner in _OWNED.items():
-        if getattr(spec, key) is not None:
-            raise SpecError(f"'{key}' belongs to {owner}", where=f"effect '{where}'")
-    return find_effect(spec.effect)
 
 
 def bind(

@@ -13,6 +13,7 @@ from thermodata.reader.archives import packed
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
+from thermodata.reader.text.delimiter import BLANKS, find_delimiter
 from thermodata.reader.text.foreign_texts import foreign_text
 
 # First bytes of what lies in folders of logs without being one
@@ -82,6 +83,9 @@ def explain(path: Path) -> Explanation:
     return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
 
 
+_MARKS = {"\t": "tabs", BLANKS: "blanks"}
+
+
 def kind_of(path: Path) -> str:
     """What the first bytes of a file are, in a few words."""
     return _kind(head(path))
@@ -115,10 +119,11 @@ def _kind(start: Head) -> str:
         return "blanks only"
     if (known := _no_table(text)) is not None:
         return known
-    first = next(line for line in text.splitlines() if line.strip()).strip()
-    marks = {"';'": text.count(";"), "','": text.count(","), "tabs": text.count("\t")}
-    most = max(marks, key=lambda m: marks[m])
-    between = f", most often {most} between cells" if marks[most] >= 3 else ""
+    lines = text.splitlines()
+    first = next(line for line in lines if line.strip()).strip()
+    # as the readers find it: in a decimal comma's file there are more commas than ';'
+    delimiter = find_delimiter(lines)
+    between = f", {_MARKS.get(delimiter, repr(delimiter))} between cells" if delimiter is not None else ""
     return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'"
 
 

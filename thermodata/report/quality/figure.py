@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -33,6 +34,7 @@ SEVERITY = (
 _DEFECT = int(INVALID & ~Flag.NOT_MEASURING)
 _PANEL, _A_LABEL = 120, 13  # [px]
 _MOST_PANELS = 6
+_DRIFTING = ("displacement", "tilt")
 _ORDER = (
     "displacement",
     "tilt",
@@ -54,7 +56,8 @@ _ORDER = (
 
 def draw_test(test: TestQuality) -> Chart:
     """Panels by quantity, every curve with its name at its end, those with something wrong in colour among the others
-    in grey; and a lane for each channel that has a flag."""
+    in grey; and a lane for each channel that has a flag. Displacements are drawn from their first valid value: where a
+    probe stands is nothing but its mounting, and beside hundreds of micrometres a drift of some is a flat line."""
     hours = (test.start_s + (np.arange(_bins(test)) + 0.5) * test.bin_s) / 3600
     whole = (test.start_s / 3600, (test.start_s + _bins(test) * test.bin_s) / 3600)
     panels: list[Panel | Strip] = [_panel(quantity, members, hours) for quantity, members in _panels(test.traces)]
@@ -99,8 +102,11 @@ def _bad(trace: Trace) -> bool:
 
 
 def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
-    """Sound channels first, so that the others lie above them."""
-    styles = effect_styles(t.name for t in members if _bad(t))
+    """Sound channels first, so that the others lie above them; in colour too where none is bad."""
+    styles = effect_styles(t.name for t in members if _bad(t) or not any(map(_bad, members)))
+    name = quantity.replace("_", " ")
+    if quantity in _DRIFTING:
+        members, name = [_from_first(t) for t in members], f"{name}, from the first valid value"
     curves = [
         Series(
             t.name,
@@ -113,13 +119,21 @@ def _panel(quantity: str, members: Sequence[Trace], hours: Float1D) -> Panel:
         for t in sorted(members, key=_bad)
     ]
     return Panel(
-        quantity.replace("_", " "),
+        name,
         members[0].unit,
         curves,
         height=max(_PANEL, _A_LABEL * len(curves) + 16),
         range=_limits(members),
         marks=[_marks(t, hours) for t in members if _bad(t)],
     )
+
+
+def _from_first(trace: Trace) -> Trace:
+    """The same, from its first valid value; as it is where there is none."""
+    valid = trace.good[np.isfinite(trace.good)]
+    if not len(valid):
+        return trace
+    return replace(trace, good=trace.good - valid[0], low=trace.low - valid[0], high=trace.high - valid[0])
 
 
 def _limits(members: Sequence[Trace]) -> tuple[float, float]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from thermodata.schema.campaign import Campaign
 from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.tidy.derive import names
 
 
 def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
@@ -18,7 +19,7 @@ def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
         for source, _, channel, _ in note.channels if note.tidied else ():
             if channel not in empty:
                 having.setdefault((source, channel), []).append(name)
-    return [
+    return _nothing_derived(campaign, tests, {channel for _, channel in having}) + [
         loss_row(
             f"channel '{channel}' has no value in the whole of {name}, and has in {_some(having[source, channel])}: "
             f"were cells shifted there? If it was not logged, say so: missing_in: [{name}]",
@@ -28,6 +29,20 @@ def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
         for name, note in tests.items()
         for source, _, channel in note.empty
         if (source, channel) in having and not campaign.channels[channel].may_lack(name)
+    ]
+
+
+def _nothing_derived(campaign: Campaign, tests: Mapping[str, TestNote], having: Collection[str]) -> Losses:
+    """A loss for each derived channel that no test has a value of, though they have values of all that it derives
+    from: it divides by nothing."""
+    empty = {channel for note in tests.values() if note.tidied for _, _, channel in note.empty}
+    return [
+        loss_row(
+            f"channel '{name}': its derivation '{channel.derive}' gives no number in any test; try: correct 'derive', "
+            "for its operands have values"
+        )
+        for name, channel in campaign.channels.items()
+        if channel.derive is not None and name in empty - set(having) and names(channel.derive) <= set(having)
     ]
 
 

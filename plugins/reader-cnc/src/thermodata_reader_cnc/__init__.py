@@ -15,6 +15,7 @@ class Reader:
     """Tells the formats apart by their first bytes; what it does not know is read as delimited text."""
 
     name = "cnc"
+    looks_for = "exports of controls as text: CSV with dates, Sinumerik, Heidenhain, TwinCAT, MTConnect, OPC UA"
     formats = (
         "CSV exports of a control (German, Czech, English)",
         "Sinumerik Trace XML",
