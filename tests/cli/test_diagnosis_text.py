@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.schema.diagnosis import Candidate, Diagnosis, Unknown
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis, Unknown
 
 
 def candidate(rank: int, effect: str, **more: Any) -> Candidate:

@@ -12,7 +12,8 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo, Dataset
 

@@ -19,7 +19,8 @@ from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.schema.diagnosis import Candidate, Diagnosis, WeakSpot
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 

@@ -15,7 +15,8 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.headline import causes
 from thermodata.report.verdict import verdict_sentence
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.places import heat_at
 from thermodata.view.dataset import ChannelInfo
 

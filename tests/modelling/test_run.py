@@ -8,7 +8,8 @@ import yaml
 
 from thermodata.errors import UsageError
 from thermodata.modelling import run
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain, save_diagnosis

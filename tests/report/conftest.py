@@ -9,7 +9,8 @@ import pytest
 
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
-from thermodata.schema.diagnosis import Artefact, Candidate, Diagnosis, WeakSpot
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Artefact, Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
 from thermodata.schema.result import Check, Parameter, Score
 

@@ -14,7 +14,8 @@ from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, in_parts, listed, named, probability, told, verdict_sentence
-from thermodata.schema.diagnosis import Candidate, ClockMoved, Diagnosis, LeftOut, PutRight, Rung
+from thermodata.schema.candidate import Candidate, LeftOut, Rung
+from thermodata.schema.diagnosis import ClockMoved, Diagnosis, PutRight
 
 from .conftest import diagnosis
 

@@ -9,7 +9,8 @@ import pyarrow as pa
 import pytest
 
 from thermodata.errors import StoreError, UsageError
-from thermodata.schema.diagnosis import Artefact, Candidate, Diagnosis, WeakSpot
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Artefact, Diagnosis, WeakSpot
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult, Parameter, Score
 from thermodata.store import Store

@@ -9,7 +9,7 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.rules import Measure, rules, surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import CandidateCourse, LeftOut, Rung
+from thermodata.schema.candidate import CandidateCourse, LeftOut, Rung
 
 _QUANTILES = 41
 

@@ -21,7 +21,7 @@ from thermodata.modelling.candidate import with_candidate
 if TYPE_CHECKING:
     from thermodata.modelling.fitted_response import FittedResponse
     from thermodata.modelling.run import Loaded
-    from thermodata.schema.diagnosis import Candidate
+    from thermodata.schema.candidate import Candidate
     from thermodata.schema.model import EffectSpec, Model
     from thermodata.store import Store
     from thermodata.view.dataset import TestData

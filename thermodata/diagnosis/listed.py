@@ -18,7 +18,7 @@ from thermodata.diagnosis.rules import Measure, explained, failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why
-from thermodata.schema.diagnosis import Candidate
+from thermodata.schema.candidate import Candidate
 from thermodata.view.dataset import Dataset
 
 SHOWN = 15

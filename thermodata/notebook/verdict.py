@@ -13,7 +13,8 @@ from thermodata.report.headline import capital
 from thermodata.report.verdict import claims_of, told, verdict_sentence
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Candidate, Confirmed, Diagnosis
+    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.diagnosis import Confirmed, Diagnosis
 
 _COLUMNS = (
     ("rank", "#"),

@@ -6,7 +6,7 @@ import numpy as np
 
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.spec import Axis, Chart, Panel, Series
-from thermodata.schema.diagnosis import Candidate
+from thermodata.schema.candidate import Candidate
 
 
 def course_chart(c: Candidate, unit: str) -> Chart:

@@ -16,7 +16,8 @@ from thermodata.report.words import duration, heat_lines, number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.schema.diagnosis import Candidate, Confirmed, Diagnosis
+    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.diagnosis import Confirmed, Diagnosis
 
 
 def confirmed_text(result: Confirmed) -> str:

@@ -10,7 +10,7 @@ from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import beside, claims_of
 from thermodata.report.words import base_role, pooled
-from thermodata.schema.diagnosis import Candidate
+from thermodata.schema.candidate import Candidate
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
 from thermodata.report.verdict import as_named, claims_of, listed, named, other_heat, probability, verdict_sentence
 from thermodata.report.words import change, number
-from thermodata.schema.diagnosis import Candidate
+from thermodata.schema.candidate import Candidate
 
 _MOST_NAMES = 3
 

@@ -12,7 +12,8 @@ from thermodata.report.words import number, percent
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Candidate, Diagnosis, PutRight
+    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.diagnosis import Diagnosis, PutRight
 
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""

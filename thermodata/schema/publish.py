@@ -19,6 +19,7 @@ from thermodata.schema import (
     campaign_channels,
     campaign_sources,
     campaign_tests,
+    candidate,
     diagnosis,
     missing_heat,
     model,
@@ -29,7 +30,17 @@ from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult
 
-_DOCUMENTED = (campaign, campaign_channels, campaign_sources, campaign_tests, model, result, diagnosis, missing_heat)
+_DOCUMENTED = (
+    campaign,
+    campaign_channels,
+    campaign_sources,
+    campaign_tests,
+    model,
+    result,
+    candidate,
+    diagnosis,
+    missing_heat,
+)
 _KEY = re.compile(r"^(\w+): (.+)$")
 
 

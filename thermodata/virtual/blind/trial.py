@@ -13,7 +13,8 @@ from thermodata.effect import effects
 from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.schema.diagnosis import Candidate, Diagnosis
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of, refinements_of
