@@ -186,3 +186,14 @@ def test_a_part_in_words() -> None:
     assert in_words(None) == ""
     assert in_words(Part(keys((1, 3)), ())) == " in t1 and t3"
     assert Timing("nc", 600.0, 0.5, 0.0, part=Part(keys((1,)), keys((0,)))).moves()[0].test == "t1"
+
+
+@pytest.mark.parametrize("failed", ["all", "none"])
+def test_a_locked_test_in_which_a_logger_was_dead_takes_nothing_from_the_open_ones(failed: str) -> None:
+    *tests, last = logged({"log": 40.0}, tests=5)
+    dead = {
+        n: replace(c, faulty="stuck" if c.quantity == "temperature" and failed == "all" else None)
+        for n, c in CHANNELS.items()
+    }
+    [found] = late_logs(compared(tests, CHANNELS, "dZ", STEP_S, locked=[replace(last, role="locked", channels=dead)]))
+    assert (found.source, round(found.shift_s / 60)) == ("log", pytest.approx(-40, abs=4))

@@ -380,12 +380,6 @@ MUTANTS = [
     diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis(
-        "answer.py",
-        "tuple(locked) if opened.looked_for else ()",
-        "tuple(locked)",
-        "a lock is said to be open that is not",
-    ),
-    diagnosis(
         "answer.py", "return int(np.argmax(left))", "return int(np.argmin(left))", "the best response is diagnosed"
     ),
     diagnosis("listed.py", "if heads else None", "", "a share that nobody measured is told"),
@@ -588,8 +582,11 @@ MUTANTS = [
         "locked = list(locked)",
         "a turned probe refuses",
     ),
+    diagnosis("unlocking.py", "        if asked:\n", "        if True:\n", "a shut lock is said to be open"),
     diagnosis("unlocking.py", "j.scored.looked.at_second_look for", "True for", "a second look claims what it likes"),
-    diagnosis("unlocking.py", "(locked, faults, refused)", "(locked, faults)", "what was refused is asked again"),
+    diagnosis(
+        "unlocking.py", "asks(locked, faults, refused)", "asks(locked, faults)", "what is refused is asked again"
+    ),
     diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 20.0", "what runs the other way is turned"),
     diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 97.0", "no locked probe is turned"),
     diagnosis("turned_locked.py", "rms(is_there) > floor and ", "", "noise is turned"),

@@ -22,7 +22,7 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
-from thermodata.diagnosis.unlocking import unlocked
+from thermodata.diagnosis.unlocking import Look, unlocked
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Effect
@@ -32,11 +32,20 @@ from thermodata.view.dataset import Dataset, TestData
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """locked: the tests that were looked at. asked: the ids of the candidates that they were looked at for."""
+    """looks: each time that locked tests were opened."""
 
     diagnosis: Diagnosis
-    locked: tuple[TestData, ...]
-    asked: tuple[str, ...] = ()
+    looks: tuple[Look, ...] = ()
+
+    @property
+    def locked(self) -> tuple[TestData, ...]:
+        """The tests that were looked at."""
+        return tuple({t.key: t for look in self.looks for t in look.tests}.values())
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The ids of the candidates that they were looked at for."""
+        return tuple(dict.fromkeys(name for look in self.looks for name in look.asked))
 
 
 def answer(
@@ -97,7 +106,7 @@ def answer(
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),
     }
-    return Answer(found.model_copy(update=beside), tuple(locked) if opened.looked_for else (), opened.looked_for)
+    return Answer(found.model_copy(update=beside), opened.looks)
 
 
 def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:

@@ -191,13 +191,17 @@ def compared(
     """Each source of temperatures with each other source of commands. locked: tests whose response stays unread.
     declared: as in `Logs`."""
     every = [*tests, *locked]
-    pairs = _pairs(tests, channels, step_s)
-    both = _pairs(every, channels, step_s) if locked else pairs
+    failed = {n for t in tests for n, c in t.channels.items() if c.faulty is not None}
+    pairs = _pairs(tests, channels, step_s, failed)
+    both = _pairs(every, channels, step_s, failed) if locked else pairs
     return Logs(tests, channels, response, step_s, pairs, both, tuple(in_order(every)), declared or {})
 
 
-def _pairs(tests: Sequence[TestData], channels: Mapping[str, ChannelInfo], step_s: float) -> tuple[Pair, ...]:
-    failed = {n for t in tests for n, c in t.channels.items() if c.faulty is not None}
+def _pairs(
+    tests: Sequence[TestData], channels: Mapping[str, ChannelInfo], step_s: float, failed: Collection[str]
+) -> tuple[Pair, ...]:
+    """failed: temperatures that say nothing, as they stood in the open tests: the pairs are the same with locked ones,
+    where what is flagged says nothing of itself."""
     warm = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and n not in failed and c.source}
     commands, pairs = _commands(channels), []
     for by in sorted(set(commands.values())):

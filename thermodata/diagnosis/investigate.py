@@ -99,7 +99,7 @@ def investigate(
     by_condition = gains_by_condition(fitted, among, data.tests)
     asked += [c for c in by_condition if c.unforetold is None]
     asked += heating_and_cooling_apart(fitted, among, data.tests)
-    asked = [c for c in asked if not refused.issuperset(c.channels)]
+    asked = [c for c in asked if not (refused and refused.issuperset(c.channels))]
 
     def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
         return causes_of(response, data, among, library, seed)

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 from thermodata.diagnosis.answer import answer, worst_response
 from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import confirm
+from thermodata.diagnosis.confirm import Fits, confirm
 from thermodata.diagnosis.copies import copies
 from thermodata.diagnosis.ends_of_logs import odd_ends
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.diagnosis.sound import sound, told
+from thermodata.diagnosis.turned_locked import turned_locked
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
@@ -70,9 +71,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
         outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left)
     faults = [*outcome.diagnosis.artefacts, *odd_ends(store, model, outcome.diagnosis.artefacts)]
     found = outcome.diagnosis.model_copy(update={"artefacts": faults})
-    if outcome.locked:
-        why = f"confirming {', '.join(outcome.asked)}"
-        count_locked_look(store, model.identity, [t.key for t in outcome.locked], why)
+    for look in outcome.looks:
+        count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
     save_diagnosis(store, model.identity, found)
     keep_answer(store, model.identity, "diagnose", key, found.model_dump_json())
     return found
@@ -107,11 +107,17 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
             expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
             hint="give a test of the campaign the role locked, before anybody has looked at it",
         )
-    confirmation = confirm(
-        model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, asked_of.fitted if usable else None
-    )
+    base = asked_of.fitted if usable else None
+    confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
     count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
-    shape = confirmation.where_it_acts
+    put_right, shape = asked_of.put_right, confirmation.where_it_acts
+    if shape is not None and not shape.holds:
+        fits = Fits(model.fitted.spec, index, asked_of.data, asked_of.tests, locked, asked_of.fitted)
+        if wrong := turned_locked(fits.of([chosen]), locked, 0.0):
+            upright = [t for t in locked if t.key not in wrong]
+            put_right = put_right.model_copy(update={"left_out": [*put_right.left_out, *sorted(wrong)]})
+            confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, upright, base)
+            shape = confirmation.where_it_acts
     result = Confirmed(
         model=model.identity,
         response=response.name,
@@ -130,7 +136,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
         probability=_claimed_with(store, model.identity, name),
-        put_right=told(asked_of.put_right),
+        put_right=told(put_right),
     )
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False

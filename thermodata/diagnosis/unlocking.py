@@ -31,37 +31,49 @@ class Asks(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Look:
+    """tests: that were opened. asked: the ids of what they were opened for."""
+
+    tests: tuple[TestData, ...]
+    asked: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Unlocked:
     """judgement: once the lock is open. locked: the tests that were asked, in none of which a probe is turned; turned:
-    the keys of those. looked_for: the ids of what the lock was opened for; none where it stayed shut."""
+    the keys of those. looks: each time that the lock was opened; none where it stayed shut."""
 
     investigation: Investigation
     judgement: Judgement
     locked: tuple[TestData, ...]
     turned: tuple[tuple[str, str], ...]
-    looked_for: tuple[str, ...]
+    looks: tuple[Look, ...]
 
 
 def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: Sequence[TestData]) -> Unlocked:
     """fits_of: models fitted to the open tests, for some locked ones."""
     faults: list[Artefact] = []
-    fits, found = fits_of(locked), asks(locked, faults)
-    looked_for = dict.fromkeys(found.looked_for)
-    judgement = _opened(found, fits, locked, looked_for)
+    looks: list[Look] = []
+
+    def opened(refused: frozenset[str] = frozenset()) -> tuple[Investigation, Fits, Judgement]:
+        fits, found = fits_of(locked), asks(locked, faults, refused)
+        asked = dict.fromkeys(found.looked_for)
+        judgement = _opened(found, fits, locked, asked)
+        if asked:
+            looks.append(Look(tuple(locked), tuple(asked)))
+        return found, fits, judgement
+
+    found, fits, judgement = opened()
     turned = _turned(judgement, found, fits, locked)
     if turned:
         locked = [t for t in locked if t.key not in turned]
         faults = as_artefacts(turned, found.problem.response)
-        fits, found = fits_of(locked), asks(locked, faults)
-        judgement = _opened(found, fits, locked, looked_for)
+        found, fits, judgement = opened()
     if judgement.refused and not judgement.claims:
-        refused = frozenset(c for j in judgement.refused for c in j.scored.candidate.channels)
-        second = asks(locked, faults, refused)
-        looked_for.update(dict.fromkeys(second.looked_for))
-        anew = _opened(second, fits, locked, looked_for)
+        second, _, anew = opened(frozenset(c for j in judgement.refused for c in j.scored.candidate.channels))
         if anew.claims and all(j.scored.looked is not None and j.scored.looked.at_second_look for j in anew.claims):
             found, judgement = second, replace(anew, refused=(*judgement.refused, *anew.refused))
-    return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looked_for))
+    return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looks))
 
 
 def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]) -> Judgement:
