@@ -12,6 +12,8 @@ import pyarrow.csv
 import pyarrow.parquet
 import pytest
 
+from thermodata.cli.common import known_failure
+
 from .conftest import Said
 
 
@@ -42,3 +44,14 @@ def test_a_folder_that_may_only_be_read_takes_no_export(
     assert said.code == 1
     assert f"where: {tmp_path}{os.sep}" in said.err
     assert "try: name a folder of your own" in said.err
+
+
+@pytest.mark.parametrize("code", [errno.EACCES, errno.EPERM, errno.EROFS])
+def test_what_names_no_file_is_no_matter_of_folders(code: int) -> None:
+    """A process that may not be signalled, a socket that may not be opened."""
+    assert known_failure(OSError(code, os.strerror(code))) is None
+    for named in (OSError(code, os.strerror(code), "a.csv"), OSError(code, "Failed to open local file 'a.csv'.")):
+        said = known_failure(named)
+        assert said is not None
+        assert said.where == "a.csv"
+        assert "a folder of your own" in (said.hint or "")

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.modelling import bound_checks, checks
+from thermodata.modelling import bound_checks, checks, parameters
 from thermodata.modelling.fitted_response import Values
 from thermodata.modelling.parameters import gain_unit
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
+from thermodata.report.fit_text import span
 from thermodata.schema.result import Check
 from thermodata.view.dataset import ChannelInfo, TestData
 
@@ -128,6 +129,31 @@ def test_a_column_that_never_moves_is_named_and_left_out() -> None:
     found = conditioning(np.array([[1.0, 0.0], [2.0, 0.0]]))
     assert list(found) == ["not_excited:b"]
     assert "condition_number" in conditioning(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+
+
+def by_tool(shared: bool) -> Any:
+    """Two groups whose first parameter stands at its bound, and whose second one is not determined."""
+    found = term(Straight(params=(TAU, SECOND)))
+    values = Values({"tau": 100.0, "tau2": 30.0}, {"gain": 1.0}, half={"tau2": 1e9})
+    found.groups = {"A": values, "B": values}
+    found.bound.spec.shares = lambda name: shared
+    found.bound.spec.one_gain = False
+    return found
+
+
+@pytest.mark.parametrize(("shared", "tags"), [(True, [""]), (False, ["[A]", "[B]"])])
+def test_what_groups_share_is_said_once_by_the_name_that_its_row_has(shared: bool, tags: list[str]) -> None:
+    found = by_tool(shared)
+    said = names(bound_checks.at_bounds(found))
+    assert said == [
+        f"{what}{tag}" for what in ("at_bound:straight.tau", "not_determined:straight.tau2") for tag in tags
+    ]
+    response: Any = SimpleNamespace(name="Z", unit="um", terms=[found])
+    rows = parameters.parameters([response])
+    assert {name.partition(":")[2] for name in said} <= set(rows)
+    checks_of = [Check(name=name, value=1.0, threshold=None, passed=False, advice="") for name in said]
+    result: Any = SimpleNamespace(parameters=rows, checks=checks_of)
+    assert [span(result, f"straight.tau2{tag}") for tag in tags] == ["not determined"] * len(tags)
 
 
 @pytest.mark.parametrize(

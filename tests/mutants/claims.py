@@ -784,7 +784,10 @@ MUTANTS = [
     # ---- calibrations and clocks
     starts("LEAST_K = 8.0", "LEAST_K = 10.0", "a sensor that is off by 9 K passes"),
     starts("_in_company(name, at, before, i, sign)]", "False]", "a machine that was warmed up fails"),
-    starts("back[1] > back[0] + COOLS_K", "False", "a motor that cools is a sensor that fails"),
+    starts("+ COOLS_K:", "+ 99.0:", "a motor that cools is a sensor that fails"),
+    starts("sum(map(_comes_back, after)) < LEAST_AFTER", "False", "a motor that is heated further fails"),
+    starts("_fastest(after, usual) >= SLOWER * known", "False", "a motor that cools as ever, and was warm, fails"),
+    starts("_fastest(after, new) >= AS_FAST * known", "True", "a motor that never rests is a sensor that fails"),
     starts("+ ALIKE_K", "+ 10 * ALIKE_K", "what is warm by another time each day fails"),
     starts("if name not in found}", "}", "one that fails hides the next one"),
     calibration("jump_checks.py", "DATA_SHEET_PCT = 10.0", "DATA_SHEET_PCT = 90.0", "the wrong probe passes"),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from store_fakes import START_NS, write_campaign, write_log
 
 from thermodata.schema.flag import Flag
@@ -259,3 +261,29 @@ def test_a_sensor_that_failed_in_one_test_of_many_drives_in_the_others(store: St
     (told,) = faulty_sensors(data, "dZ")
     assert told.test == "day5"
     assert "drives no candidate in this test, and does in those" in told.why
+
+
+def test_tests_that_are_said_to_start_warm_tell_nothing_of_a_sensor(store: Store, tmp_path: Path) -> None:
+    path = lab(tmp_path, [day(1), day(2), day(3, T1=30.0), day(4, T1=30.0)])
+    ingest(store, path)
+    assert set(flagged(store, "T_1", Flag.OFFSET)) == {"day3", "day4"}
+    text = path.read_text("utf-8")
+    path.write_text(re.sub(r"(id: day[34], kind: spindle)", r"\1, start_state: warm", text), "utf-8")
+    ingest(store, path)
+    assert flagged(store, "T_1", Flag.OFFSET) == {}
+    path.write_text(text, "utf-8")
+    ingest(store, path)
+    assert set(flagged(store, "T_1", Flag.OFFSET)) == {"day3", "day4"}
+
+
+@pytest.mark.parametrize(("place", "told"), [(", at: spindle.motor", {"day4", "day5"}), ("", set())])
+def test_starts_are_asked_of_what_is_known_to_be_of_the_machine(
+    store: Store, tmp_path: Path, place: str, told: set[str]
+) -> None:
+    """What has no place may be oil, which a chiller holds."""
+    heat = (day(1)[0]["main"]["T4"] - 22) / 12
+    heats = [day(k, T1=heat * 30 if k < 4 else 30 + heat * 15) for k in range(1, 6)]
+    path = lab(tmp_path, heats, "  - {id: day5, kind: spindle}\n")
+    path.write_text(path.read_text("utf-8").replace("signal: T1,", f"signal: T1{place},"), "utf-8")
+    ingest(store, path)
+    assert set(flagged(store, "T_1", Flag.OFFSET)) == told

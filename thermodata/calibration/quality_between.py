@@ -37,7 +37,7 @@ _LEAST_BEFORE = 3  # points, or nobody knows what was usual
 class Course:
     """A channel at a few moments of a test. t_s, values: shape (n,), in time order; NaN where nothing valid is. off:
     shape (n,), where it is flagged as off already. powered: it stays warm or cold while the machine is switched on.
-    around: it is not of the machine, and has seasons and weather of its own."""
+    around: it is not of the machine, and has seasons and weather of its own, or nobody says where it is."""
 
     t_s: Float1D
     values: Float1D
@@ -55,13 +55,14 @@ class Course:
 @dataclass(frozen=True, slots=True)
 class Levels:
     """What a test's channels were like. start_s: on the absolute clock [s]; None where the test has none. pauses:
-    (from, to) [s] of the test in which nothing was logged."""
+    (from, to) [s] of the test in which nothing was logged. warm: the campaign file says that it started so."""
 
     test: str
     start_s: float | None
     end_s: float | None
     series: Mapping[str, Course]
     pauses: Sequence[tuple[float, float]] = field(default=())
+    warm: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +78,10 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
 
     tests: in the order of the campaign file, which counts where one of them has no absolute clock; else their clocks
     do. A channel needs three others to be compared with. Nothing is said where no later test began with a machine
-    that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike), for then a part that
-    stays hot would look the same; nor of what is powered, which looks so from the day on which it is switched on.
-    With clocks a channel is also off whose starts after a rest say so (`quality_starts`).
+    that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike, and not where it is
+    said to start warm), for then a part that stays hot would look the same; nor of what is powered, which looks so from
+    the day on which it is switched on. With clocks a channel is also off whose starts after a rest say so
+    (`quality_starts`).
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)
@@ -99,13 +101,12 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
 
 
 def _starts(test: Levels, differences: Mapping[str, tuple[Float1D, Float1D]], off: Container[str]) -> dict[str, Start]:
-    """How channels start a test, and how far they leave that; not those that are known to be off."""
+    """How channels start a test, and go on; not those that are known to be off."""
     first_s = min((float(t_s[0]) for t_s, _ in differences.values()), default=0.0)
     return {
         name: Start(
-            float(d[0]),
-            float(d[0] - d.min()),
-            float(d.max() - d[0]),
+            t_s,
+            d,
             asked=not (test.series[name].powered or test.series[name].around),
         )
         for name, (t_s, d) in differences.items()
@@ -114,16 +115,19 @@ def _starts(test: Levels, differences: Mapping[str, tuple[Float1D, Float1D]], of
 
 
 def _rested(tests: Sequence[Levels]) -> list[float]:
-    """Of each test 1 where the clocks tell that the machine rested before it, else 0. tests: by their clocks."""
+    """Of each test 1 where the clocks tell that the machine rested before it, else 0: what is warm was run while nobody
+    logged. tests: by their clocks."""
     rested, end_s = [], -np.inf
     for test in tests:
-        rested.append(float((test.start_s or 0.0) - end_s >= _RESTED_S))
+        rested.append(float((test.start_s or 0.0) - end_s >= _RESTED_S and not test.warm))
         end_s = max(end_s, test.end_s or 0.0)
     return rested
 
 
 def _level(test: Levels, channel: str) -> float:
     """How far a machine had levelled out before a test: the share of other temperatures that begin alike."""
+    if test.warm:
+        return 0.0
     first = [
         float(sound[0])
         for name, x in test.series.items()

@@ -1,14 +1,15 @@
-"""A temperature sensor that is off from one test on, told by how tests start after a rest.
+"""A temperature sensor that is off from one test on, told by how tests start after a rest, and by where it cools to.
 
 A motor that is 20 K warmer than all else in one test and reads 30 K too much in another is usual by the range of what
-it does. But after hours of rest all parts of a machine are near the hall, each by as much beside it as ever: a sensor
-whose starts alone leave that, by as much in every test from one on, and which cools from there no more than it did
-before, is off.
+it does. But after hours of rest all parts of a machine are near the hall, each by as much beside it as ever. A sensor
+whose starts alone leave that, by as much in every test from one on, is off, or its part was warmed up while nobody
+logged. What tells these apart is a rest within the test: a warm part cools to where it used to stand, and what is off
+cools as fast as ever, but to where it started. Where nothing rests within the tests nothing is said.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,22 +18,31 @@ from thermodata.plugin import Bool1D, Float1D, Int1D
 
 LEAST_K = 8.0  # beyond all starts before
 ALIKE_K = 2.0  # starts that are off lie so near each other, but for how far those before lay apart; a real body whose
-# rests differ does not, nor one that was warmed up while nobody logged
+# rests differ does not
 COOLS_K = 2.0  # what is warm falls by more below its start, beyond what it did before
+BACK_K = 2.0  # what is off comes back to its start
+HEATED_K = 8.0  # from further above it
 COMPANY_K = 2.0  # where another one leaves its own starts by so much and the same way, the machine did not rest
 LEAST_BEFORE = 3
 LEAST_AFTER = 2
+AS_FAST = 0.5  # of the fastest that it ever cooled to its usual level: it rested in these tests
+SLOWER = 1 / 3  # one that is warm cools to the usual level faster
+_FROM_K, _NEAREST_K = 5.0, 0.5  # above a level: further down its noise is all that cools; what is at it
 
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Of a channel in a test, beside the median of all others [K]: where it starts, and how far it falls below that, or
-    rises above it. asked: False of what is warm, cold or hot by itself after any rest."""
+    """How a test goes on from its start, of a channel beside the median of all others. t_s, beside_k: shape (n,), in
+    time order. asked: False of what is warm, cold or hot by itself after any rest."""
 
-    at_k: float
-    falls_k: float
-    rises_k: float
+    t_s: Float1D
+    beside_k: Float1D
     asked: bool = True
+
+    @property
+    def at_k(self) -> float:
+        """Where it starts."""
+        return float(self.beside_k[0])
 
 
 def off_from_start(starts: Sequence[Mapping[str, Start]], rested: Sequence[bool]) -> dict[str, tuple[int, float]]:
@@ -68,8 +78,8 @@ def _off(
         alone = np.array([i for i in after.tolist() if not _in_company(name, at, before, i, sign)], dtype=np.int64)
         if len(alone) < LEAST_AFTER or np.ptp(x[after]) > np.ptp(x[before]) + ALIKE_K:
             return None
-        back = [max(_comes_back(starts[i][name], sign) for i in some.tolist()) for some in (before, after)]
-        if back[1] > back[0] + COOLS_K:
+        was, now = ([starts[i][name] for i in some.tolist()] for some in (before, after))
+        if not _cools_to_its_start(was, now, sign):
             return None
         return begin, float(np.median(x[after]) - np.median(x[before]))
     return None
@@ -81,5 +91,38 @@ def _in_company(name: str, at: Mapping[str, Float1D], before: Int1D, i: int, sig
     return any(float(x[i]) > float(np.nanmax(x[before])) + COMPANY_K for x in others)
 
 
-def _comes_back(start: Start, sign: float) -> float:
-    return start.falls_k if sign > 0 else start.rises_k
+def _cools_to_its_start(before: Sequence[Start], after: Sequence[Start], sign: float) -> bool:
+    """Whether a channel comes back to its new start, and to no further, wherever its part rests within the tests. It
+    needs tests before in which it was seen to cool."""
+    if sum(map(_comes_back, after)) < LEAST_AFTER:
+        return False
+    if max(_beyond(x, sign) for x in after) > max(_beyond(x, sign) for x in before) + COOLS_K:
+        return False
+    usual, new = (float(np.median([x.at_k for x in some])) for some in (before, after))
+    known = _fastest(before, usual)
+    # what reads too little cools through the usual level, which no part that is merely cold does
+    warm = sign > 0 and _fastest(after, usual) >= SLOWER * known
+    return known > 0 and _fastest(after, new) >= AS_FAST * known and not warm
+
+
+def _comes_back(x: Start) -> bool:
+    """Whether it comes back to its start once it was heated."""
+    above = x.beside_k - x.at_k
+    top = int(np.argmax(above))
+    return bool(above[top] >= HEATED_K and above[top:].min() <= BACK_K)
+
+
+def _beyond(x: Start, sign: float) -> float:
+    """How far it leaves its start the way that it would if it had started warm (sign 1) or cold (-1) [K]."""
+    return float(np.max(sign * (x.at_k - x.beside_k)))
+
+
+def _fastest(tests: Iterable[Start], level_k: float) -> float:
+    """The fastest that it cools to a level in any of the tests, as the rate of an exponential [1/s]; 0 where it does
+    not."""
+    rates = [0.0]
+    for x in tests:
+        above = np.maximum(x.beside_k - level_k, _NEAREST_K)
+        falls = above[:-1] >= _FROM_K
+        rates += (np.log(above[:-1] / above[1:])[falls] / np.diff(x.t_s)[falls]).tolist()
+    return max(rates)

@@ -58,12 +58,13 @@ def known_failure(error: Exception) -> ThermodataError | None:
     """What the user can do something about, in an exception of a library: a full disk, a damaged file of the store,
     a query that fails on a row. None for anything else."""
     if isinstance(error, OSError):
-        if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-            # Arrow says its file in its text only
-            named = re.search(r"local file '([^']+)'", str(error))
+        # Arrow says its file in its text only
+        named = error.filename or next(iter(re.findall(r"local file '([^']+)'", str(error))), None)
+        # what names no file (a signal, a socket) is no matter of folders
+        if named and error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
             return ThermodataError(
                 "no right to read or write there",
-                where=str(error.filename) if error.filename else named[1] if named else None,
+                where=str(named),
                 got=os.strerror(error.errno),
                 hint="name a folder of your own, or give yourself the right",
             )

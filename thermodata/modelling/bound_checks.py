@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.modelling.fitted_response import FittedTerm, bounds_of
-from thermodata.modelling.parameters import UNDETERMINED, by_kelvin, interval
+from thermodata.modelling.parameters import UNDETERMINED, by_kelvin, interval, name_of
 from thermodata.plugin import Param
 from thermodata.schema.result import Check
 
@@ -14,13 +14,14 @@ AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 
 def at_bounds(term: FittedTerm) -> list[Check]:
     """Parameters and gains of an effect that a bound holds, and gains beyond what the library thinks possible."""
-    return [*_bounds(term), *_undetermined(term), *_gain_bounds(term), *_plausible(term)]
+    # what groups share is said once
+    of_params = {row.name: row for rows in (_bounds, _undetermined) for row in rows(term)}
+    return [*of_params.values(), *_gain_bounds(term), *_plausible(term)]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:
     rows = []
     for group, values in term.groups.items():
-        tag = f"[{group}]" if group else ""
         for param in term.effect.params:
             if param.name in term.bound.spec.fixed or param.name in values.silent:
                 continue
@@ -30,7 +31,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
                 if abs(value - end) <= AT_BOUND * (abs(end) if low > 0 else high - low):
                     rows.append(
                         Check(
-                            name=f"at_bound:{term.id}.{param.name}{tag}",
+                            name=f"at_bound:{name_of(term, group, param)}",
                             value=value,
                             threshold=end,
                             passed=False,
@@ -45,14 +46,13 @@ def _undetermined(term: FittedTerm) -> list[Check]:
     """Parameters whose interval holds all values between their bounds: one that reaches to 1e17 min says no more."""
     rows = []
     for group, values in term.groups.items():
-        tag = f"[{group}]" if group else ""
         for param in term.effect.params:
             ends = interval(param.name, values, bounds_of(term, param))
             if ends == (None, None) and (param.name in values.half or param.name in values.ends):
                 low, high = bounds_of(term, param)
                 rows.append(
                     Check(
-                        name=f"{UNDETERMINED}{term.id}.{param.name}{tag}",
+                        name=UNDETERMINED + name_of(term, group, param),
                         value=values.params[param.name],
                         threshold=None,
                         passed=False,

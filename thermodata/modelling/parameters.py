@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.calibration.expression import parse
 from thermodata.modelling.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
+from thermodata.plugin import Param
 from thermodata.schema.result import Parameter
 
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
@@ -27,13 +28,11 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
     by_name: dict[str, Parameter] = {}
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
-        own = {p.name for p in term.effect.params if tag and not term.bound.spec.shares(p.name)}
         for param in term.effect.params:
             if param.name in values.silent:
                 continue
-            name = f"{term.id}.{param.name}{tag if param.name in own else ''}"
             ends = interval(param.name, values, bounds_of(term, param))
-            by_name.setdefault(name, _told(values.params[param.name], param.unit, ends))
+            by_name.setdefault(name_of(term, group, param), _told(values.params[param.name], param.unit, ends))
         if term.bound.spec.one_gain:
             by_name[f"{term.id}.{FACTOR}{tag}"] = _told(values.factor, "1", interval(FACTOR, values))
             tag = ""
@@ -43,6 +42,12 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
                 continue
             by_name[f"{term.id}.{gain.name}{tag}"] = _told(values.gains[gain.name], unit, interval(gain.name, values))
     return by_name
+
+
+def name_of(term: FittedTerm, group: str, param: Param) -> str:
+    """'effect.parameter', and '[group]' behind it where the groups do not share one value."""
+    own = group and not term.bound.spec.shares(param.name)
+    return f"{term.id}.{param.name}" + (f"[{group}]" if own else "")
 
 
 def gain_unit(response: FittedResponse, term: FittedTerm, unit: str) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import timedelta
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -67,11 +69,39 @@ def test_spans_are_times(tmp_path: Path, head: str, written: Callable[[int], str
     assert np.abs(np.array(found) - 20 * S * np.arange(ROWS)).max() <= 60_000  # digits of a minute
 
 
+def counted_down(written: Callable[[timedelta], str]) -> Callable[[int], str]:
+    return lambda s: written(timedelta(seconds=s - 100))
+
+
+@pytest.mark.parametrize("written", [str, lambda d: f"{d.days} days +{str(d).rpartition(' ')[2]:0>8}"])
+def test_times_before_a_start_are_negative(tmp_path: Path, written: Callable[[timedelta], str]) -> None:
+    """As Python and pandas write them: only the days are."""
+    assert read(tmp_path, "Time", counted_down(written)) == [20 * S * k for k in range(ROWS)]
+
+
+@pytest.mark.parametrize("digits", range(10))
+def test_parts_of_a_nanosecond_are_rounded(digits: int) -> None:
+    assert SPAN.reads is not None
+    for whole in (0, 1, 12, 1_234_567):
+        text = f"{whole}.{'5' * digits or '0'}"
+        assert [SPAN.reads(f"{text} {unit}") for unit in ("ns", "us", "min")] == [
+            round(Fraction(text) * ns) for ns in (1, 1000, 60 * S)
+        ]
+
+
 @pytest.mark.parametrize(
     ("cell", "seconds"),
     [
         ("1.02:03:04.5", 93_784.5),
         ("-00:00:10", -10),
+        ("-1.02:03:04", -93_784),
+        ("-1 days +23:59:50", -10),
+        ("-1 days +23:59:50.250000", -9.75),
+        ("-1 day, 23:59:50", -10),
+        ("-2 days, 0:00:00", -172_800),
+        ("-1 days -02:03:04", -93_784),
+        ("1 day -00:00:10", 86_390),
+        ("1 day 00:00:10", 86_410),
         ("2 days", 172_800),
         ("0 days", 0),
         ("P1DT1S", 86_401),
@@ -94,6 +124,9 @@ def test_what_a_span_says(cell: str, seconds: float) -> None:
         "",
         "10 m",
         "10",
+        "10.25",
+        "10.25.",
+        "10 µS",
         "5 K",
         "1.25:00:00",
         "10 s 1 h",

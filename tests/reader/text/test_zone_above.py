@@ -54,6 +54,26 @@ def test_one_whose_clocks_may_be_put_ahead_is_asked(tmp_path: Path, head: str) -
     assert any("no time zone" in n for n in found.notes)
 
 
+@pytest.mark.parametrize(
+    ("head", "zone", "said"),
+    [
+        ("Zeitzone: UTC+3", "Europe/Prague", True),
+        ("Zeitzone: UTC+1", "Europe/Prague", False),
+        ("Zeitzone: UTC", "Etc/UTC", False),
+        ("Zeitzone: CET", "Europe/London", False),
+    ],
+)
+def test_a_declared_zone_of_another_offset_is_told(tmp_path: Path, head: str, zone: str, said: bool) -> None:
+    notes = described(tmp_path, head, zone=zone).notes
+    assert (f"the line above the rows says '{head}'; the declared {zone} is used" in notes) is said
+    assert not any("above" in n for n in notes) or said
+    summer = [ROWS[0], *(row.replace("-03-", "-07-") for row in ROWS[1:])]
+    assert any(
+        "the declared Europe/Prague is used" in n
+        for n in described(tmp_path, "Zeitzone: UTC+1", summer, "Europe/Prague").notes
+    ), "whose clocks are put ahead"
+
+
 def test_a_declared_zone_and_one_in_the_cells_come_first(tmp_path: Path) -> None:
     assert described(tmp_path, "Zeitzone: UTC+3", zone="Europe/Prague").start_ns == EIGHT - HOUR
     zoned = [ROWS[0], *(row.replace(";", "+02:00;") for row in ROWS[1:])]

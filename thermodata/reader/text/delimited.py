@@ -85,7 +85,8 @@ def describe(table: Table, source: Source) -> Recording:
 
 
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
-    """What the zone of local times had to decide; whether daylight saving changes between first and last row."""
+    """What the zone of local times had to decide; whether a line above the rows says another one than is declared, and
+    whether daylight saving changes between first and last row."""
     timed = table.groups[0]
     epoch = EPOCHS.get(timed.group.epoch or "")
     utc = epoch is not None and not epoch.local
@@ -104,12 +105,15 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     data = "\n".join((*last, "")).encode()
     ends = [int(b.t_ns[-1]) for b in reader.read(Chunk(data, 0, 0, False)) if isinstance(b, Block)]
     offsets = {utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends]))}
-    if len(offsets) < 2:
-        return []
-    return [
-        f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by their "
-        "order"
-    ]
+    notes = []
+    if table.zone is not None and offsets != {utc_offset_ns(table.zone[0], start // 10**9)}:
+        notes.append(f"the line above the rows says '{table.zone[1][:60]}'; the declared {source.timezone} is used")
+    if len(offsets) > 1:
+        notes.append(
+            f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by "
+            "their order"
+        )
+    return notes
 
 
 def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:

@@ -131,7 +131,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     body = [r for r in (*top_rows, *later) if len(r) == width]
     refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
-    if source.timezone is None and (zone := zone_above(cells(line) for line in head[: layout.first])) is not None:
+    zone = zone_above(cells(line) for line in head[: layout.first])
+    if source.timezone is None and zone is not None:
         groups = tuple(g if g.stated else replace(g, stated=zone[0], above=zone[1]) for g in groups)
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
@@ -194,6 +195,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
         notes=tuple(dict.fromkeys(note for note in found if note)),
         blanks=blanks,
         begin=begin,
+        zone=zone,
     )
 
 

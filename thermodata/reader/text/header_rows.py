@@ -272,10 +272,12 @@ def _of_channels(rows: Sequence[Sequence[str]], names: list[str]) -> list[str]:
     if not all(_STATISTIC.fullmatch(names[k]) for k in again):
         return names
     for row in reversed(rows):
-        channel, of = "", dict[int, str]()
-        for k in again:
-            channel = row[k] or channel
-            of[k] = f"{channel}/{names[k]}" if channel else ""
+        # a channel begins over any value, also one whose own name does not repeat; over the time stands what the row,
+        # or the sheet, is called
+        channel = ""
+        said = [c if n and not _says_time(n) else "" for c, n in zip(row, names, strict=False)]
+        channels = [channel := c or channel for c in said]
+        of = {k: f"{channels[k]}/{names[k]}" if channels[k] else "" for k in again}
         if all(of.values()) and len(set(of.values())) == len(again):
             return [of.get(k, n) for k, n in enumerate(names)]
     return names

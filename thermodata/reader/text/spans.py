@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from fractions import Fraction
 from itertools import pairwise
 
 from thermodata.reader.text.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.zone import NAT
 
 _S = 10**9
+_FINE = 10**9  # parts of a nanosecond that nine decimals of one tell apart
 _UNITS = {
     **dict.fromkeys(["d", "day", "days"], DAY_NS),
     **dict.fromkeys(["h", "hr", "hrs", "hour", "hours", "std"], 3600 * _S),
@@ -22,13 +22,12 @@ _UNITS = {
     "ns": 1,
 }
 _CLOCK = re.compile(
-    r"(?P<sign>-)?(?:(?P<days>\d{1,5})(?:\.| ?days?,? \+?))?(?P<H>\d{1,5}):(?P<M>[0-5]\d):(?P<S>[0-5]\d)"
+    r"(?P<sign>-)?(?:(?P<days>\d{1,5})(?:\.| ?days?,? (?P<own>[+-]?)))?(?P<H>\d{1,5}):(?P<M>[0-5]\d):(?P<S>[0-5]\d)"
     r"(?:[.,](?P<f>\d{1,9})\d*)?",
     re.ASCII | re.IGNORECASE,
 )
 _PREFIX = re.compile(r"(?P<prefix>L?T(?:IME)?#|P)", re.IGNORECASE)
-_PART = re.compile(r"\s*(\d{1,12}(?:[.,]\d{1,9})?)\s*([^\W\d_]+)", re.ASCII | re.IGNORECASE)
-_MICRO = re.compile(r"\s*(\d{1,12}(?:[.,]\d{1,9})?)\s*([µμ]s)")
+_PART = re.compile(r"\s*(\d{1,12})(?:[.,](\d{1,9}))?\s*([µμ]s|[A-Za-z]+)", re.ASCII)
 _LONGEST = 60  # letters of a cell that holds a span
 _LAST_NS = 100 * 366 * DAY_NS
 
@@ -38,15 +37,17 @@ def _ns(cell: str) -> int:
     text = cell.strip()
     if not text or len(text) > _LONGEST:
         return NAT
-    clock = _CLOCK.fullmatch(text)
+    clock = _CLOCK.fullmatch(text) if ":" in text else None
     if clock is not None:
-        days, hours = int(clock["days"] or 0), int(clock["H"])
+        days, hours = int(clock["days"] or 0) * DAY_NS, int(clock["H"])
         if clock["days"] is not None and hours > 23:
             return NAT
-        whole = days * DAY_NS + (hours * 3600 + int(clock["M"]) * 60 + int(clock["S"])) * _S
-        whole += int((clock["f"] or "0").ljust(9, "0"))
-        return -whole if clock["sign"] else whole
-    return _of_words(text)
+        of_day = (hours * 3600 + int(clock["M"]) * 60 + int(clock["S"])) * _S + int((clock["f"] or "0").ljust(9, "0"))
+        first = -1 if clock["sign"] else 1
+        # -1.02:03:04 is all negative, but beside a word for days the clock has a sign of its own: -1 days +23:59:50
+        second = first if clock["own"] is None else -1 if clock["own"] == "-" else 1
+        return first * days + second * of_day
+    return _of_words(text) if text[-1].isalpha() else NAT  # most cells that are asked are plain numbers
 
 
 def _of_words(text: str) -> int:
@@ -57,19 +58,20 @@ def _of_words(text: str) -> int:
     if prefix is not None and prefix[0] in "pP":
         day, mark, clock = rest.upper().partition("T")
         rest = day + clock if mark or "D" in day else "?"
-    total, last, parts = Fraction(0), _LAST_NS, 0
+    total, last, parts = 0, _LAST_NS, 0  # total: in ns / _FINE
     at = 0
     while at < len(rest):
-        part = _MICRO.match(rest, at) or _PART.match(rest, at)
-        each = None if part is None else _UNITS.get(part[2].casefold())
+        part = _PART.match(rest, at)
+        each = None if part is None else _UNITS.get(part[3].casefold())
         if part is None or each is None or each >= last:
             return NAT
-        total += Fraction(part[1].replace(",", ".")) * each
+        total += int(part[1] + (part[2] or "").ljust(9, "0")) * each
         last, at, parts = each, part.end(), parts + 1
         # "10 m" may be a length
-        if prefix is None and parts == 1 and at == len(rest) and part[2] in ("m", "M"):
+        if prefix is None and parts == 1 and at == len(rest) and part[3] in ("m", "M"):
             return NAT
-    ns = round(total)
+    ns, left = divmod(total, _FINE)
+    ns += 2 * left + (ns & 1) > _FINE  # half to even
     return NAT if not parts or ns > _LAST_NS else -ns if negative else ns
 
 

@@ -65,7 +65,8 @@ class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
-    its head says so; series: how rows of several sensors or hosts are taken apart."""
+    its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
+    hosts are taken apart."""
 
     name: str
     sample: Sample
@@ -81,6 +82,7 @@ class Table:
     notes: tuple[str, ...]
     blanks: bool = False
     begin: Begin | None = None
+    zone: tuple[str, str] | None = None
     series: Series | None = None
 
     @property

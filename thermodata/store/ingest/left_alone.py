@@ -34,9 +34,9 @@ class TestNote:
 
     channels: (source, stream, channel, whether it is text). empty: (source, stream, channel) without any value. clocks,
     lent: those that were estimated, as (offset_ns, drift_ppm, base_ns, suspect, key, notes) before and after the other
-    tests were asked. dated: sources with dates of their own. start_s: on the absolute clock. courses: (end [s], levels)
-    of each of its tidy files. verdicts: (its channels, verdict) of each stream. overruled: which rules of the campaign
-    file found something.
+    tests were asked. dated: sources with dates of their own. start_s: on the absolute clock. warm: said to have
+    started so. courses: (end [s], levels) of each of its tidy files. verdicts: (its channels, verdict) of each stream.
+    overruled: which rules of the campaign file found something.
     """
 
     __test__ = False
@@ -56,6 +56,7 @@ class TestNote:
     lent: dict[str, list[Any]] = field(default_factory=dict)
     dated: list[str] = field(default_factory=list)
     start_s: float | None = None
+    warm: bool = False
     quantities: dict[str, str] = field(default_factory=dict)
     powered: list[str] = field(default_factory=list)
     around: list[str] = field(default_factory=list)
@@ -82,7 +83,7 @@ class TestNote:
     def levels(self, test: str) -> tuple[Levels, dict[str, Reading]] | None:
         """What its channels were like, for the tests beside it."""
         files = [("test", {"to_s": to_s, "levels": levels}) for to_s, levels in self.courses]
-        return levels_of(test, self.start_s, self.quantities, self.powered, self.around, files)
+        return levels_of(test, self.start_s, self.quantities, self.powered, self.around, files, self.warm)
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,6 +126,7 @@ def _begun(plan: TestPlan) -> TestNote:
         lossy=list(dict.fromkeys(r.key for s in sources for r in s.raws if r.losses)),
         channels=[[b.source, b.stream, b.name, b.is_text] for b in plan.bound.values()],
         dated=dated_sources(plan),
+        warm=plan.test.start_state == "warm",
     )
 
 
@@ -147,7 +148,7 @@ def _note_courses(note: TestNote, test: _Tidied) -> None:
     own = {name: b.channel for name, b in test.plan.bound.items() if name in named}
     note.quantities = {name: channel.quantity for name, channel in own.items()}
     note.powered = [name for name, channel in own.items() if is_powered(channel.at)]
-    note.around = [name for name, channel in own.items() if is_around(channel.at)]
+    note.around = [name for name, channel in own.items() if not channel.at or is_around(channel.at)]
 
 
 def _note_verdicts(note: TestNote, test: _Tidied) -> None:

@@ -191,12 +191,14 @@ def levels_of(
     powered: Container[str],
     around: Container[str],
     files: Sequence[tuple[str, Mapping[str, Any]]],
+    warm: bool = False,
 ) -> tuple[Levels, dict[str, Reading]] | None:
     """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
 
     start_s: on the absolute clock; None where the test has none. quantities: of its channels. powered: those that
-    stay warm or cold while the machine is on. around: those that are
-    not of the machine. files: the part of the test that each holds, and what is noted of it.
+    stay warm or cold while the machine is on. around: those that are not of the machine, or nobody says where
+    they are. files: the part of the test that each holds, and what is noted of it. warm: the campaign file says that
+    the test started so.
     """
     series: dict[str, Course] = {}
     pauses: list[tuple[float, float]] = []
@@ -218,7 +220,7 @@ def levels_of(
         readings |= {n: Reading(**r) for n, r in levels["readings"].items()}
     if not series:
         return None
-    return Levels(test, start_s, None if start_s is None else start_s + end, series, tuple(pauses)), readings
+    return Levels(test, start_s, None if start_s is None else start_s + end, series, tuple(pauses), warm), readings
 
 
 def _numbers(values: Sequence[float | None]) -> Float1D:

@@ -33,7 +33,7 @@ def _check(campaign: Campaign, channels: Mapping[str, Channel], name: str, where
     for used in _names(channels[name].derive or "", where):
         if used not in campaign.channels:
             raise unknown_name("channel", used, list(campaign.channels), where=where)
-    circle = _circle(channels, (name,), where)
+    circle = _circle(channels, (name,), where, set())
     if circle:
         raise UsageError(
             "derived channels form a circle",
@@ -44,14 +44,16 @@ def _check(campaign: Campaign, channels: Mapping[str, Channel], name: str, where
         )
 
 
-def _circle(channels: Mapping[str, Channel], above: tuple[str, ...], where: str) -> tuple[str, ...]:
-    """The way from a channel back to itself; empty where there is none."""
+def _circle(channels: Mapping[str, Channel], above: tuple[str, ...], where: str, seen: set[str]) -> tuple[str, ...]:
+    """The way from a channel back to itself; empty where there is none. seen: channels that lead to none, which grows:
+    several ways may lead to one."""
     text = channels[above[-1]].derive if above[-1] in channels else None
     for name in sorted(_names(text, where)) if text is not None else ():
         if name in above:
             return (*above[above.index(name) :], name)
-        if found := _circle(channels, (*above, name), where):
+        if name not in seen and (found := _circle(channels, (*above, name), where, seen)):
             return found
+        seen.add(name)
     return ()
 
 
