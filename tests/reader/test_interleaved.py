@@ -143,6 +143,23 @@ def test_a_wide_log_is_not_parted(t_ns: np.ndarray, columns: dict[str, Array]) -
     assert series_columns(t_ns, columns, absolute=True).tags == ()
 
 
+def test_a_state_is_none_though_the_clock_halts_and_a_power_moves_with_it() -> None:
+    cells = words([str(w) for w in RNG.choice(["Kopf", "Bett"], 600)])
+    power = np.where(cells == "Kopf", 3.0, 0.1)
+    for steps in ([1, 1, 1, 60], [1, 1, 1, 1, 1, 1, 1, 1, 5]):
+        t_ns = np.cumsum(RNG.choice(steps, 600)) * S
+        assert doubtful(t_ns, {"Machine": cells, "P": power}) == ("Machine",)
+    on_change = np.round(np.cumsum(RNG.exponential(5, 600)) * S).astype(np.int64)
+    assert doubtful(on_change, {"Machine": cells, "P": power, "T": SLOW}) == ("Machine",)
+    assert series_columns(on_change, {"Machine": cells, "T": SLOW + power, "U": power}, absolute=True).tags
+
+
+def test_a_sensor_that_is_named_seldom_is_doubtful() -> None:
+    t_ns = np.round(np.cumsum(RNG.exponential(5, 600)) * S).astype(np.int64)
+    assert doubtful(t_ns, {"Sensor": seldom("A1", "B1", 50), "T": SLOW}) == ("Sensor",)
+    assert series_columns(t_ns, {"sensor_id": seldom("A1", "B1", 50), "T": SLOW}, absolute=True).tags
+
+
 def test_names_that_are_mixed_without_a_clock_of_their_own_are_doubtful() -> None:
     cells = words(list(RNG.choice(["X", "Y", "Z"], 600)))
     parting = series_columns(JITTER, {"Achse": cells, "dZ": SLOW}, absolute=True)

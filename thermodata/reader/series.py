@@ -53,6 +53,17 @@ class Declaration:
         here = [name for said in self.columns for name in (said, f"{before}{said}") if name in names]
         return replace(self, columns=tuple(dict.fromkeys(here)))
 
+    def check(self, names: Collection[str]) -> None:
+        """FormatError for a column that nothing has. names: of all that is read, behind a topic or sheet."""
+        for said in self.columns or ():
+            if not any(name == said or name.endswith((f"/{said}", f".{said}")) for name in names):
+                raise FormatError(
+                    f"nothing is called '{said}', which is declared to name series",
+                    where="the source",
+                    expected=", ".join(list(names)[:10]),
+                    got=self.form.format(f"[{', '.join(self.columns or ())}]"),
+                )
+
     def declined(self) -> str:
         """How it is said that rows are of one series."""
         return f"if they are of one, declare {self.form.format(NEVER)}"
@@ -61,13 +72,7 @@ class Declaration:
         """By what is declared, else by what the rows say. FormatError for a column that is not there."""
         if self.columns is None:
             return series_columns(block.t_ns, block.values, absolute=absolute, pieces=pieces)
-        if missing := [name for name in self.columns if name not in block.values]:
-            raise FormatError(
-                f"no column '{missing[0]}', which is declared to name series",
-                where=f"'{block.stream}'" if block.stream else "the table",
-                expected=", ".join(list(block.values)[:10]),
-                got=self.form.format(f"[{', '.join(self.columns)}]"),
-            )
+        self.check(block.values)
         return Parting(self.columns, {})
 
     def doubts(self, parting: Parting) -> Iterator[str]:

@@ -23,10 +23,12 @@ _STEADY, _SLIGHT, _ODD = (
     0.005,
     0.03,
 )  # shares of steps like their median: a clock; less of them; that want a reason
+_HALTING, _WORSE = 0.5, 0.75  # such a share is a clock that halts where the words have less of it than this share
 _RESOLVED = 0.25  # of the odd steps may be left within the words
 _NARROW = 1.2  # times its median that the steps of a clock with jitter spread over
 _IN_TURN = 0.9  # of the rows are followed by another word, the same one each time
 _EVEN = 0.8  # of the rows are of words with at least half as many rows as the most frequent one
+_MOST = 0.5  # of the numbers move with the words; of a wide log one or two do, such as a power
 _APART = 3.0  # times as far from the row before as from the row before of the same word
 _BACK = 0.25  # of the way on that times which begin anew go back
 
@@ -86,7 +88,8 @@ def judge(rows: Rows, header: Header, *, absolute: bool) -> Verdict:
     mixed = changes / (2 * (rows.codes.size - int(counts.max()))) >= _MIXED
     if _meet(rows):
         return _who_meets(rows, counts, header) if mixed else Verdict.ONE
-    far_apart = _even(counts) and _jumps(rows) >= 0.5
+    even = _even(counts)
+    far_apart = even and _jumps(rows) > _MOST
     often = words and header.sensor and changes > 2 * (counts > 0).sum()
     if often and (far_apart or (header.identity and mixed)):
         return Verdict.PLAIN
@@ -99,7 +102,7 @@ def judge(rows: Rows, header: Header, *, absolute: bool) -> Verdict:
         return Verdict.PLAIN
     if (words or header.named) and _clocks_apart(rows, counts):
         return Verdict.PLAIN
-    if header.sensor and (words or far_apart):
+    if header.sensor and ((words and even) or far_apart):
         return Verdict.PLAIN
     if header.named:
         return Verdict.PLAIN if words and far_apart else Verdict.DOUBTFUL
@@ -150,6 +153,8 @@ def _one_clock(rows: Rows, counts: Int1D) -> bool:
     table, own = [_steps(rows, np.ones(rows.codes.size, bool))], _own_steps(rows, counts)
     whole = _steady(table)
     if whole >= _STEADY and _steady(own) < whole - _SLIGHT:
+        return True
+    if whole >= _HALTING and _steady(own) < _WORSE * whole:
         return True
     return _spread(table) < min(_NARROW, 0.5 * _spread(own))
 

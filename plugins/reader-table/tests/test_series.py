@@ -202,7 +202,7 @@ def test_series_are_declined_where_it_is_declared(tmp_path: Path) -> None:
 
 def test_a_declared_column_that_is_not_there_is_named(tmp_path: Path) -> None:
     rows = [f"{stamp(10 * k)},h{d},{20 + d}" for k in range(N) for d in (0, 1)]
-    with pytest.raises(FormatError, match="no column 'Host'"):
+    with pytest.raises(FormatError, match="nothing is called 'Host'"):
         read(tmp_path / "a.csv", "time,host,T", rows, declared(["Host"]))
     with pytest.raises(FormatError, match="neither a list of columns nor none"):
         read(tmp_path / "a.csv", "time,host,T", rows, declared("host"))
@@ -247,3 +247,5 @@ def test_sheets_take_what_is_declared_of_series(tmp_path: Path, sheets: int) -> 
     assert set(values(plain)) == {f"{b}{name}" for b in before for name in ("sensor", "T")}
     parted = load(Reader(), tmp_path / "a.xlsx", declared(["sensor"]))
     assert set(values(parted)) == {f"{b}p{d}/T" for b in before for d in (0, 1)}
+    with pytest.raises(FormatError, match="nothing is called 'host'"):
+        load(Reader(), tmp_path / "a.xlsx", declared(["host"]))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from thermodata_reader_mcap import Reader
 
+from thermodata.errors import FormatError
 from thermodata.plugin import Source
 
 T0, STEP = 1_772_434_800_000_000_000, 10 * 10**9
@@ -104,6 +105,8 @@ def test_blocks_of_a_program_are_no_senders_and_may_be_declared_so(tmp_path: Pat
 def test_senders_are_not_taken_apart_where_it_is_declared(tmp_path: Path, write: Any, read: Any) -> None:
     path = write(tmp_path / "a.mcap", sent("sensor"))
     assert set(read(path, Source(options={"series": "none"}))[1]) == {"/temps"}
+    with pytest.raises(FormatError, match="nothing is called 'host'"):
+        read(path, Source(options={"series": ["host"]}))
     recording, times, _, _, _ = read(path)
     assert len(times) == 3
     assert any("options: {series: none}" in note for note in recording.notes)

@@ -139,6 +139,7 @@ def read(path: Path, source: Source) -> Read:
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
     losses = [loss for table in read_sheets.values() for loss in table.losses]
     declared = Declaration.of((source.table or {}).get("series"))
+    declared.check([name for streams in found.values() for stream in streams for name in stream.values])
     for sheet, table in read_sheets.items():
         apart = [taken_apart(stream, table.where, sheet if several else None, declared) for stream in found[sheet]]
         found[sheet] = [stream for streams, _, _ in apart for stream in streams]

@@ -206,6 +206,7 @@ def _senders(
     found: _Found, batches: dict[Channel, Batch], stamped: dict[str, str], declared: Declaration
 ) -> tuple[dict[str, Series], list[str]]:
     """How topics are taken apart on which several sensors send; notes."""
+    declared.check([leaf.name for topic in found.topics.values() for leaf in topic.leaves])
     series: dict[str, Series] = {}
     notes: list[str] = []
     for name, topic in found.topics.items():
