@@ -24,9 +24,25 @@ NAME_WORDS = (
     *("name", "point", "channel", "sensor", "sensorid", "sensorname", "signal", "variable", "parameter", "measurand"),
     *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
 )
-# columns that name what is measured wherever they differ, however seldom they do
+# columns that say which sensor, entity or frame it is, and never how that is
+SENSOR_IDS = ("sensorid", "sensorname", "sensorno", "entityid", "frameid", "childframeid", "probeid")
+# and which of several machines wrote a row
+HOST_IDS = (
+    "host",
+    "hostname",
+    "device",
+    "deviceid",
+    "devicename",
+    "plc",
+    "logger",
+    "machineid",
+    "machinename",
+    "gerät",
+)
+# columns that name what is measured
 SENSOR_WORDS = (
-    *("sensor", "sensorid", "sensorname", "sensorno", "entityid", "frameid", "childframeid", "probe", "probeid"),
+    *SENSOR_IDS,
+    *("sensor", "probe"),
     *("measurand", "messstelle", "messpunkt", "fühler", "senzor", "čidlo", "capteur", "sonda", "thermocouple"),
 )
 # columns that name where a value comes from, or what is told of it

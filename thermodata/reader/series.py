@@ -11,15 +11,80 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
 from thermodata.reader.header_words import UNIT_WORDS
-from thermodata.reader.interleaved import bare_header, series_columns, words_of
+from thermodata.reader.interleaved import Parting, bare_header, series_columns, words_of
 
 SERIES = "series"  # the property of a signal that says which it is of
+NEVER = "none"  # declared: rows are of one series
+IN_TABLE = "table: {{series: {}}}"
 Named = Callable[[str, str], str]
 
 
 def slash(series: str, name: str) -> str:
     """'bearing' and 'temperature' give 'bearing/temperature'."""
     return f"{series}/{name}"
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """What a source says of series. columns: that name them; () for rows of one; None where it says nothing. form:
+    how it is written, for notes."""
+
+    columns: tuple[str, ...] | None = None
+    form: str = IN_TABLE
+
+    @classmethod
+    def of(cls, said: object, form: str = IN_TABLE) -> Declaration:
+        """As it stands in the source: none, or a list of columns. FormatError for anything else."""
+        if said is None or said == NEVER:
+            return cls(None if said is None else (), form)
+        if isinstance(said, list | tuple) and said and all(isinstance(name, str) for name in said):
+            return cls(tuple(said), form)
+        raise FormatError(
+            "series is neither a list of columns nor none",
+            where="the source",
+            expected=f"{form.format('[host, sensor]')} or {form.format(NEVER)}",
+            got=repr(said),
+        )
+
+    def within(self, names: Collection[str], before: str) -> Declaration:
+        """What of it holds for one of several tables, whose names begin alike; one that lacks all is of one series."""
+        if self.columns is None:
+            return self
+        here = [name for said in self.columns for name in (said, f"{before}{said}") if name in names]
+        return replace(self, columns=tuple(dict.fromkeys(here)))
+
+    def check(self, names: Collection[str]) -> None:
+        """FormatError for a column that nothing has. names: of all that is read, behind a topic or sheet."""
+        for said in self.columns or ():
+            if not any(name == said or name.endswith((f"/{said}", f".{said}")) for name in names):
+                raise FormatError(
+                    f"nothing is called '{said}', which is declared to name series",
+                    where="the source",
+                    expected=", ".join(list(names)[:10]),
+                    got=self.form.format(f"[{', '.join(self.columns or ())}]"),
+                )
+
+    def declined(self) -> str:
+        """How it is said that rows are of one series."""
+        return f"if they are of one, declare {self.form.format(NEVER)}"
+
+    def parting(self, block: Block, absolute: bool, pieces: Int1D | None) -> Parting:
+        """By what is declared, else by what the rows say. FormatError for a column that is not there."""
+        if self.columns is None:
+            return series_columns(block.t_ns, block.values, absolute=absolute, pieces=pieces)
+        self.check(block.values)
+        return Parting(self.columns, {})
+
+    def doubts(self, parting: Parting) -> Iterator[str]:
+        """A note on each column that may name series."""
+        for name, words in parting.doubtful.items():
+            shown = ", ".join(words)
+            both = [*parting.tags, name]
+            yield (
+                f"'{name}' ({shown}) may name series whose rows stand below each other; they are read as one stream: "
+                f"if each is a series, declare {self.form.format('[' + ', '.join(both) + ']')}, "
+                f"else {self.form.format('[' + ', '.join(parting.tags) + ']' if parting.tags else NEVER)}"
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,21 +175,34 @@ class TakenApart:
         self.unmet[what] = self.unmet.get(what, 0) + count
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """series: how rows are taken apart, None where all are of one, or it is not plain. notes: what was done or not."""
+
+    series: Series | None = None
+    notes: tuple[str, ...] = ()
+
+
 def find_series(
     block: Block,
     *,
     absolute: bool,
+    declared: Declaration | None = None,
+    pieces: Int1D | None = None,
     taken: Collection[str] = (),
     stream_of: Callable[[str], str] = str,
     named: Named = slash,
     kept: Collection[str] = (),
-) -> Series | None:
-    """The series in the first rows of a stream; None where all are of one. absolute: of its times; taken: streams that
-    others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not in
-    the block."""
-    tags = series_columns(block.t_ns, block.values, absolute=absolute)
-    if not tags:
-        return None
+) -> Found:
+    """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; taken: streams
+    that others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not
+    in the block."""
+    declared = Declaration() if declared is None else declared
+    parting = declared.parting(block, absolute, pieces)
+    doubts = tuple(declared.doubts(parting))
+    if not parting.tags:
+        return Found(None, doubts)
+    tags = parting.tags
     names = np.array(_names(block, tags), object)
     held: dict[str, frozenset[str]] = {}
     streams: dict[str, str] = {}
@@ -137,9 +215,11 @@ def find_series(
         while stream in taken or stream in streams.values():
             stream += "#2"
         held[one], streams[one] = some | frozenset(kept), stream
-    if len(held) < 2:
-        return None
-    return Series(block.stream, tags, held, streams, named, _units(block, names, held))
+    if len(held) < (2 if declared.columns is None else 1):
+        return Found(None, doubts)
+    made = Series(block.stream, tags, held, streams, named, _units(block, names, held))
+    own = made.note() if declared.columns else f"{made.note()}; {declared.declined()}"
+    return Found(made, (own, *doubts))
 
 
 def _units(block: Block, names: Array, held: Mapping[str, frozenset[str]]) -> dict[str, tuple[str, str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -56,6 +56,7 @@ class TableLayout(Strict):
     time: its time column, or a list where columns have times of their own
     delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
+    series: columns whose words name the sensor or host that a row is of: [host, sensor]; none: all rows are of one
     """
 
     sheet: int | str | None = None
@@ -65,6 +66,10 @@ class TableLayout(Strict):
     time: TimeColumn | list[TimeColumn] | None = None
     delimiter: str | None = None
     decimal: Literal[".", ",", "unknown"] | None = None
+    # left out where it is not declared: raw data is kept by what its source declares
+    series: Literal["none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
+        default=None, exclude_if=lambda series: series is None
+    )
 
 
 class AlignBy(Strict):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -170,3 +171,81 @@ def test_sensors_below_each_other_in_a_sheet_are_streams(tmp_path: Path, sheets:
     assert not data.losses
     stream = next(s.stream for s in data.recording.signals if s.name.endswith("p1/T [degC]"))
     assert Reader().locate(tmp_path / "a.xlsx", UTC, stream, 3) == "sheet 'S0', row 9"
+
+
+def declared(series: object) -> Source:
+    return Source(timezone="UTC", table={"series": series})
+
+
+def test_a_wide_log_with_a_seldom_word_is_read_as_it_stands_with_a_note(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},{20 + k / 8},{'TOOLCHG.SPF' if k % 20 == 19 else 'MAIN.MPF'}" for k in range(10 * N)]
+    data = read(tmp_path / "a.csv", "time,dZ,Line", rows)
+    assert list(values(data)) == ["dZ", "Line"]
+    note = next(note for note in data.recording.notes if "'Line'" in note)
+    assert "MAIN.MPF" in note
+    assert "table: {series: [Line]}" in note
+    assert "table: {series: none}" in note
+    assert not read(tmp_path / "b.csv", "time,dZ,Line", rows, declared("none")).recording.notes
+    assert list(values(read(tmp_path / "c.csv", "time,dZ,Line", rows, declared(["Line"])))) == [
+        "MAIN.MPF/dZ",
+        "TOOLCHG.SPF/dZ",
+    ]
+
+
+def test_series_are_declined_where_it_is_declared(tmp_path: Path) -> None:
+    rows = [f"{stamp(10 * k)},h{d},{20 + d}" for k in range(N) for d in (0, 1)]
+    assert any("table: {series: none}" in n for n in read(tmp_path / "a.csv", "time,host,T", rows).recording.notes)
+    assert list(values(read(tmp_path / "b.csv", "time,host,T", rows, declared("none")))) == ["host", "T"]
+    value = read(tmp_path / "c.csv", "time,signal,value", rows, declared("none"))
+    assert list(values(value)) == ["signal", "value"]
+
+
+def test_a_declared_column_that_is_not_there_is_named(tmp_path: Path) -> None:
+    rows = [f"{stamp(10 * k)},h{d},{20 + d}" for k in range(N) for d in (0, 1)]
+    with pytest.raises(FormatError, match="nothing is called 'Host'"):
+        read(tmp_path / "a.csv", "time,host,T", rows, declared(["Host"]))
+    with pytest.raises(FormatError, match="neither a list of columns nor none"):
+        read(tmp_path / "a.csv", "time,host,T", rows, declared("host"))
+
+
+@pytest.mark.parametrize("n", [3_000, 16_000])
+def test_hosts_that_are_asked_in_turn_are_parted_in_a_file_of_any_size(tmp_path: Path, n: int) -> None:
+    rows = [f"{stamp(k / 5)},plc{k % 16},{20 + 3 * (k % 16) + k / 1e4:.4f}" + " " * 60 for k in range(n)]
+    data = read(tmp_path / "a.csv", "time,station,T", rows)
+    assert ((tmp_path / "a.csv").stat().st_size > 512 * 1024) == (n > 5_000)
+    assert set(values(data)) == {f"plc{k}/T" for k in range(16)}
+    assert not data.losses
+
+
+@pytest.mark.parametrize("cell", [lambda k: "SUB" if k % 50 == 49 else "MAIN", lambda k: int(k % 50 < 3)])
+def test_a_wide_log_in_parquet_is_read_as_it_stands(tmp_path: Path, cell: Callable[[int], object]) -> None:
+    t = np.datetime64("2026-03-02T07:00", "s") + np.arange(10 * N)
+    for header in ("Line", "Probe"):
+        wide = pa.table({"ts": t, header: [cell(k) for k in range(10 * N)], "T": np.arange(10.0 * N)})
+        pq.write_table(wide, tmp_path / "a.parquet")
+        assert [s.name for s in Reader().describe(tmp_path / "a.parquet", Source()).signals] == [header, "T"]
+
+
+def test_parquet_takes_what_is_declared_of_series(tmp_path: Path) -> None:
+    t = np.datetime64("2026-03-02T07:00", "ms") + np.repeat(np.arange(N) * 10_000, 2)
+    pq.write_table(pa.table({"ts": t, "sensor": ["a", "b"] * N, "T": [20.0, 17.0] * N}), tmp_path / "a.parquet")
+    with pytest.raises(FormatError) as said:
+        Reader().describe(tmp_path / "a.parquet", Source())
+    assert "table: {series: none}" in str(said.value)
+    assert [s.name for s in Reader().describe(tmp_path / "a.parquet", declared("none")).signals] == ["sensor", "T"]
+    with pytest.raises(FormatError, match="a long table"):
+        Reader().describe(tmp_path / "a.parquet", declared(["sensor"]))
+
+
+@pytest.mark.parametrize("sheets", [1, 2])
+def test_sheets_take_what_is_declared_of_series(tmp_path: Path, sheets: int) -> None:
+    rows: list[list[object]] = [["Time", "sensor", "T"]]
+    rows += [[46083 + (k // 2 * 10) / 86400, f"p{k % 2}", 20 + 10 * (k % 2) + k / 8] for k in range(2 * N)]
+    workbook(tmp_path / "a.xlsx", {f"S{n}": sheet(rows, (1, 0, 0)) for n in range(sheets)})
+    before = ["S0/", "S1/"] if sheets > 1 else [""]
+    plain = load(Reader(), tmp_path / "a.xlsx", declared("none"))
+    assert set(values(plain)) == {f"{b}{name}" for b in before for name in ("sensor", "T")}
+    parted = load(Reader(), tmp_path / "a.xlsx", declared(["sensor"]))
+    assert set(values(parted)) == {f"{b}p{d}/T" for b in before for d in (0, 1)}
+    with pytest.raises(FormatError, match="nothing is called 'host'"):
+        load(Reader(), tmp_path / "a.xlsx", declared(["host"]))

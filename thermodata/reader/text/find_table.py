@@ -129,7 +129,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
     later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
     body = [r for r in (*top_rows, *later) if len(r) == width]
-    refuse_long(layout.names, body, where)
+    if said.get("series") is None:  # else it is declared how its rows lie
+        refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     zone = zone_above(cells(line) for line in head[: layout.first])
     if source.timezone is None and zone is not None:

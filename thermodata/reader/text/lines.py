@@ -36,7 +36,8 @@ class Chunk:
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """The file's first lines, lines from places between, and its last lines. whole: the head is all of it."""
+    """The file's first lines, lines from places between, and its last lines. whole: the head is all of it.
+    pieces: how many lines of `rest` each place has."""
 
     head: tuple[str, ...]
     rest: tuple[str, ...]
@@ -44,6 +45,7 @@ class Sample:
     note: str | None
     whole: bool
     ends_with_newline: bool
+    pieces: tuple[int, ...] = ()
 
 
 def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample:
@@ -74,13 +76,15 @@ def sample(path: Path, declared: str | None, whole_up_to: int = WHOLE) -> Sample
         encoding, note = find_encoding(start + b"".join(inner), declared)
     text = start.decode(encoding, "replace")
     rest: list[str] = []
+    sizes: list[int] = []
     for piece in pieces:
         plain = "utf-16-be" if head.startswith(codecs.BOM_UTF16_BE) or encoding == "utf-16-be" else "utf-16-le"
         lines = piece.decode(plain if wide else bare(encoding), "replace").split("\n")
         rest += [line.rstrip("\r") for line in lines[1:-1]]
+        sizes.append(len(lines[1:-1]))
     tail = pieces[-1] if pieces else head
     ends = tail.rstrip(b"\0").endswith((b"\n", b"\r"))
-    return Sample(_lines(text, whole), tuple(rest), encoding, note, whole, ends)
+    return Sample(_lines(text, whole), tuple(rest), encoding, note, whole, ends, tuple(sizes))
 
 
 def _mostly_utf8(data: bytes) -> tuple[str, str | None]:

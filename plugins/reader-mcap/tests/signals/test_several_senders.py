@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from thermodata_reader_mcap import Reader
 
+from thermodata.errors import FormatError
 from thermodata.plugin import Source
 
 T0, STEP = 1_772_434_800_000_000_000, 10 * 10**9
@@ -83,3 +84,29 @@ def test_what_the_machine_did_is_no_sender(tmp_path: Path, write: Any, read: Any
     recording, times, _, _, _ = read(write(tmp_path / "a.mcap", messages))
     assert set(times) == {"/axis"}
     assert {s.name for s in recording.signals} == {f"/axis.{field}", "/axis.T"}
+
+
+def test_blocks_of_a_program_are_no_senders_and_may_be_declared_so(tmp_path: Path, write: Any, read: Any) -> None:
+    rng = np.random.default_rng(0)
+    at = np.cumsum(rng.uniform(0.07, 0.14, 400) * 1e9).astype(np.int64)
+    names = rng.choice(["G0", "G1", "M6"], 400).tolist()
+    messages = [
+        ("/nc", T0 + int(t), {"block": {"name": name}, "pos": k / 8})
+        for k, (t, name) in enumerate(zip(at, names, strict=True))
+    ]
+    path = write(tmp_path / "a.mcap", messages)
+    recording, times, _, _, _ = read(path)
+    assert set(times) == {"/nc"}
+    assert any("options: {series: [/nc.block.name]}" in note for note in recording.notes)
+    _, times, _, _, _ = read(path, Source(options={"series": ["block.name"]}))
+    assert set(times) == {"/nc/G0", "/nc/G1", "/nc/M6"}
+
+
+def test_senders_are_not_taken_apart_where_it_is_declared(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(tmp_path / "a.mcap", sent("sensor"))
+    assert set(read(path, Source(options={"series": "none"}))[1]) == {"/temps"}
+    with pytest.raises(FormatError, match="nothing is called 'host'"):
+        read(path, Source(options={"series": ["host"]}))
+    recording, times, _, _, _ = read(path)
+    assert len(times) == 3
+    assert any("options: {series: none}" in note for note in recording.notes)

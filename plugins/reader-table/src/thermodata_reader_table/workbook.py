@@ -18,6 +18,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
 from thermodata.reader.counted import counted
+from thermodata.reader.series import Declaration
 from thermodata.reader.text.begin import NOT_TAKEN
 from thermodata.reader.text.layout import Layout, find, one_clock
 from thermodata.reader.text.on_its_side import refuse_sideways
@@ -137,8 +138,10 @@ def read(path: Path, source: Source) -> Read:
     for sheet, table in read_sheets.items():
         notes += [f"sheet '{sheet}': {note}" for note in table.notes] if several else table.notes
     losses = [loss for table in read_sheets.values() for loss in table.losses]
+    declared = Declaration.of((source.table or {}).get("series"))
+    declared.check([name for streams in found.values() for stream in streams for name in stream.values])
     for sheet, table in read_sheets.items():
-        apart = [taken_apart(stream, table.where, sheet if several else None) for stream in found[sheet]]
+        apart = [taken_apart(stream, table.where, sheet if several else None, declared) for stream in found[sheet]]
         found[sheet] = [stream for streams, _, _ in apart for stream in streams]
         notes += [note for _, said, _ in apart for note in said]
         losses += [loss for _, _, lost in apart for loss in lost]

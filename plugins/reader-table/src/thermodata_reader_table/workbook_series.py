@@ -6,26 +6,30 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.series import SERIES, find_series
+from thermodata.reader.series import SERIES, Declaration, find_series
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.workbook_sheet import Stream
 
 
-def taken_apart(stream: Stream, where: str, sheet: str | None) -> tuple[list[Stream], list[str], list[Loss]]:
+def taken_apart(
+    stream: Stream, where: str, sheet: str | None, declared: Declaration
+) -> tuple[list[Stream], list[str], list[Loss]]:
     """(a stream a series, or the stream as it is; notes; losses). sheet: by which its signals are called; None where
     they are called by themselves."""
     t_ns = stream.times.t_ns
     good = t_ns != NAT
     first = Block(stream.name, t_ns[good], {k: v[good] for k, v in stream.values.items()})
     named = partial(_named, "" if sheet is None else f"{sheet}/")
-    series = find_series(
+    found = find_series(
         first,
         absolute=stream.times.absolute,
+        declared=declared if sheet is None else declared.within(stream.values, f"{sheet}/"),
         stream_of=str if sheet is None else partial(_named, "", stream.name),
         named=named,
     )
+    series = found.series
     if series is None:
-        return [stream], [], []
+        return [stream], list(found.notes), []
     parts: list[Stream] = []
     losses: list[Loss] = []
     for one, rows in series.rows(Block(stream.name, t_ns, stream.values)).items():
@@ -49,7 +53,7 @@ def taken_apart(stream: Stream, where: str, sheet: str | None) -> tuple[list[Str
                 {new: {**stream.said[k], SERIES: one} for k, new in called.items()},
             )
         )
-    return parts, [series.note()], losses
+    return parts, list(found.notes), losses
 
 
 def _named(before: str, series: str, name: str) -> str:

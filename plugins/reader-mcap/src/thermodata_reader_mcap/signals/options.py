@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.series import Declaration
 from thermodata_reader_mcap.encodings.field_paths import Path
 
 LOG, PUBLISH = "log_time", "publish_time"
@@ -18,12 +19,14 @@ STAMPS = (("sec", "nanosec"), ("secs", "nsecs"), ("seconds", "nanos"), ("sec", "
 class Options:
     """time: "log_time", "publish_time", or a field of the messages, such as "header.stamp". scale: nanoseconds of
     one unit of that field, where it is one number. enums: protobuf's enumerations as "number" or "label".
-    publish: whether publish times are always a signal, not only where a sample of them differs from the log times."""
+    publish: whether publish times are always a signal, not only where a sample of them differs from the log times.
+    series: fields that name whose a message is, or none."""
 
     time: str = LOG
     scale: int | None = None
     enums: str = "number"
     publish: bool = False
+    series: Declaration = field(default_factory=Declaration)
 
     @property
     def stamp(self) -> Path | None:
@@ -40,7 +43,7 @@ class Options:
 
 def options(source: Source) -> Options:
     """The declared options. FormatError: an unknown key or value."""
-    known = ("time", "time_unit", "enums", "publish_time")
+    known = ("time", "time_unit", "enums", "publish_time", "series")
     for key in source.options:
         if key not in known:
             near = get_close_matches(str(key), known, 1)
@@ -66,5 +69,6 @@ def options(source: Source) -> Options:
             expected="log_time, publish_time, or a field such as header.stamp",
             got=str(time),
         )
+    series = Declaration.of(source.options.get("series"), "options: {{series: {}}}")
     publish = bool(source.options.get("publish_time", False))
-    return Options(time, None if unit is None else SCALES[unit], enums, publish)
+    return Options(time, None if unit is None else SCALES[unit], enums, publish, series)

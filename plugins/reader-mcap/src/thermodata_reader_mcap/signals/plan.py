@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.series import Series
+from thermodata.reader.series import Declaration, Series
 from thermodata_reader_mcap.container.attachments import extras
 from thermodata_reader_mcap.container.data_section import Damage, data_section, is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions
@@ -157,8 +157,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             stamped[topic] = "log_time"
         elif not same:
             stamped[topic] = PUBLISH
-    series = _senders(found, batches, stamped)
-    notes += [f"topic '{topic}': {one.note()}" for topic, one in series.items()]
+    series, told = _senders(found, batches, stamped, chosen_options.series)
+    notes += told
     return Plan(
         chosen_options,
         said,
@@ -202,17 +202,22 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
     return result
 
 
-def _senders(found: _Found, batches: dict[Channel, Batch], stamped: dict[str, str]) -> dict[str, Series]:
-    """How topics are taken apart on which several sensors send."""
+def _senders(
+    found: _Found, batches: dict[Channel, Batch], stamped: dict[str, str], declared: Declaration
+) -> tuple[dict[str, Series], list[str]]:
+    """How topics are taken apart on which several sensors send; notes."""
+    declared.check([leaf.name for topic in found.topics.values() for leaf in topic.leaves])
     series: dict[str, Series] = {}
+    notes: list[str] = []
     for name, topic in found.topics.items():
         made = {c: r for c, r in found.readers.items() if c.topic == name and c in batches}
         taken = {*found.topics, *(stream for one in series.values() for stream in one.streams.values())}
         times = {time_name(topic, stamped[name])} if name in stamped else set()
-        one = senders(topic, batches, made, taken, times)
-        if one is not None:
-            series[name] = one
-    return series
+        one = senders(topic, batches, made, taken, times, declared)
+        notes += [f"topic '{name}': {note}" for note in one.notes]
+        if one.series is not None:
+            series[name] = one.series
+    return series, notes
 
 
 def _with_unit(chosen: Options, batches: dict[Channel, Batch], found: _Found, name: str) -> Options:

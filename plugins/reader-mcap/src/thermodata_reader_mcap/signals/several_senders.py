@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block
-from thermodata.reader.series import Series, find_series
+from thermodata.reader.series import Declaration, Found, find_series
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS
@@ -29,16 +29,18 @@ def senders(
     made: Mapping[Channel, Decoder],
     taken: Collection[str],
     times: Collection[str],
-) -> Series | None:
-    """How the messages of a topic are taken apart, each sender a stream called as if it had a topic of its own; None
+    declared: Declaration,
+) -> Found:
+    """How the messages of a topic are taken apart, each sender a stream called as if it had a topic of its own; none
     where all are of one. taken: the names of other topics; times: signals that its times are, besides its fields."""
-    if not any(leaf.dtype == "str" for leaf in topic.leaves) or len(topic.leaves) > _MOST_LEAVES:
-        return None  # an id that is a number names its topic's fields only beside words: counters look like it
     leaves = [leaf for leaf in topic.leaves if not _is_time(leaf.path)]
     words = [leaf for leaf in leaves if leaf.dtype == "str"]
-    if all(len(set(column)) < 2 for column in _cells(words, batches, made, _GLANCE)[1]):
-        return None
-    logs, cells = _cells(leaves, batches, made, _LOOKED_AT)
+    if declared.columns is None:
+        if not any(leaf.dtype == "str" for leaf in topic.leaves) or len(topic.leaves) > _MOST_LEAVES:
+            return Found()  # an id that is a number names its topic's fields only beside words: counters look like it
+        if all(len(set(column)) < 2 for column in _cells(words, batches, made, _GLANCE)[2]):
+            return Found()
+    logs, pieces, cells = _cells(leaves, batches, made, _LOOKED_AT)
     order = np.argsort(np.array(logs, np.int64), kind="stable")
     values, flags = dict[str, Array](), dict[str, Array]()
     for leaf, column in zip(leaves, cells, strict=True):
@@ -46,10 +48,13 @@ def senders(
         values[leaf.name] = array[order]
         if missing is not None:
             flags[leaf.name] = missing[order]
+    mine = declared.within(values, f"{topic.name}.")
     block = Block(topic.name, np.array(logs, np.int64)[order], values, flags)
     return find_series(
         block,
         absolute=True,
+        declared=mine,
+        pieces=np.array(pieces, np.int64)[order],
         taken=taken,
         stream_of=lambda one: f"{topic.name}/{one}",
         named=partial(_named, topic.name),
@@ -59,23 +64,27 @@ def senders(
 
 def _cells(
     leaves: Sequence[Leaf], batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], most: int
-) -> tuple[list[int], list[list[Any]]]:
-    """Log times of some messages of each channel, and what these hold at each leaf."""
+) -> tuple[list[int], list[int], list[list[Any]]]:
+    """Log times of some messages of each channel, in which piece they stand, and what they hold at each leaf."""
     logs: list[int] = []
+    pieces: list[int] = []
     cells: list[list[Any]] = [[] for _ in leaves]
     for channel, one in made.items():
         batch = batches[channel]
         times = batch.times()[0]
+        piece = before = -1
         for k in _chosen(len(batch.payloads), most):
+            piece, before = piece + (k != before + 1 or piece < 0), k
             try:
                 message = one.decode(batch.payloads[k])
             except Exception:  # counted and named when it is read
                 continue
             if times[k] < LATEST_NS:
                 logs.append(int(times[k]))
+                pieces.append(piece)
                 for leaf, column in zip(leaves, cells, strict=True):
                     column.append(as_dtype(at_path(message, leaf.path), leaf.dtype))
-    return logs, cells
+    return logs, pieces, cells
 
 
 def _named(topic: str, series: str, name: str) -> str:

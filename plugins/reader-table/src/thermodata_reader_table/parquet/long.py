@@ -10,43 +10,48 @@ import pyarrow.compute as pc
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block
-from thermodata.reader.series import Series, find_series
+from thermodata.reader.series import Declaration, Found, find_series
 from thermodata.reader.text.long_rows import name_column, refuse_long
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table
 
 _HEAD = 1000
-_HINT = "pivot it: a column a name, e.g. table.pivot(index=time, columns=name, values=value) in pandas"
+_HINT = (
+    "pivot it: a column a name, e.g. table.pivot(index=time, columns=name, values=value) in pandas; "
+    f"{Declaration().declined()}"
+)
 
 
-def refuse(table: Table) -> None:
-    """FormatError for a long table: by its header and its column of names, else by its first rows."""
+def refuse(table: Table) -> tuple[str, ...]:
+    """Notes on columns that may name series. FormatError for a long table: as declared, by its header and its column of
+    names, or by its first rows."""
+    declared = Declaration.of((table.source.table or {}).get("series"))
     words = [i for i in range(len(table.names)) if i != table.time and table.dtype(i) == "str"]
-    if table.time is None:
-        return
+    if table.time is None or declared.columns == ():
+        return ()
     named = name_column(table.names)
     if named in words:
         blank = [""] * len(table.names)
         rows = [[*blank[:named], word, *blank[named + 1 :]] for word in _words(table, named)]
         refuse_long(table.names, rows, table.path.name, hint=_HINT)
-    series = _series(table)
-    if series is None:
-        return
+    found = _series(table, declared)
+    if found.series is None:
+        return found.notes
     raise FormatError(
         "a long table: each row names what it measures",
         where=table.path.name,
         expected="a column a signal",
-        got=" and ".join(f"'{tag}'" for tag in series.tags) + " holds " + ", ".join(list(series.held)[:4]),
+        got=" and ".join(f"'{tag}'" for tag in found.series.tags) + " holds " + ", ".join(list(found.series.held)[:4]),
         hint=_HINT,
     )
 
 
-def _series(table: Table) -> Series | None:
+def _series(table: Table, declared: Declaration) -> Found:
     """The series in the first rows."""
     head = next(islice(table.batches(_HEAD), 1), None)
     if head is None:
-        return None
+        return Found()
     times = table.stamps(_HEAD)
     n = min(times.t_ns.size, head.num_rows)  # a batch may end with a row group, of all columns sooner than of one
     t_ns = times.t_ns[:n]
@@ -54,7 +59,7 @@ def _series(table: Table) -> Series | None:
     kept = [(i, name) for i, name in enumerate(table.names) if i != table.time]
     values = {name: values_of(head.column(i), table.dtype(i))[:n][good] for i, name in kept}
     # nothing is taken apart here: relative times that begin anew with each name are refused as dates are
-    return find_series(Block("", t_ns[good], values), absolute=True)
+    return find_series(Block("", t_ns[good], values), absolute=True, declared=declared)
 
 
 def _words(table: Table, column: int) -> list[str]:

@@ -22,7 +22,7 @@ def describe(path: Path, source: Source) -> Recording:
     from thermodata_reader_table.parquet.long import refuse
 
     table = Table(path, source)
-    refuse(table)
+    doubts = refuse(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(
@@ -31,7 +31,9 @@ def describe(path: Path, source: Source) -> Recording:
         if i not in (table.time, *table.beside)
     )
     start = (int(good[0]) if good.size else 0) if found.absolute else None
-    return Recording(signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes))
+    return Recording(
+        signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes, *doubts)
+    )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
