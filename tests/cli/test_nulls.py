@@ -32,8 +32,11 @@ def empty(value: Any, place: str = "") -> Iterator[str]:
         ("diagnose", "baseline"),
     ],
 )
-def test_a_command_answers_no_empty_text(say: Callable[..., Said], campaign: Path, words: tuple[str, ...]) -> None:
-    said = say("--store", campaign / "thermodata.store", *words, "--json")
+def test_a_command_answers_no_empty_text(
+    say: Callable[..., Said], campaign: Path, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    store = shutil.copytree(campaign / "thermodata.store", tmp_path / "store")  # others ask what it holds, too
+    said = say("--store", store, *words, "--json")
     assert said.code == 0, said.err
     assert list(empty(json.loads(said.out))) == []
 
