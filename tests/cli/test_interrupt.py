@@ -1,52 +1,55 @@
-"""Ctrl-C within a computation of a library."""
+"""Ctrl-C within a computation of a library, pressed on a process of its own: workers of tests take it for theirs."""
 
 from __future__ import annotations
 
-import os
 import signal
-import threading
-from collections.abc import Callable, Iterator
+import subprocess
+import sys
+import time
 from pathlib import Path
 
-import pytest
-
+QUERY = "select count(*) from range(100000) a, range(1000000) b"  # ten seconds and more
+OPENING = """
+import sys
+from thermodata.cli import main
 from thermodata.errors import StoreError
+from thermodata.store import Store
 from thermodata.store.base import connection
 
-from .conftest import Said
 
-LONG = "select count(*) from range(100000) a, range(100000) b"  # many seconds
-
-
-@pytest.fixture
-def pressed() -> Iterator[threading.Timer]:
-    """Ctrl-C after a second."""
-    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        pytest.skip("started in the background of a shell, where Ctrl-C is ignored")
-    timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
-    timer.start()
-    yield timer
-    timer.cancel()
+def opened(*_):
+    con = connection.memory({folder!r})
+    print("opening", flush=True)
+    try:
+        con.execute({query!r})
+    except Exception as error:
+        raise StoreError("the catalogue is damaged") from error
 
 
-def test_a_query_is_interrupted(say: Callable[..., Said], campaign: Path, pressed: threading.Timer) -> None:
-    said = say("--store", campaign / "thermodata.store", "sql", LONG)
-    assert (said.code, said.err.strip()) == (1, "error: interrupted")
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+Store._copy_into = opened
+sys.exit(main(["--store", {store!r}, "tests"]))
+"""
 
 
-def test_an_interrupted_opening_is_no_damage(
-    say: Callable[..., Said], campaign: Path, pressed: threading.Timer, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def opened(*_: object) -> None:
-        con = connection.memory(campaign)
-        try:
-            con.execute(LONG)
-        except Exception as error:
-            raise StoreError("the catalogue is damaged") from error
-        finally:
-            con.close()
+def pressed(command: list[str], after_s: float = 3.0) -> tuple[int, str]:
+    """(exit code, last line of what is said) of a process that is interrupted in its query."""
+    default = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731  (the background of a shell ignores it)
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=default)
+    time.sleep(after_s)
+    running.send_signal(signal.SIGINT)
+    try:
+        _, said = running.communicate(timeout=60)
+    finally:
+        running.kill()
+    return running.returncode, said.strip().splitlines()[-1]
 
-    monkeypatch.setattr("thermodata.store.Store._copy_into", opened)
-    said = say("--store", campaign / "thermodata.store", "tests")
-    assert (said.code, said.err.strip()) == (1, "error: interrupted")
+
+def test_a_query_is_interrupted(campaign: Path) -> None:
+    command = [sys.executable, "-m", "thermodata", "--store", str(campaign / "thermodata.store"), "sql", QUERY]
+    assert pressed(command) == (1, "error: interrupted")
+
+
+def test_an_interrupted_opening_is_no_damage(campaign: Path) -> None:
+    code = OPENING.format(folder=campaign, query=QUERY, store=str(campaign / "thermodata.store"))
+    code = code.replace("PosixPath", "__import__('pathlib').PosixPath")
+    assert pressed([sys.executable, "-c", code]) == (1, "error: interrupted")
