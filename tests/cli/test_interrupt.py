@@ -33,8 +33,12 @@ sys.exit(main(["--store", {store!r}, "tests"]))
 
 def pressed(command: list[str], after_s: float = 3.0) -> tuple[int, str]:
     """(exit code, last line of what is said) of a process that is interrupted in its query."""
-    default = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731  (the background of a shell ignores it)
-    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=default)
+
+    def heeding() -> None:
+        """What the background of a shell starts ignores it."""
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heeding)
     time.sleep(after_s)
     running.send_signal(signal.SIGINT)
     try:

@@ -589,7 +589,7 @@ MUTANTS = [
     ),
     diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 20.0", "what runs the other way is turned"),
     diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 97.0", "no locked probe is turned"),
-    diagnosis("turned_locked.py", "rms(is_there) > floor and ", "", "noise is turned"),
+    diagnosis("turned_locked.py", " or rms([is_there]) <= floor", "", "noise is turned"),
     diagnosis("foretold.py", "SECOND_LOOK = 0.5", "SECOND_LOOK = 0.2", "a second look claims by chance"),
     diagnosis("locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
     diagnosis("locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),

@@ -78,11 +78,11 @@ def test_an_altered_file_is_found_by_the_check_and_made_again(filled: Store, cam
     assert samples(filled) == before
 
 
-@pytest.mark.parametrize("repair", [False, True])
-@pytest.mark.parametrize("harm", ["gone", "cut", "altered"])
+# what is altered within a page shows where all pages are opened: in the check that repairs
+@pytest.mark.parametrize(
+    ("harm", "repair"), [("gone", False), ("gone", True), ("cut", False), ("cut", True), ("altered", True)]
+)
 def test_one_damaged_stream_of_several_is_read_again(store: Store, tmp_path: Path, harm: str, repair: bool) -> None:
-    if harm == "altered" and not repair:
-        pytest.skip("only the check opens all pages")
     campaign = write_campaign(
         tmp_path / "lab",
         CAMPAIGN.replace(

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from thermodata.diagnosis.confirm import shape_of
+from thermodata.diagnosis.known import rms
 from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.score import fit_percent
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
@@ -30,18 +30,12 @@ def turned_locked(claimed: FittedResponse, locked: Sequence[TestData], floor: fl
         measured = claimed.measured(test)
         said = shape_of(measured - claimed.residual(test), test, mask)
         is_there = shape_of(measured, test, mask)
-        if len(said) and rms(is_there) > floor and fit(is_there, said) < 0 and fit(is_there, -said) >= LEAST_FIT:
-            found[test.key] = fit(is_there, -said)
+        if not len(said) or rms([is_there]) <= floor:
+            continue
+        upright, turned = (fit_percent(is_there, is_there - sign * said) for sign in (1, -1))
+        if upright is not None and upright < 0 and turned is not None and turned >= LEAST_FIT:
+            found[test.key] = turned
     return found
-
-
-def rms(x: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(x**2)))
-
-
-def fit(measured: np.ndarray, foretold: np.ndarray) -> float:
-    """[%], of curves about their offsets."""
-    return 100 * (1 - rms(measured - foretold) / rms(measured))
 
 
 def as_artefacts(found: dict[tuple[str, str], float], response: str) -> list[Artefact]:

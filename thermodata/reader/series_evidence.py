@@ -18,11 +18,9 @@ _MIXED = 0.4  # of the changes that words make which never stand twice in a row;
 _MEET = 0.05  # of the rows share their time with another word's,
 _EXPLAINED = 0.95  # of which this share are other words
 _TWICE, _OWN = 0.1, 0.8  # of pairs are one word by chance: words that differ say something; of a word's steps are alike
-_STEADY, _SLIGHT, _ODD = (
-    0.9,
-    0.005,
-    0.03,
-)  # shares of steps like their median: a clock; less of them; that want a reason
+_STEADY = 0.9  # of the steps are like their median: a clock
+_SLIGHT = 0.005  # fewer steps like it are within the words of what leaves holes in that clock
+_ODD = 0.03  # of the steps are unlike it, and want a reason
 _HALTING, _WORSE = 0.5, 0.75  # such a share is a clock that halts where the words have less of it than this share
 _RESOLVED = 0.25  # of the odd steps may be left within the words
 _NARROW = 1.2  # times its median that the steps of a clock with jitter spread over
