@@ -89,6 +89,8 @@ def fit(
     looked_at = opened(resolve_roles(spec, data), data)
     notes = [*said.pop("notes", []), *coarse_readings.said(data, read), *_unlocked(looked_at)]
     result = result.model_copy(update={**said, "notes": notes})
+    if looked_at:  # first: a look that is counted for a fit that nobody kept does less harm than one that is not
+        count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)
     save_fit(
         store,
         spec=spec,
@@ -97,8 +99,6 @@ def fit(
         predictions=prediction_tables(fitted, data),
         data_version=data.data_version,
     )
-    if looked_at:
-        count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)
     return result
 
 
