@@ -7,11 +7,11 @@ from thermodata.virtual.blind.run import run
 from thermodata.virtual.blind.tally import WITH_A_CAUSE, WITHOUT, rows
 from thermodata.virtual.lathe.strata import DEVELOPMENT
 
-SAMPLE = {76: ("strong",), 72: ("none_full", "sensor_fault"), 70: ("sensor_fault",)}
+SAMPLE = {76: ("strong",), 72: ("none_full", "sensor_fault")}
 
 
 def test_a_small_sample_is_without_a_wrong_claim_and_names_what_is_plain() -> None:
-    """Four machines. What may be asserted is what every good rule keeps: silence is allowed but where the cause is
+    """Three machines. What may be asserted is what every good rule keeps: silence is allowed but where the cause is
     strong and the model knows four others."""
     assert set(SAMPLE) <= set(DEVELOPMENT)
     trials = [t for seed, strata in SAMPLE.items() for t in run(strata, [seed], rivals=False)]
@@ -27,5 +27,5 @@ def test_a_small_sample_is_without_a_wrong_claim_and_names_what_is_plain() -> No
     assert strong["first_mark"] in ("exact", "equivalent")
     assert strong["share"] > 0.8
     counted = {r["stratum"]: r["machines"] for r in rows(trials)}
-    assert (counted[WITH_A_CAUSE], counted[WITHOUT]) == (3, 1)
-    assert {r["question"]: r["value"]["of"] for r in overall(trials)}["a broken channel is claimed"] == 2
+    assert (counted[WITH_A_CAUSE], counted[WITHOUT]) == (2, 1)
+    assert {r["question"]: r["value"]["of"] for r in overall(trials)}["a broken channel is claimed"] == 1

@@ -292,7 +292,7 @@ def test_a_thousand_tags_and_more_are_streams(tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def kit_files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("kit")
-    log = OPC + "".join(f"2026-03-02 08:00:{k:02d},T{k % 3},{20 + k / 4},192\n" for k in range(40))
+    log = OPC + "".join(f"2026-03-02 08:00:{k:02d},T{k % 3},{20 + k / 4},192\n" for k in range(16))
     return {"sco": written(folder, scope(), "a.sco"), "opc": written(folder, log, "opc.csv")}
 
 

@@ -15,7 +15,7 @@ from thermodata.schema.flag import INVALID
 from thermodata.testing.reader.apart import together
 from thermodata.testing.reader.case import Case, Data, equal, fault, load, refused_or_read
 
-EVERY_CUT_BYTES = 2048  # a file up to this size is cut at every byte, a larger one at so many places:
+EVERY_CUT_BYTES = 1024  # a file up to this size is cut at every byte, a larger one at so many places:
 SAMPLED_CUTS = 150
 HOSTILE_FILES = 60
 HOSTILE_MIB = 512  # what a hostile header may make a reader allocate
