@@ -8,7 +8,8 @@ import sys
 import time
 from pathlib import Path
 
-QUERY = "select count(*) from range(100000) a, range(1000000) b"  # ten seconds and more
+QUERY = "select count(*) from range(10000000) a, range(10000000) b"  # hours
+SHORT = "select count(*) from range(100000) a, range(400000) b"  # seconds: where DuckDB's end is waited for
 OPENING = """
 import sys
 from thermodata.cli import main
@@ -31,15 +32,19 @@ sys.exit(main(["--store", {store!r}, "tests"]))
 """
 
 
-def pressed(command: list[str], after_s: float = 3.0) -> tuple[int, str]:
-    """(exit code, last line of what is said) of a process that is interrupted in its query."""
+def pressed(command: list[str], after: str = "") -> tuple[int, str]:
+    """(exit code, last line of what is said) of a process that is interrupted in its query. after: what it prints
+    before that."""
 
     def heeding() -> None:
         """What the background of a shell starts ignores it."""
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
     running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heeding)
-    time.sleep(after_s)
+    if after:
+        assert running.stdout is not None
+        assert running.stdout.readline().strip() == after
+    time.sleep(0.5 if after else 3.0)
     running.send_signal(signal.SIGINT)
     try:
         _, said = running.communicate(timeout=60)
@@ -54,6 +59,6 @@ def test_a_query_is_interrupted(campaign: Path) -> None:
 
 
 def test_an_interrupted_opening_is_no_damage(campaign: Path) -> None:
-    code = OPENING.format(folder=campaign, query=QUERY, store=str(campaign / "thermodata.store"))
+    code = OPENING.format(folder=campaign, query=SHORT, store=str(campaign / "thermodata.store"))
     code = code.replace("PosixPath", "__import__('pathlib').PosixPath")
-    assert pressed([sys.executable, "-c", code]) == (1, "error: interrupted")
+    assert pressed([sys.executable, "-c", code], "opening") == (1, "error: interrupted")

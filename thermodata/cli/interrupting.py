@@ -5,8 +5,13 @@ from __future__ import annotations
 import signal
 import threading
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from itertools import islice
 from types import FrameType
+from typing import TypeVar
+
+T = TypeVar("T")
 
 
 @contextmanager
@@ -31,3 +36,19 @@ def noticing_interrupts() -> Iterator[Callable[[], bool]]:
     finally:
         if ours:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def interruptible(items: Iterator[T], interrupt: Callable[[], None]) -> Iterator[T]:
+    """The same items, each taken in a thread, so that Ctrl-C is noticed though the library that makes them asks for no
+    signals. interrupt: makes it give up the item that it is at."""
+    with ThreadPoolExecutor(1) as thread:
+        while True:
+            taken = thread.submit(lambda: list(islice(items, 1)))
+            try:
+                items_taken = taken.result()
+            except KeyboardInterrupt:
+                interrupt()
+                raise
+            if not items_taken:
+                return
+            yield from items_taken

@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
+from thermodata.cli.interrupting import interruptible
 from thermodata.errors import UsageError
 from thermodata.report.table import table
 
@@ -46,12 +47,16 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
     if unverified is not None:
         session.say(unverified)
     columns: list[str] = list(relation.columns)
+
+    def batches(rows: Any) -> Iterator[list[tuple[Any, ...]]]:
+        return interruptible(_batches(rows), relation.interrupt)
+
     if as_csv:
-        _write_csv(columns, _batches(relation))
+        _write_csv(columns, batches(relation))
     elif session.as_json:
-        _write_json(columns, _batches(relation))
+        _write_json(columns, batches(relation))
     else:
-        found = list(islice(chain.from_iterable(_batches(relation.limit(rows + 1))), rows + 1))
+        found = list(islice(chain.from_iterable(batches(relation.limit(rows + 1))), rows + 1))
         click.echo(
             table(
                 [{str(i): v for i, v in enumerate(r)} for r in found[:rows]],

@@ -19,11 +19,14 @@ _SHOWN = 12
 class Rows:
     """A relation with all that DuckDB's has (`df`, `fetchall`, `filter`, `limit`, ...), asked when it is needed.
 
-    units: column -> unit, found out when they are asked for; a column that is computed has none.
+    units: column -> unit, found out when they are asked for; a column that is computed has none. interrupt: ends what
+    runs, called from another thread than the one that waits for its rows.
     """
 
-    def __init__(self, relation: duckdb.DuckDBPyRelation, units: Callable[[], dict[str, str]]) -> None:
-        self._relation, self._ask = relation, units
+    def __init__(
+        self, relation: duckdb.DuckDBPyRelation, units: Callable[[], dict[str, str]], interrupt: Callable[[], None]
+    ) -> None:
+        self._relation, self._ask, self.interrupt = relation, units, interrupt
         self._units: dict[str, str] | None = None
 
     def __getattr__(self, name: str) -> Any:

@@ -67,7 +67,7 @@ class StoreView:
             raise UsageError("the query fails", got=str(error).strip()) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
-        return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation))
+        return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation), con.interrupt)
 
     def _known_units(self, con: duckdb.DuckDBPyConnection) -> Known:
         if self._known is None or self._known[0] is not con:  # a commit gives another copy
