@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, left_over
+from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, chain_of, left_over
 from thermodata.diagnosis.evidence import columns
 from thermodata.diagnosis.known import known, likeliest, likeliest_of
 from thermodata.diagnosis.problem import Problem, freed, start_directions
@@ -142,6 +142,23 @@ def test_the_noise_beside_each_part_is_that_of_a_problem_with_this_part_alone(n:
             (one.white, one.slow, one.tau_s, one.share), rel=1e-6
         )
     assert found[0].slow < 0.5 * found[1].slow, "beside what is there little is left"
+
+
+@pytest.mark.parametrize(
+    "noise", [Noise(0.3, 1.0, 7200.0, 0.5), Noise(0.01, 40.0, 3e5, 0.5), Noise(5.0, 0.05, 600.0, 1.0)]
+)
+def test_a_chain_is_the_factor_of_the_covariance(noise: Noise) -> None:
+    """At uneven times, two of them equal."""
+    rng = np.random.default_rng(3)
+    t_s = np.cumsum(rng.uniform(10.0, 900.0, 80))
+    t_s[41] = t_s[40]
+    covariance = noise.slow**2 * np.exp(-np.abs(t_s[:, None] - t_s[None]) / noise.tau_s) + noise.white**2 * np.eye(80)
+    chain, columns = chain_of(t_s, noise), rng.normal(size=(80, 3))
+    np.testing.assert_allclose(
+        chain.halved(columns), np.linalg.solve(np.linalg.cholesky(covariance), columns), rtol=1e-6
+    )
+    assert chain.logdet == pytest.approx(np.linalg.slogdet(covariance)[1])
+    assert chain.halved(np.empty((80, 0))).shape == (80, 0)
 
 
 def test_whitened_noise_is_white_and_offsets_are_gone() -> None:

@@ -6,6 +6,10 @@ Slow noise is an Ornstein-Uhlenbeck process: what drifts, and what a sum of lags
 what makes a long test worth its effective number of samples, not its rows. Sources: [uhlenbeck1930]; a discrepancy
 beside a model: [kennedy2001]. Offsets have a flat prior, so all products are taken after they are projected out
 (restricted likelihood [patterson1971]).
+
+The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B' has
+three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening takes a test's rows
+once, whatever their number ([rue2005], ch. 2).
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dtrtrs
+from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
 
 from thermodata.diagnosis.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
@@ -40,29 +44,67 @@ class Noise:
     share: float
 
 
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Factor L = B^-1 C of the covariance of a test. carried: what is left of the slow noise from one sample to the next,
+    shape (m - 1,). factor: C, its diagonal and the one below, shape (2, m)."""
+
+    carried: Float1D
+    factor: Float2D
+
+    @property
+    def logdet(self) -> float:
+        """Of the covariance: B has the determinant 1."""
+        return 2 * float(np.log(self.factor[0]).sum())
+
+    def halved(self, columns: Float2D) -> Float2D:
+        """L^-1 times columns, shape (m, k)."""
+        if not columns.size:
+            return columns
+        steps = np.array(columns, dtype=np.float64, order="F")
+        steps[1:] -= self.carried[:, None] * columns[:-1]
+        return _sound(*dtbtrs(self.factor, steps, uplo="L", overwrite_b=1))
+
+
+def chain_of(t_s: Float1D, noise: Noise) -> Chain:
+    """t_s: of a test's samples, rising, shape (m,)."""
+    apart = np.diff(t_s) / noise.tau_s
+    carried = np.exp(-apart)
+    band = np.zeros((2, len(t_s)))  # B cov B': the diagonal, and the one below
+    band[0] = noise.white**2
+    band[0, 0] += noise.slow**2
+    band[0, 1:] += (noise.white * carried) ** 2 - noise.slow**2 * np.expm1(-2 * apart)
+    band[1, :-1] = -carried * noise.white**2
+    return Chain(carried, _sound(*dpbtrf(band, lower=1)))
+
+
+def _sound(solution: Float2D, info: int) -> Float2D:
+    if info:
+        raise np.linalg.LinAlgError("a covariance is singular")
+    return np.asarray(solution, dtype=np.float64)
+
+
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
     covariance, offsets included."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
-        self._factors: list[Float2D] = []
+        self._chains: list[Chain] = []
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, 0.0
         for i, block in enumerate(problem.blocks):
-            covariance = noise.slow**2 * np.exp(-distances(problem, i) / noise.tau_s)
-            covariance[np.diag_indices_from(covariance)] += noise.white**2
-            factor: Float2D = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
+            chain = chain_of(block.t_s, noise)
             members = free_of(block)
-            q, sizes = _orthogonal(halved(factor, members))
-            self._factors.append(factor)
+            q, sizes = _orthogonal(chain.halved(members))
+            self._chains.append(chain)
             self._offsets.append(q)
-            self.logdet += 2 * float(np.log(np.diag(factor)).sum() + np.log(sizes).sum())
+            self.logdet += chain.logdet + 2 * float(np.log(sizes).sum())
             self.rows += len(block.t_s) - members.shape[1]
 
     def of(self, test: int, columns: Float2D) -> Float2D:
         """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
-        return self.projected(test, halved(self._factors[test], columns))
+        return self.projected(test, self._chains[test].halved(columns))
 
     def projected(self, test: int, white: Float2D) -> Float2D:
         """Columns in units of the noise, shape (m, k), without what an offset explains."""
@@ -85,10 +127,7 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     what stands around it costs more than it does."""
     if not right.size:
         return right
-    solution, info = dtrtrs(factor, right, lower=1, trans=int(transposed))
-    if info:
-        raise np.linalg.LinAlgError("a covariance is singular")
-    return np.asarray(solution, dtype=np.float64)
+    return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
 
 
 def free_of(block: Block) -> Float2D:
