@@ -272,15 +272,15 @@ class TestAnswer:
         assert "with the role locked, from a cold start, in which T_a moves much" in refused
         assert "add tests" not in refused
         rests = self.answered(monkeypatch, spec, claim(SECOND), asked_in=frozenset()).next_test or ""
-        assert "other:T_a rests in all locked tests; to bear it out, run a test with the role locked" in rests
+        assert "other:T_a hardly acts in the locked tests; to bear it out, run a test with the role locked" in rests
         assert self.answered(monkeypatch, spec, claim(SECOND)).next_test is None
         dull = replace(FIRST, evidence=30.0)
         likely = replace(nothing("unknown"), likely=(member(dull, ranked=()),), judged=(member(dull, ranked=()),))
         found = self.answered(monkeypatch, spec, likely, asked_in=frozenset())
         assert found.verdict == "unknown"
-        assert "first:T_a rests in all locked tests; to bear it out, run a test" in (found.next_test or "")
+        assert "first:T_a hardly acts in the locked tests; to bear it out, run a test" in (found.next_test or "")
         found = self.answered(monkeypatch, spec, likely, holds=False)
-        assert "rests in all locked" not in (found.next_test or ""), "they say no"
+        assert "hardly acts in the locked" not in (found.next_test or ""), "they say no"
         never = self.answered(monkeypatch, spec, nothing("unknown")).next_test or ""
         assert "add tests that each heat one source alone" in never
         assert "role locked" not in never

@@ -277,8 +277,8 @@ def test_claims_that_were_refused_together_are_each_moved() -> None:
 @pytest.mark.parametrize(
     ("names", "words"),
     [
-        ("a", "a:T_a rests in all locked tests; to bear it out, run a test"),
-        ("ab", "rest in all locked tests; to bear them out, run a test"),
+        ("a", "a:T_a hardly acts in the locked tests; to bear it out, run a test"),
+        ("ab", "hardly act in the locked tests; to bear them out, run a test"),
     ],
 )
 def test_a_claim_that_rests_in_the_locked_tests_asks_for_one_that_moves_it(names: str, words: str) -> None:

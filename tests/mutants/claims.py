@@ -528,7 +528,7 @@ MUTANTS = [
         "left = moments.own[tests].sum(axis=0) + half @",
         "known effects count twice",
     ),
-    products("discrepancy.py", " + np.log(sizes).sum()", "", "free offsets are for nothing"),
+    products("discrepancy.py", " + 2 * float(np.log(sizes).sum())", "", "free offsets are for nothing"),
     products("directions.py", " - np.log(precision).sum()", "", "known effects are for nothing"),
     products("directions.py", " + _left(self._problem)[1]", "", "searched noise: free offsets are for nothing"),
     products("directions.py", " + noise.white**2", "", "searched noise: no white noise"),

@@ -32,8 +32,8 @@ from thermodata.schema import diagnosis as results
             None,
             (14.2, 13.9),
             (None, None),
-            "lag:t4 rests in every locked test, so these say nothing of it (14.2 -> 13.9 um): a test that moves it "
-            "would, locked, from a cold start",
+            "lag:t4 hardly acts in the locked tests (under a fifth of its largest), so these say little of it "
+            "(14.2 -> 13.9 um): one that moves it more would, locked, from a cold start",
         ),
     ],
 )

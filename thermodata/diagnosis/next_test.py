@@ -86,8 +86,8 @@ def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, Channel
 def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
     """The advice where what is claimed acts in none of the locked tests."""
     names = " with ".join(one.id for one in claims)
-    them, rest = ("it", "rests") if len(claims) == 1 else ("them", "rest")
-    return f"{names} {rest} in all locked tests; to bear {them} out, {_with_lock(claims, channels)}"
+    them, act = ("it", "acts") if len(claims) == 1 else ("them", "act")
+    return f"{names} hardly {act} in the locked tests; to bear {them} out, {_with_lock(claims, channels)}"
 
 
 def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, ChannelInfo]) -> str:

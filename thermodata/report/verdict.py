@@ -191,8 +191,10 @@ def _locked(claims: Sequence[Candidate]) -> str:
         return ""
     all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
     if claims[0].locked_tests_asked == 0:
-        acts = "it acts" if len(claims) == 1 else "they act"
-        return f"; {acts} in no locked test, so these were not asked ({number(before)} -> {number(after)} um)"
+        acts = "it hardly acts" if len(claims) == 1 else "they hardly act"
+        of = "its" if len(claims) == 1 else "their"
+        said = f"{acts} in the locked tests (under a fifth of {of} largest), so these were not asked"
+        return f"; {said} ({number(before)} -> {number(after)} um)"
     figures = f"{number(before)} -> {number(after)} um"
     shape = claims[0].locked_shape_um_before, claims[0].locked_shape_um_after
     if after < before:
