@@ -33,6 +33,7 @@ LIBRARY = {
     "tool_elongation": "tool",
     "cutting_power": "cutting",
     "coolant": "coolant",
+    "coolant_heat": "coolant",
     "coolant_temperature": "coolant",
     "hydraulics": "hydraulics",
     "column_bending": "column",

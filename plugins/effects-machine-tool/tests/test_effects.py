@@ -12,7 +12,7 @@ from thermodata_effects_machine_tool.generic import Step, WarmStart
 from thermodata_effects_machine_tool.measuring import RunoutAlias, SensorDrift
 from thermodata_effects_machine_tool.moments import Homing, Lubrication, ToolChange, rises
 from thermodata_effects_machine_tool.positioned import Overhang, ScaleGrowth
-from thermodata_effects_machine_tool.process import CuttingLoad
+from thermodata_effects_machine_tool.process import CoolantHeat, CuttingLoad
 from thermodata_effects_machine_tool.spindle import CentrifugalShift, SpindleFriction, SpindleHeatingCooling
 
 from thermodata.effect import all_effects, effects
@@ -79,6 +79,13 @@ def test_the_load_is_a_share_of_full_load() -> None:
     """A gain is comparable between machines."""
     by_load = CuttingLoad().basis(_drivers(load=np.full(len(T), 40.0)), {"tau": 10.0})
     assert by_load[-1, 0] == pytest.approx(0.4, rel=1e-3)
+
+
+def test_warm_coolant_heats_only_while_it_flows() -> None:
+    flows = (T >= 18000.0).astype(np.float64)
+    warmed = CoolantHeat().basis(_drivers(temperature=np.full(len(T), 6.0), state=flows), {"tau": 20.0})[:, 0]
+    assert not warmed[T < 18000.0].any()
+    assert warmed[-1] == pytest.approx(6.0, rel=1e-3)
 
 
 def test_friction_of_a_turning_axis_settles_at_a_power_of_its_speed() -> None:

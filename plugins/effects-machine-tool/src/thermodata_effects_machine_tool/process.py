@@ -126,6 +126,31 @@ class CoolantTemperature(Lagged):
     gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant"),)
 
 
+class CoolantHeat(Lagged):
+    """Coolant warms or cools the parts that it washes by its temperature, and only while it flows.
+
+        d = k F_tau{on dT}
+
+    k [um/K] with the coolant on, tau [min], on [0 or 1], dT [K] of the fluid.
+    Source: [mayr2012] on fluids, heat carried by a flow; bounds: docs/model.md#bounds-of-the-effects
+    """
+
+    name = "coolant_heat"
+    cause = COOLANT_HEAT
+    family = "coolant"
+    meaning = "parts that the coolant washes follow its temperature while it flows: k F{on dT}"
+    equation = "d = k F_tau{on dT}"
+    telltale = "follows the coolant's temperature, and only while it flows; told apart by warm coolant that stands"
+    source = "[mayr2012] on fluids, heat carried by a flow; bounds: docs/model.md#bounds-of-the-effects"
+    needs = (Need("temperature", "temperature", ("coolant",)), Need("state", "state", ("coolant",)))
+    params = (tau(30, 1, 360),)
+    gains = (gain("um/K", 0.1, 20, "displacement at rest a kelvin of the coolant, with it on"),)
+    driven = ("temperature * state",)
+
+    def drive(self, drivers: Drivers, p: Mapping[str, float]) -> Float1D:
+        return drivers.values["temperature"] * drivers.values["state"]
+
+
 class ChillerTemperature(Lagged):
     """Spindle, drives or frame follow the circuit that cools them.
 
