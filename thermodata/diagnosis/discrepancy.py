@@ -7,9 +7,9 @@ what makes a long test worth its effective number of samples, not its rows. Sour
 beside a model: [kennedy2001]. Offsets have a flat prior, so all products are taken after they are projected out
 (restricted likelihood [patterson1971]).
 
-The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B' has
-three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening takes a test's rows
-once, whatever their number ([rue2005], ch. 2).
+The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B'
+has three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening passes a test's
+rows once ([rue2005], ch. 2).
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ class Noise:
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """Factor L = B^-1 C of the covariance of a test. carried: what is left of the slow noise from one sample to the next,
-    shape (m - 1,). factor: C, its diagonal and the one below, shape (2, m)."""
+    """Factor L = B^-1 C of the covariance of a test. carried: what is left of the slow noise from one sample to the
+    next, shape (m - 1,). factor: C, its diagonal and the one below, shape (2, m)."""
 
     carried: Float1D
     factor: Float2D
@@ -93,7 +93,7 @@ class Whitened:
         self._chains: list[Chain] = []
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, 0.0
-        for i, block in enumerate(problem.blocks):
+        for block in problem.blocks:
             chain = chain_of(block.t_s, noise)
             members = free_of(block)
             q, sizes = _orthogonal(chain.halved(members))

@@ -44,9 +44,8 @@ def _confirmed_sentence(result: Confirmed) -> str:
     scored = "" if before is None or after is None else f"{number(before)} -> {number(after)} um"
     if result.holds is None:
         return (
-            f"{result.candidate} hardly acts in the locked tests (under a fifth of its largest), so these say little of it"
-            + (f" ({scored})" if scored else "")
-            + ": one that moves it more would, locked, from a cold start"
+            f"{result.candidate} hardly acts in the locked tests (under a fifth of its largest), so these say little "
+            "of it" + (f" ({scored})" if scored else "") + ": one that moves it more would, locked, from a cold start"
         )
     said = "holds" if result.holds else "does not hold"
     head = f"{result.candidate} {said} on the locked tests"
