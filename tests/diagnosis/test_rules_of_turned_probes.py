@@ -112,6 +112,14 @@ def test_a_test_that_others_hardly_foretell_is_not_turned(lacking: float, named:
     assert [a.test for a in turned(problem(*others, one(-1.0, lacking), noise=0.01), [])] == (["t4"] if named else [])
 
 
+@pytest.mark.parametrize(("size", "named"), [(0.25, True), (0.15, False)])
+def test_a_test_that_hardly_moves_is_not_turned(size: float, named: bool) -> None:
+    """A fifth of what all do, as RMS."""
+    base = np.sin(np.arange(2000) * 2 * np.pi / 200)[:, None]
+    tests = [Parts(k * base[:, 0], response=k * base[:, 0], base=abs(k) * base) for k in (1.0, 1.0, 1.0, 1.0, -size)]
+    assert [a.test for a in turned(problem(*tests, noise=0.01), [])] == (["t4"] if named else [])
+
+
 def test_of_nothing_nothing_is_turned() -> None:
     still = [Parts(np.zeros(50), response=np.zeros(50), base=np.zeros((50, 1))) for _ in range(4)]
     assert turned(problem(*still, noise=0.01), []) == []

@@ -19,13 +19,14 @@ from thermodata.diagnosis.known import FloatND
 from thermodata.diagnosis.present import GENERIC, present
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.plugin import Effect, Float1D, Float2D
+from thermodata.plugin import Effect, Float1D, Float2D, Int1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 
 LEAST_TESTS = 3  # of two nobody can say which one is turned
 ALL_DROP = 0.6  # of the squared error of all left-out tests, which turning one must take away
 LEAST_FIT = 40.0  # [%] of that test as the others foretell it, turned
+MOVES = 0.2  # of the RMS of all tests: what hardly moves goes up or down by what no channel tells, and spoils no choice
 MOST_IN_PAIRS = 24  # tests, of which two are tried at once
 EVERY = 3  # points of a lag's grid: four, from its shortest time constant to its longest
 # of a column's squares: how much is held against a lag (the least error of left-out tests decides), and against the
@@ -51,15 +52,19 @@ def turned(problem: Problem, lags: Sequence[CandidateEffect]) -> list[Artefact]:
     said = [_foretold(problem, lags, ridge) for ridge in RIDGES]
     signs, left = np.ones(len(blocks)), said[0].energy
     now = _least(said, signs)
-    while (found := _plainest(said, signs, now)) is not None:
+    size = np.sqrt(left / np.array([len(b.response) for b in blocks]))
+    moves = np.flatnonzero(size >= MOVES * np.sqrt(left.sum() / sum(len(b.response) for b in blocks)))
+    while (found := _plainest(said, signs, now, moves)) is not None:
         signs, now = found
     return [_artefact(problem, blocks[i], now[i], _fit(now[i], left[i])) for i in np.flatnonzero(signs < 0)]
 
 
-def _plainest(said: Sequence[_Foretold], signs: Float1D, now: Float1D) -> tuple[Float1D, Float1D] | None:
+def _plainest(
+    said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: Int1D
+) -> tuple[Float1D, Float1D] | None:
     """(signs, squared errors) with the test turned that is plainly so, or two of them: before both are turned they hide
-    each other. None where none is, or where it would not be fewer than half."""
-    upright = [i for i in range(len(signs)) if signs[i] > 0]
+    each other. None where none is, or where it would not be fewer than half. moves: the tests that may be."""
+    upright = [i for i in moves.tolist() if signs[i] > 0]
     for together in (1, 2) if len(signs) <= MOST_IN_PAIRS else (1,):
         if 2 * (np.sum(signs < 0) + together) >= len(signs):
             break
