@@ -86,3 +86,29 @@ def test_a_finer_spacing_that_holds_a_tenth_more_is_the_tread(odd: float, tread:
     count = 1000
     level = 2.0 * rng.integers(0, 6, count) + (np.arange(count) < odd * count)
     assert tread_of([np.repeat(rng.permutation(level), 4)]) == pytest.approx(tread)
+
+
+def alike_at(levels: tuple[float, ...], noise: float) -> list[Float1D]:
+    """Six tests in which the few neighbours that are alike lie on levels 12 K apart."""
+    rng = np.random.default_rng(3)
+    tests = []
+    for _ in range(6):
+        x = np.cumsum(noise * rng.standard_normal(400)) + 30.0
+        for i, level in enumerate(levels):
+            x[60 * i + 30 : 60 * i + 32] = level
+        tests.append(x)
+    return tests
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.5])
+def test_readings_that_are_alike_by_chance_are_no_staircase(noise: float) -> None:
+    """They have a spacing of 12 K, but what lies between them moves by far less."""
+    tests = alike_at((24.0, 24.0, 36.0, 36.0, 48.0), noise)
+    assert tread_of(tests) == 0.0
+    assert tread_of([read(x, 12.0) for x in tests]) == pytest.approx(12.0)
+
+
+def test_nor_where_most_of_a_test_stands() -> None:
+    tests = alike_at((24.0, 24.0, 36.0, 36.0, 48.0), 0.2)
+    stood = [np.concatenate([np.full(1200, 24.0), x, np.full(1200, 48.0)]) for x in tests]
+    assert tread_of(stood) == 0.0

@@ -84,6 +84,17 @@ def test_half_degrees_are_coarse() -> None:
     assert treads_of(campaign(0.5).tests) == {"T": pytest.approx(0.5)}
 
 
+def declared(data: Dataset, resolution: float) -> Dataset:
+    infos = {**INFOS, "T": replace(INFOS["T"], resolution=resolution)}
+    return replace(data, tests=tuple(replace(t, channels=infos) for t in data.tests), channels=infos)
+
+
+@pytest.mark.parametrize(("tread", "resolution"), [(1.0, 0.1), (0.1, 0.5), (1.0, 1.0)])
+def test_a_declared_resolution_rules(tread: float, resolution: float) -> None:
+    found = treads_of(declared(campaign(tread), resolution).tests)
+    assert found == ({"T": resolution} if resolution >= COARSE_K else {})
+
+
 def test_a_prediction_that_reads_whole_degrees_is_better_for_it() -> None:
     spec = Model.model_validate(
         {

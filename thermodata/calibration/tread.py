@@ -18,6 +18,8 @@ MOST_RISES = 12  # that a spacing is sought among, the commonest ones
 OFF = 0.05  # of a tread: a value so near to a multiple is on it, by chance one of ten
 ON_TREAD = 0.5  # least share of the standing samples that are on it
 FINER = 0.1  # more than chance: a finer spacing that holds so many more is the tread
+MOVES = 0.1  # of a tread, the mean of what moves, a tread at most: bins spread a riser over few moves
+FILLED = 0.5  # of a tread, the same over all samples, one that stands as a whole one
 COARSER = 1.5  # than the exact tread, or levels with noise are the same ones, known less exactly
 NEAR, FAR = 10, 1000  # treads from the commonest level that the spacing is fitted over, first and then
 
@@ -34,9 +36,10 @@ def exact_tread_of(stretches: Sequence[Float1D]) -> float:
 
     stretches: of one channel, each of shape (n,) and with a zero of its own (a test); raw readings, or means over bins:
     a bin that a riser falls into lies between two treads, but the next one seldom reads the same. A reading finer
-    than its noise stands by chance only: its tread is its last digit, or 0 where it never stands.
+    than its noise stands by chance only: its tread is its last digit, or 0 where it hardly ever stands.
     """
-    standing = [s for x in stretches for part in _parts(x) if len(s := _standing(part))]
+    parts = [part for x in stretches for part in _parts(x)]
+    standing = [s for part in parts if len(s := _standing(part))]
     if sum(map(len, standing)) < LEAST_STANDING:
         return 0.0
     zeroed = np.concatenate([s - _commonest(s) for s in standing])
@@ -49,7 +52,18 @@ def exact_tread_of(stretches: Sequence[Float1D]) -> float:
         if on.mean() > max(FINER, held - FINER):
             best, held = tread, max(held, float(on.mean()))
     k = np.round(zeroed / best) if best else np.zeros(1)
-    return best if held >= ON_TREAD and len(np.unique(k)) >= LEAST_LEVELS else 0.0
+    holds = held >= ON_TREAD and len(np.unique(k)) >= LEAST_LEVELS and _moves_by(parts, best)
+    return best if holds else 0.0
+
+
+def _moves_by(parts: Sequence[Float1D], tread: float) -> bool:
+    """Whether the reading moves by such treads: it stands or moves by one at least. Readings of a fine one that are
+    alike by chance, a few of thousands, may have a spacing too, but what lies between them moves by far less."""
+    moves = [np.minimum(np.abs(np.diff(part)) / tread, 1.0) for part in parts]
+    all_of_them = np.concatenate(moves)
+    moved = np.concatenate([m > SAME * np.ptp(part) / tread for m, part in zip(moves, parts, strict=True) if len(m)])
+    filled = np.where(moved, all_of_them, 1.0)
+    return bool(filled[moved].mean() >= MOVES and filled.mean() >= FILLED)
 
 
 def _parts(x: Float1D) -> list[Float1D]:

@@ -39,13 +39,17 @@ def drawn(data: Dataset) -> Dataset:
 
 
 def treads_of(tests: Sequence[TestData]) -> dict[str, float]:
-    """The step of each temperature that is read in coarse ones [K]."""
+    """The step of each temperature that is read in coarse ones [K]: the resolution of its sensor where the campaign
+    file declares one, else what the values tell."""
     names = {n for t in tests for n, c in t.channels.items() if c.quantity == TEMPERATURE and n in t.values}
-    found = {
-        n: exact_tread_of([_without_ends(t.values[n][_read(t, n)]) for t in tests if n in t.values])
-        for n in sorted(names)
-    }
+    found = {n: _step([t for t in tests if n in t.values], n) for n in sorted(names)}
     return {n: tread for n, tread in found.items() if tread >= COARSE_K}
+
+
+def _step(tests: Sequence[TestData], name: str) -> float:
+    declared = [t.channels[name].resolution for t in tests if name in t.channels]
+    known = [r for r in declared if r]
+    return max(known) if known else exact_tread_of([_without_ends(t.values[name][_read(t, name)]) for t in tests])
 
 
 def _drawn(test: TestData, treads: Mapping[str, float]) -> TestData:

@@ -16,7 +16,8 @@ class Sensor(Strict):
     serial: its number
     range: lowest and highest reading, in the unit of the raw signal or with units; outside of it a sample is
         flagged
-    resolution: its smallest step; shows as ripple in a prediction
+    resolution: its smallest step; shows as ripple in a prediction. A temperature read in 0.45 K and more is drawn
+        smoothly through its steps as a driver
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
