@@ -232,6 +232,13 @@ def test_what_only_the_locked_tests_show_is_said_of_them(locked: float | None, s
         assert ("missing on the locked tests, which an earlier claim left with 3.1" in text) is said
 
 
+@pytest.mark.parametrize(("locked", "said"), [(None, False), (0.9, False), (3.1, True)])
+def test_none_is_said_with_what_an_earlier_claim_left_on_the_locked_tests(locked: float | None, said: bool) -> None:
+    text = verdict_sentence(found("none", [], rmse_um=0.5, locked_rmse_um=locked))
+    assert text.startswith("the open tests show no missing effect: ")
+    assert ("; but an earlier claim left the locked tests with 3.10 um, and these may lack one" in text) is said
+
+
 def test_every_verdict_has_words_without_any_candidate() -> None:
     said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
     assert len(set(said.values())) == len(said)

@@ -97,7 +97,9 @@ def _verdict(found: Diagnosis) -> str:
             f"{beside}, {_left_out(refined, found.rmse_um)}: add {'it' if len(refined) == 1 else 'them'} and ask again"
         )
         return "; ".join(filter(None, [_unclaimed(found), again if beside else ""]))
-    open_still = _not_excluded(found)
+    far = _far_on_locked(found)
+    there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
+    open_still = "; ".join(filter(None, [there, _not_excluded(found)]))
     if found.verdict == "refine" and beside:
         return "; ".join(
             filter(
@@ -222,9 +224,8 @@ def _from_to(what: str, one: Candidate) -> str:
 def _unclaimed(found: Diagnosis) -> str:
     """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
     first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
-    locked, left = found.locked_rmse_um, found.rmse_um
-    far = locked is not None and left is not None and locked >= FAR * left
-    seen = f" on the locked tests, which an earlier claim left with {number(locked)} um" if far else ""
+    far = _far_on_locked(found)
+    seen = f" on the locked tests, which an earlier claim left with {far}" if far else ""
     if first is None:
         return f"something is missing{seen} that nothing logged explains"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
@@ -238,6 +239,13 @@ def _unclaimed(found: Diagnosis) -> str:
         f"is {named(first)}, probability {probability(first.probability)}"
         f"{', though the locked tests do not bear it out' if _is_refused(first) else ''}"
     )
+
+
+def _far_on_locked(found: Diagnosis) -> str:
+    """'3.32 um', which an earlier claim left on the locked tests; '' where it is near to that on left-out ones."""
+    locked, left = found.locked_rmse_um, found.rmse_um
+    far = locked is not None and left is not None and locked >= FAR * left
+    return f"{number(locked)} um" if far and locked is not None else ""
 
 
 def _is_refused(one: Candidate) -> bool:
