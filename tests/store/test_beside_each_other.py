@@ -37,6 +37,28 @@ def test_a_clock_that_is_off_in_one_test_is_told() -> None:
     assert "source 'daq' begins and ends 50 min later beside 'nc'" in str(odd_clocks(days(-50 * MINUTE))[0])
 
 
+def from_a_day_on(day: int, count: int, moved_s: float = 26 * MINUTE, last_s: float = 0.0) -> dict[str, Any]:
+    """last_s: by how much it is off more on the last day."""
+    off = [moved_s * (i >= day) + last_s * (i == count - 1) for i in range(count)]
+    starts = [1.76e9 + i * DAY for i in range(count)]
+    return {
+        f"d{i}": [row("daq", start, 18_000.0), row("nc", start + by, 18_000.0)]
+        for i, (start, by) in enumerate(zip(starts, off, strict=True))
+    }
+
+
+def test_a_clock_that_is_off_from_one_day_on_is_told_of_these_days() -> None:
+    [told] = odd_clocks(from_a_day_on(5, 9))
+    assert (told.tests, told.others, told.shift_s) == (("d5", "d6", "d7", "d8"), 5, 26 * MINUTE)
+    assert str(told).startswith("tests 'd5', 'd6', 'd7' and 'd8': source 'nc' begins and ends 26 min later")
+    assert "try at each of these tests clocks: {nc: -1560 s}" in str(told)
+    # of the first days, if these are fewer: which of the two clocks is right nobody knows
+    assert [(t.tests, t.late) for t in odd_clocks(from_a_day_on(2, 9))] == [(("d0", "d1"), "daq")]
+    assert odd_clocks(from_a_day_on(3, 6))[0].tests == ("d3", "d4", "d5"), "of two alike the first part is right"
+    assert odd_clocks(from_a_day_on(2, 4)) == [], "nobody knows of so few"
+    assert odd_clocks(from_a_day_on(5, 9, last_s=10 * MINUTE)) == [], "it is off by another time each day"
+
+
 @pytest.mark.parametrize(
     ("of", "told"),
     [
@@ -46,8 +68,8 @@ def test_a_clock_that_is_off_in_one_test_is_told() -> None:
         ({"longer_s": 50 * MINUTE}, False),  # the end is later still: nobody knows
         ({"count": 4}, True),
         ({"count": 3}, False),  # which of so few is the odd one?
-        ({"late_s": 140.0}, True),
-        ({"late_s": 160.0}, False),  # they never begin together
+        ({"late_s": 290.0}, True),
+        ({"late_s": 310.0}, False),  # they never begin together
     ],
 )
 def test_only_where_both_ends_are_off_alike_and_the_other_tests_agree(of: dict[str, Any], told: bool) -> None:

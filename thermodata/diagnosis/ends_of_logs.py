@@ -1,4 +1,4 @@
-"""Logs that stand elsewhere beside each other in one test than in all others: told with the answer, as at ingest.
+"""Logs that stand elsewhere beside each other in some tests than in most: told with the answer, as at ingest.
 
 Nothing is moved for it: the ends of two logs say that one of two clocks is off, and not which.
 """
@@ -29,15 +29,16 @@ def odd_ends(store: Store, model: Loaded, told: Sequence[Artefact]) -> list[Arte
         Artefact(
             kind="clock_offset",
             campaign=campaign,
-            test=odd.test,
+            test=test,
             at_s=None,
             size_um=None,
             why=f"{odd}. Nothing was moved for it here",
         )
         for campaign in sorted({c for c, _ in here})
         for odd in odd_clocks(_sources(store, campaign))
-        if (campaign, odd.test) in here - known
-        and declared.isdisjoint((campaign, odd.test, source) for source in (odd.late, odd.early))
+        for test in odd.tests
+        if (campaign, test) in here - known
+        and declared.isdisjoint((campaign, test, source) for source in (odd.late, odd.early))
     ]
 
 

@@ -59,9 +59,7 @@ def turned(problem: Problem, lags: Sequence[CandidateEffect]) -> list[Artefact]:
     return [_artefact(problem, blocks[i], now[i], _fit(now[i], left[i])) for i in np.flatnonzero(signs < 0)]
 
 
-def _plainest(
-    said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: Int1D
-) -> tuple[Float1D, Float1D] | None:
+def _plainest(said: Sequence[_Foretold], signs: Float1D, now: Float1D, moves: Int1D) -> tuple[Float1D, Float1D] | None:
     """(signs, squared errors) with the test turned that is plainly so, or two of them: before both are turned they hide
     each other. None where none is, or where it would not be fewer than half. moves: the tests that may be."""
     upright = [i for i in moves.tolist() if signs[i] > 0]

@@ -1,4 +1,4 @@
-"""Two logs that begin and end together in all tests but one, where both ends are off by the same: a wrong clock.
+"""Two logs that begin and end together but for one test, or some, where both ends are off by the same: a wrong clock.
 
 A log that was switched on late begins late and ends when it always does; one that lasts as long as ever, and stands
 elsewhere, was dated by a clock that was not right.
@@ -13,6 +13,8 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
+
+from thermodata.plugin import Float2D
 
 LEAST_S = 120.0  # by which both ends are off; people switch two loggers on within it,
 APART = 10.0  # and so many times what the ends of the other tests differ by
@@ -30,9 +32,9 @@ class _Ends:
 
 @dataclass(frozen=True, slots=True)
 class OddClock:
-    """A test in which the source `late` stands shift_s (> 0) later beside `early` than in the others."""
+    """Tests in which the source `late` stands shift_s (> 0) later beside `early` than in the others, no fewer ones."""
 
-    test: str
+    tests: tuple[str, ...]
     late: str
     early: str
     shift_s: float
@@ -41,11 +43,14 @@ class OddClock:
     def __str__(self) -> str:
         minutes = self.shift_s / 60
         late, early = f"{self.late}: {-self.shift_s:.0f} s", f"{self.early}: {self.shift_s:.0f} s"
+        one = len(self.tests) == 1
+        names = " and ".join(filter(None, [", ".join(f"'{t}'" for t in self.tests[:-1]), f"'{self.tests[-1]}'"]))
         return (
-            f"test '{self.test}': source '{self.late}' begins and ends {minutes:.3g} min later beside '{self.early}' "
-            f"than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? try at "
-            f"this test clocks: {{{late}}} or clocks: {{{early}}}, or at the source clock: {{align_to: ..., by: "
-            "[...]}, which estimates the offset of each test from what both logged"
+            f"test{'' if one else 's'} {names}: source '{self.late}' begins and ends {minutes:.3g} min later beside "
+            f"'{self.early}' than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? "
+            f"try at {'this test' if one else 'each of these tests'} clocks: {{{late}}} or clocks: {{{early}}}, or at "
+            "the source clock: {align_to: ..., by: [...]}, which estimates the offset of each test from what both "
+            "logged"
         )
 
 
@@ -62,21 +67,31 @@ def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock
             [(ends[t][one].first - ends[t][other].first, ends[t][one].last - ends[t][other].last) for t in tests]
         )
         if (odd := _odd(apart)) is not None:
-            place, shift_s = odd
+            places, shift_s = odd
             late, early = (one, other) if shift_s > 0 else (other, one)
-            found.append(OddClock(tests[place], late, early, abs(shift_s), len(tests) - 1))
+            names = tuple(tests[i] for i in places)
+            found.append(OddClock(names, late, early, abs(shift_s), len(tests) - len(names)))
     return found
 
 
-def _odd(apart: np.ndarray) -> tuple[int, float] | None:
-    """(which test, by how much [s]). apart: how much later one log begins and ends than the other, shape (tests, 2)."""
-    off = apart - np.median(apart, axis=0)
-    place = int(np.argmax(np.abs(off).min(axis=1)))
-    first, last = off[place]
-    usual = np.abs(np.delete(off, place, axis=0)).max()
-    size = min(abs(first), abs(last))
-    both = first * last > 0 and abs(first - last) <= BOTH * size
-    return (place, float((first + last) / 2)) if both and size >= max(LEAST_S, APART * usual) else None
+def _odd(apart: Float2D) -> tuple[list[int], float] | None:
+    """(which tests, by how much [s]). apart: how much later one log begins and ends than the other, shape (tests, 2).
+
+    The tests are parted where their ends lie furthest apart; the larger part is right, of two alike the first one.
+    """
+    middle = apart.mean(axis=1)
+    order = np.argsort(middle, kind="stable")
+    cut = int(np.argmax(np.diff(middle[order]))) + 1
+    parts = sorted((order[:cut], order[cut:]), key=lambda part: (len(part), -int(part.min())))
+    odd, usual = parts
+    if len(usual) < OTHERS:
+        return None
+    off = apart - np.median(apart[usual], axis=0)
+    first, last = off[odd].T
+    size = float(np.abs(off[odd]).min())
+    alike = bool(np.ptp(off[odd]) <= BOTH * size) and len(set(np.sign(off[odd]).ravel().tolist())) == 1
+    far = size >= max(LEAST_S, APART * float(np.abs(off[usual]).max()))
+    return (sorted(odd.tolist()), float((first + last).mean() / 2)) if alike and far else None
 
 
 def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:
