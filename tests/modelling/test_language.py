@@ -246,8 +246,9 @@ def test_a_model_inside_has_to_be_found_first(lab: Dataset) -> None:
     with pytest.raises(SpecError, match="other campaigns") as refusal:
         fit_model(_spec("response: {axis: Z, at: tcp}", effects=[{"effect": "model", "inside": inside}]), lab)
     assert refusal.value.expected == "campaigns: [lab, other]"
-    with pytest.raises(SpecError, match="'name' belongs to model"):
+    with pytest.raises(SpecError, match="'name' belongs to model") as named:
         fit_model(_spec("response: {axis: Z, at: tcp}\neffects: [{effect: ambient_frame, name: frame}]"), lab)
+    assert named.value.hint == "an effect is called by 'id: frame'"
 
 
 # ---- an effect identified on another response

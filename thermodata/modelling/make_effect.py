@@ -52,5 +52,6 @@ def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
         return cast(Effect, prediction.read_prediction((base or Path()) / spec.file))
     for key, owner in _OWNED.items():
         if getattr(spec, key) is not None:
-            raise SpecError(f"'{key}' belongs to {owner}", where=f"effect '{where}'")
+            hint = f"an effect is called by 'id: {spec.name}'" if key == "name" else None
+            raise SpecError(f"'{key}' belongs to {owner}", where=f"effect '{where}', {spec.effect}", hint=hint)
     return find_effect(spec.effect)
