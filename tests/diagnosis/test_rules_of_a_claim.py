@@ -248,12 +248,21 @@ def test_why_it_is_less_probable_is_said(kind: dict[str, Any], words: str) -> No
 
 
 @pytest.mark.parametrize(
-    ("noise", "spread", "floor"), [(0.1, 4.9, 0.5), (0.1, 5.1, 0.51), (float("nan"), 3.0, 0.3), (0.0, 2.0, 0.2)]
+    ("noise", "spread", "floor"),
+    [(0.1, 1.9, 0.2), (0.1, 2.1, 0.21), (0.1, 5.1, 0.51), (float("nan"), 3.0, 0.3), (0.0, 2.0, 0.2)],
 )
-def test_the_floor_is_five_times_the_noise_or_a_tenth_of_the_response(
-    noise: float, spread: float, floor: float
-) -> None:
+def test_the_floor_is_a_tenth_of_the_response_or_twice_the_noise(noise: float, spread: float, floor: float) -> None:
     assert Measure(spread, noise, np.zeros(0)).floor == pytest.approx(floor)
+
+
+@pytest.mark.parametrize(
+    ("noise", "spread", "noises"), [(0.1, 5.1, 0.5), (0.1, 4.0, 0.4), (0.1, 1.9, 0.2), (float("nan"), 3.0, 0.0)]
+)
+def test_noise_is_five_times_the_short_one_and_less_where_that_is_large(
+    noise: float, spread: float, noises: float
+) -> None:
+    """0.5 um beside a response of 8 um: an error of 1.3 um is more than noise."""
+    assert Measure(spread, noise, np.zeros(0)).noises == pytest.approx(noises)
 
 
 def test_what_is_explained() -> None:

@@ -65,6 +65,14 @@ def test_what_is_two_in_five_probable_is_likely_and_no_claim(evidence: float, li
     assert (found.verdict == "effect") is (evidence > 73.7)
 
 
+@pytest.mark.parametrize(("evidence", "likely"), [(25.1, []), (40.0, ["a"])])
+def test_what_is_likely_is_asked_of_the_locked_tests_though_the_error_is_at_the_floor(
+    evidence: float, likely: list[str]
+) -> None:
+    found = verdict(scored("a", after=0.6, evidence=evidence), floor=1.01)
+    assert (found.verdict, names(found.likely)) == ("none", likely)
+
+
 def test_what_is_likely_is_no_refinement_and_as_many_as_may_be_claimed_the_likeliest_first() -> None:
     sure = {"a": 40, "b": 70, "c": 60, "d": 50}
     few = [scored(n, evidence=e, before=3.0, after=1.2, channels=(f"T_{n}",)) for n, e in sure.items()]

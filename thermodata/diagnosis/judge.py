@@ -94,7 +94,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
             f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
             f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
         )
-        return Judgement("none", (), (), judged, why)
+        return Judgement("none", (), (), judged, why, likely=_likely(own, ()))
     more_than_noise = left if left > measure.noises else 0.0
     if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
         rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))

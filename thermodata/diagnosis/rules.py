@@ -39,7 +39,9 @@ FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is lef
 GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
 PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
 PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
-NOISE_TIMES = 5.0
+# the short-term noise, so many times, is nothing but noise, for there is a slow one, too: up to the share of the
+# response that is left alone anyway; above that a noise that is large by itself
+NOISE_TIMES, LARGE_NOISE_TIMES = 5.0, 2.0
 HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 
 
@@ -62,7 +64,9 @@ class Measure:
     @property
     def noises(self) -> float:
         """An error that is nothing but noise."""
-        return NOISE_TIMES * self.noise if np.isfinite(self.noise) else 0.0
+        if not np.isfinite(self.noise):
+            return 0.0
+        return max(LARGE_NOISE_TIMES * self.noise, min(NOISE_TIMES * self.noise, FLOOR_SHARE * self.spread))
 
     @property
     def floor(self) -> float:
