@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.group import files_of, tests_of
@@ -50,7 +51,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     notes: list[str] = []
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
-        made = beside_each_other(made)
+        made = asked_whether_held(beside_each_other(made), g, groups)
         channels += made
         notes += left
         by_signal[g.source] = {
