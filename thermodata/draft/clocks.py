@@ -12,6 +12,7 @@ from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
+from thermodata.reader.text.zone_named import OPEN
 from thermodata.store.ingest.repeated_times import MANY
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
@@ -53,6 +54,8 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
     if not any(f.local for f in group.files):
         return None
+    head = next((n for f in group.files for n in f.recording.notes if OPEN in n), None)
+    said = "" if head is None else f"; {head}"
     pairs = [
         (f.start_ns, begin)
         for g in groups
@@ -64,11 +67,11 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     ]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
-        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague"
+        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague" + said
     fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
     ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
     return f"timezone? local times, {ahead} from the other sources' UTC: " + (
-        f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"
+        f"fits {', '.join(fitting[:3])}{said}" if fitting else f"or a clock that is wrong by whole hours{said}"
     )
 
 
