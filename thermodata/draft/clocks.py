@@ -14,6 +14,7 @@ from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
 from thermodata.reader.text.zone_named import OPEN
 from thermodata.store.ingest.repeated_times import MANY
+from thermodata.store.tidy.times_of_day import began, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
@@ -84,6 +85,8 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
         if other is group or any(_undated(f) for f in other.files):
             continue
         for test, files in group.tests.items():
+            if (asked := _by_its_clock(test, files, other)) is not None:
+                return asked
             here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
             if here is not None and there is not None and abs(there - here) > _TOGETHER_NS:
                 return (
@@ -92,6 +95,18 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
                     "clock: {offset: 0 s} if they begin together"
                 )
     return None
+
+
+def _by_its_clock(test: str, files: Sequence[RawFile], other: Group) -> str | None:
+    """What to ask of a log that tells times of day, beside one with dates that begins at another time."""
+    of_day_ns, there = first_of([f.recording.of_day_ns for f in files]), _begin(other.tests.get(test, ()))
+    # both are local, or the one with dates may be in UTC: by whole hours it may be the zone
+    zone = "UTC" if any(f.local for f in other.files) else None
+    at = None if of_day_ns is None or there is None else began(of_day_ns, there, zone)
+    return at and (
+        f"when did it begin? it tells times of day without a date; beside '{other.source}', {test} began {at} by its "
+        f"first row: start: {at} in the test, and so for the others, or clock: {{offset: 0 s}} if they begin together"
+    )
 
 
 def repeats_question(group: Group) -> str | None:
