@@ -84,7 +84,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
     known = [j for of_source in of_probes.values() for j in of_source]
-    left_out += tuple((p, why_idle(p, known, calibrations)) for p in idle)
+    left_out += tuple((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -117,6 +117,16 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         tuple(x for x in found.failed if table is None or x[0] != table.file),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
+
+
+def _behind(path: str, used: Sequence[DraftJump], found: Scan, groups: Sequence[Group]) -> list[str]:
+    """The tests that were recorded after a jump test, where those that are used were before it."""
+    began = {str(f.path): f.start_ns for f in found.logs}
+    own, others = began.get(path), [began.get(j.file) for j in used]
+    if own is None or any(o is None or o >= own for o in others):
+        return []
+    tests = {t: [f.start_ns for f in fs if f.start_ns is not None] for g in groups for t, fs in g.tests.items()}
+    return [t for t, starts in tests.items() if starts and min(starts) > own]
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
