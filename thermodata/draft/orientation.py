@@ -130,6 +130,7 @@ def _drafted(
             seen,
             said.unit,
             "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
+            jump.file.sheet,
         )
     )
     return (f"jump_{name}" if axis else None), said

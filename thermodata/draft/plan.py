@@ -10,8 +10,10 @@ from pathlib import Path
 from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
+from thermodata.draft.file_copies import other_versions
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.hints import hinted
+from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
@@ -73,12 +75,14 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
         for g in groups
     )
+    jumps_drafted, every_source = with_their_sources(calibrations, sources)
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
-    tests = tuple(_test(t, groups, table, named, warm.get(t)) for t in ids)
+    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    tests = tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids)
     left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
@@ -106,9 +110,9 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
     return Draft(
         campaign,
-        sources,
+        tuple(every_source),
         tuple(channels),
-        tuple(calibrations),
+        tuple(jumps_drafted),
         tests,
         table,
         left_out,
@@ -168,11 +172,17 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _test(
-    test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named], warm: str | None
+    test: str,
+    groups: Sequence[Group],
+    table: TestTable | None,
+    named: Mapping[int, Named],
+    warm: str | None,
+    version: RawFile | None,
 ) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
-    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else [])]
+    asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
+    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
     listed = table.rows.get(test, {}) if table else {}
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
