@@ -24,7 +24,7 @@ def staircase() -> list[float]:
 
 
 def logs() -> dict[str, Rows]:
-    return {t: sheet([5 + 1e-4 * i for i in range(600)]) for t in ("V1", "V2")}
+    return {t: sheet([5 + 1e-4 * i for i in range(900)]) for t in ("V1", "V2")}
 
 
 @pytest.mark.parametrize("inside", [True, False])
@@ -41,7 +41,7 @@ def test_a_jump_sheet_is_read_by_a_source_of_its_own(tmp_path: Path, inside: boo
     path.write_text(path.read_text().replace("moves: unknown", "moves: [50 um, 50 um, -100 um]"))
     summary = ingest(Store(tmp_path / "s.store", create=True), path)
     assert not [x for x in summary.losses if "sheet" in str(x)]
-    assert summary.samples == 1200
+    assert summary.samples == 1800
 
 
 def test_a_jump_test_among_tables_keeps_the_source_of_the_tests(tmp_path: Path) -> None:

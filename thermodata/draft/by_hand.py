@@ -20,7 +20,8 @@ def asked_whether_held(channels: Sequence[DraftChannel], group: Group, groups: S
 
 def _asked(channel: DraftChannel, group: Group, groups: Sequence[Group]) -> DraftChannel:
     for test, files in group.tests.items():
-        beside = [f for g in groups for f in g.tests.get(test, ()) if f not in files]
+        own = {id(f) for f in files}
+        beside = [f for g in groups for f in g.tests.get(test, ()) if id(f) not in own]
         if any(_is_asked(channel, f, beside) for f in files):
             said = channel.said
             return replace(channel, said=replace(said, sure=False, questions=(*said.questions, _HELD)))

@@ -66,7 +66,7 @@ class JumpTest:
 def jump_of(file: RawFile) -> JumpTest | None:
     """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with
     signal None: a person must look."""
-    named = says(NAMED, words(file.sheet or file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
+    named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
     moved: list[Moved] = []
     probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
     stirred = _others_move(file, set(probes))
