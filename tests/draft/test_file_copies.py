@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 
+import numpy as np
 import pytest
 
 from thermodata.draft.file_copies import copies_in
+from thermodata.draft.make import draft_files
 
 from .conftest import Said
 
@@ -47,3 +49,39 @@ def test_a_draft_keeps_the_original_and_names_the_copy(tmp_path: Path, say: Call
     text = (tmp_path / "campaign.yaml").read_text()
     assert text.count("  - {id:") == 3
     assert "# not used: day 2 - Kopie.csv: a copy of day 2.csv: their bytes are equal" in text
+
+
+def dated(first: str = "2026-03-02T08:00:00", n: int = 60, rise: float = 0.1) -> str:
+    at = np.datetime64(first) + np.arange(n).astype("timedelta64[m]")
+    return "time;T_front [degC]\n" + "".join(f"{t}Z;{20 + rise * i:.1f}\n" for i, t in enumerate(at))
+
+
+@pytest.mark.parametrize("suffix", [".part", ".crdownload", ".tmp"])
+def test_a_half_written_copy_is_left_out_and_said(tmp_path: Path, suffix: str) -> None:
+    (tmp_path / "V2.csv").write_text(dated())
+    (tmp_path / f"V2.csv{suffix}").write_text(dated(n=30))
+    draft = draft_files(tmp_path).draft
+    assert [t.id for t in draft.tests] == ["V2"]
+    assert len(draft.sources) == 1
+    assert dict(draft.not_used)[f"V2.csv{suffix}"] == "by its name a half-written copy of V2.csv, which is there"
+
+
+def test_one_without_the_finished_file_beside_it_is_a_log(tmp_path: Path) -> None:
+    (tmp_path / "V2.csv.part").write_text(dated())
+    assert len(draft_files(tmp_path).draft.tests) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "asked"),
+    [
+        ("V1_corrected.csv", "2026-03-02T08:00:00", True),
+        ("V1_cold.csv", "2026-03-02T09:30:00", False),
+        ("X7.csv", "2026-03-02T08:00:00", False),
+    ],
+)
+def test_another_version_of_a_log_is_asked(tmp_path: Path, name: str, first: str, asked: bool) -> None:
+    (tmp_path / "V1.csv").write_text(dated())
+    (tmp_path / name).write_text(dated(first, rise=0.2))
+    doubts = {t.id: t.doubts for t in draft_files(tmp_path).draft.tests}
+    assert ("another version of V1.csv? it has the same minutes" in doubts[name[:-4]]) is asked
+    assert not doubts["V1"]

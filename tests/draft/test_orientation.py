@@ -77,6 +77,18 @@ def test_a_second_jump_test_of_a_probe_is_named_with_the_steps_of_both(tmp_path:
     assert "-5.7 %" in why
 
 
+@pytest.mark.parametrize(("factor", "said"), [(-1.0, True), (-2.0, True), (1.0, False)])
+def test_a_second_jump_test_of_the_opposite_sign_is_told_as_one(tmp_path: Path, factor: float, said: bool) -> None:
+    for name, steps in (("a", staircase(2.0)), ("b", [10 + factor * (v - 10) for v in staircase(2.0)])):
+        log(tmp_path / "lab" / f"jump_Z_{name}.csv", "Probe Z [V]", steps)
+    log(tmp_path / "lab" / "S3000.csv", "Probe Z [V]", [5 + i / 10_000 for i in range(3000)])
+    ((path, why),) = [x for x in draft_files(tmp_path / "lab").draft.not_used if "jump" in x[0]]
+    assert path == "jump_Z_b.csv"
+    assert ("of opposite signs" in why) is said
+    assert ("so much, and in sign," in why) is said
+    assert "channels: {Probe_Z: {calibration: ...}}" in why
+
+
 def test_a_jump_test_in_which_nothing_moves_is_named_as_such(tmp_path: Path) -> None:
     log(tmp_path / "lab" / "S3000.csv", "dZ [um]", [i / 10 for i in range(3000)])
     log(tmp_path / "lab" / "jump_Z.csv", "dZ [um]", [5.0 + 0.01 * (i % 3) for i in range(200)])

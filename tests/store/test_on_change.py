@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.on_change import has_no_rate
+from thermodata.store.tidy.on_change import Written, has_no_rate, written_by_hand
 from thermodata.store.tidy.timeline import given_timeline
 from thermodata.view import load_dataset
 
@@ -65,3 +65,69 @@ def test_a_speed_stands_between_the_rows_of_a_log_that_is_written_on_change(tmp_
     speed = test.values["n"]
     assert set(speed[:30]) == {0.0}
     assert set(speed[30:180]) == {4000.0}
+
+
+SECOND = 10**9
+
+
+@pytest.mark.parametrize(
+    ("every_min", "values", "beside_s", "told"),
+    [
+        (60, [0, 2000, 4000, 6000, 0, 0], 30, "on change"),
+        (30, [0, 0.5, 3.5, 0], 10, "on change"),
+        (60, [0, 4500, 12500, 0], 30, "on change"),
+        (60, [0, 5987, 3012, 0], 30, "asked"),  # read off a display, or measured
+        (60, [3.47, 3.52, 3.49, 3.51], 30, None),  # a power that hardly changes
+        (60, [0, 2000, 4000, 0], 0, None),  # nothing beside it is denser
+        (60, [0, 2000, 4000, 0], 600, None),
+        (0.5, [0, 2000, 4000, 0], 1, None),  # no person writes so fast
+        (10, [0, 6000] + [6000] * 12 + [0], 10, None),  # a slow log at even times
+        (10, [6000] * 3, 10, None),
+    ],
+)
+def test_set_values_that_somebody_wrote_down_stand(
+    every_min: float, values: list[float], beside_s: int, told: Written | None
+) -> None:
+    t_ns = (np.arange(len(values)) * every_min * 60 * SECOND).astype(np.int64)
+    assert written_by_hand("rotational_speed", t_ns, np.array(values, float), beside_s * SECOND) == told
+    assert written_by_hand("temperature", t_ns, np.array(values, float), beside_s * SECOND) is None
+
+
+def of_hours(folder: Path, speeds: list[object], *, every_s: int = 60, held: str = "") -> tuple[list[str], list[float]]:
+    """(the notes of its ingest, the speed of each minute) of a speed that was written at every hour."""
+    n = len(speeds) * 3600 // every_s
+    stamps = [f"2026-05-11T{6 + i * every_s // 3600:02d}:{i * every_s // 60 % 60:02d}:00Z" for i in range(n)]
+    (folder / "day_daq.csv").write_text(
+        "timestamp;T\n" + "".join(f"{t};{20 + 0.01 * i}\n" for i, t in enumerate(stamps))
+    )
+    rows = "".join(f"2026-05-11T{6 + i:02d}:00:00Z;{x}\n" for i, x in enumerate(speeds))
+    (folder / "day_plc.csv").write_text("timestamp;n [rpm]\n" + rows)
+    (folder / "campaign.yaml").write_text(CAMPAIGN.replace("unit: rpm, at: spindle", f"unit: rpm, at: spindle{held}"))
+    store = Store(folder / "s.store", create=True)
+    notes = [n for n in ingest(store, folder / "campaign.yaml").notes if n.startswith("day, plc: n: ")]
+    (test,) = load_dataset(store, "lab", 60.0).tests
+    return notes, test.values["n"].tolist()
+
+
+def test_steps_that_were_typed_at_every_hour_stand(tmp_path: Path) -> None:
+    notes, speed = of_hours(tmp_path, [0, 2000, 4000, 0, 0])
+    assert "few set values" in notes[0]
+    assert (speed[30], speed[90], speed[150], speed[200]) == (0.0, 2000.0, 4000.0, 0.0)
+
+
+def test_steps_of_no_set_values_are_asked_and_the_answer_counts(tmp_path: Path) -> None:
+    notes, speed = of_hours(tmp_path, [0, 1987, 4031, 0, 0])
+    assert "held: true" in notes[0]
+    assert 993 < speed[30] < 1020
+    for word, at_half in (("true", 0.0), ("false", 1010.0)):
+        own = tmp_path / word
+        own.mkdir()
+        notes, speed = of_hours(own, [0, 1987, 4031, 0, 0], held=f", held: {word}")
+        assert not notes
+        assert speed[30] == pytest.approx(at_half, abs=20)
+
+
+def test_where_all_is_logged_slowly_nothing_is_held(tmp_path: Path) -> None:
+    notes, speed = of_hours(tmp_path, [0, 2000, 4000, 0, 0], every_s=1800)
+    assert not notes
+    assert 990 < speed[30] < 1040

@@ -12,7 +12,9 @@ from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
+from thermodata.reader.text.zone_named import OPEN
 from thermodata.store.ingest.repeated_times import MANY
+from thermodata.store.tidy.times_of_day import began, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
@@ -53,6 +55,8 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
     if not any(f.local for f in group.files):
         return None
+    head = next((n for f in group.files for n in f.recording.notes if OPEN in n), None)
+    said = "" if head is None else f"; {head}"
     pairs = [
         (f.start_ns, begin)
         for g in groups
@@ -64,11 +68,11 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     ]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
-        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague"
+        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague" + said
     fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
     ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
     return f"timezone? local times, {ahead} from the other sources' UTC: " + (
-        f"fits {', '.join(fitting[:3])}" if fitting else "or a clock that is wrong by whole hours"
+        f"fits {', '.join(fitting[:3])}{said}" if fitting else f"or a clock that is wrong by whole hours{said}"
     )
 
 
@@ -81,6 +85,8 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
         if other is group or any(_undated(f) for f in other.files):
             continue
         for test, files in group.tests.items():
+            if (asked := _by_its_clock(test, files, other)) is not None:
+                return asked
             here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
             if here is not None and there is not None and abs(there - here) > _TOGETHER_NS:
                 return (
@@ -89,6 +95,18 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
                     "clock: {offset: 0 s} if they begin together"
                 )
     return None
+
+
+def _by_its_clock(test: str, files: Sequence[RawFile], other: Group) -> str | None:
+    """What to ask of a log that tells times of day, beside one with dates that begins at another time."""
+    of_day_ns, there = first_of([f.recording.of_day_ns for f in files]), _begin(other.tests.get(test, ()))
+    # both are local, or the one with dates may be in UTC: by whole hours it may be the zone
+    zone = "UTC" if any(f.local for f in other.files) else None
+    at = None if of_day_ns is None or there is None else began(of_day_ns, there, zone)
+    return at and (
+        f"when did it begin? it tells times of day without a date; beside '{other.source}', {test} began {at} by its "
+        f"first row: start: {at} in the test, and so for the others, or clock: {{offset: 0 s}} if they begin together"
+    )
 
 
 def repeats_question(group: Group) -> str | None:

@@ -1,11 +1,15 @@
-"""Files that somebody copied in their folder: 'day 2 - Kopie.csv' beside 'day 2.csv', equal to the last byte."""
+"""Files that somebody copied in their folder: 'day 2 - Kopie.csv' beside 'day 2.csv', equal to the last byte;
+and what else is another state of a file: half-written, or corrected."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
+from thermodata.draft.raw_file import RawFile
+
+_UNFINISHED = (".part", ".partial", ".filepart", ".crdownload", ".download", ".tmp")
 _PART = 1 << 20
 _WHOLE = 64 << 20  # larger ones are compared at both ends
 
@@ -29,6 +33,29 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
             if of is not None and _equal(folder / copy, folder / of):
                 found[copy] = of
     return found
+
+
+def unfinished_in(paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+    """File that is called as half-written ones are -> the finished one beside it: 'V2.csv.part' beside 'V2.csv'."""
+    known = set(paths)
+    return {p: p.with_suffix("") for p in paths if p.suffix.lower() in _UNFINISHED and p.with_suffix("") in known}
+
+
+def other_versions(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, RawFile]:
+    """Test -> the file of another one of its source that has the same minutes, and whose name its own goes on:
+    'V1_corrected.csv' beside 'V1.csv'."""
+    alike: dict[tuple[object, ...], list[tuple[str, RawFile]]] = {}
+    for test, files in tests.items():
+        for f in files:
+            if f.start_ns is not None and f.sample.whole:
+                alike.setdefault((f.path.parent, f.start_ns, f.sample.last_ns), []).append((test, f))
+    return {
+        test: other
+        for together in alike.values()
+        for test, own in together
+        for of, other in together
+        if of != test and _is_named_after(own.path, other.path)
+    }
 
 
 def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:

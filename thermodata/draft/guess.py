@@ -232,7 +232,7 @@ def _place(found: Guess, own: str, text: str) -> Guess:
     if quantity == "displacement" and place.at == "tcp" and letter is None:
         questions.append("axis?")
     if says(SETPOINT, own) and quantity not in ("state", "displacement"):
-        questions.append("a set value, not the actual one?")
+        questions.append("a set value, not the actual one? written only where it changes: held: true")
     elif says(LIMIT, own) and quantity not in ("state", "displacement"):
         questions.append("a limit, or a reading?")
     elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:

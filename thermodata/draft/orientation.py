@@ -36,8 +36,9 @@ def reads_a_length(one: OneSignal) -> bool:
     return all(unit is not None and converts(unit, "displacement") for unit in units)
 
 
-def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump]) -> str:
-    """Why a jump test is not used; where another one of the same probe is, with the steps of both."""
+def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], behind: Sequence[str] = ()) -> str:
+    """Why a jump test is not used; where another one of the same probe is, with the steps of both. behind: the tests
+    that were recorded after it and that one."""
     own = next(j for j in jumps if str(j.file.path) == path)
     name = own.written or own.signal[1] if own.signal is not None else None
     other = next((c for c in used if name is not None and c.signal == name), None)
@@ -46,16 +47,32 @@ def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump]) ->
     if other is None:
         return f"taken for a jump test of '{name}', and there is no one displacement in the tests that is called so"
     said = f"a second jump test of '{name}', beside {other.file}"
-    here, there = _height([s.size for s in own.steps]), _height(other.seen)
+    steps = [s.size for s in own.steps]
+    here, there = _height(steps), _height(other.seen)
     if not here or not there:
         return said
     unit = other.unit or "V"
+    differ = f"steps of {here:.4g} {unit} here and {there:.4g} {unit} there, {100 * (here / there - 1):+.1f} %"
+    if turned := _is_turned(steps, other.seen):
+        differ += f" in size, of opposite signs ({_listed(steps)} here, {_listed(other.seen)} there)"
+    what = "so much, and in sign," if turned else "so much"
+    which = f"; after it: {', '.join(behind)}" if behind else ""
     return (
-        f"{said}, which is used: steps of {here:.4g} {unit} here and {there:.4g} {unit} there, "
-        f"{100 * (here / there - 1):+.1f} %; "
-        "if the moves were the same, so much do the sensitivities differ: which holds for the tests? "
-        f"'file: {path}' takes this one"
+        f"{said}, which is used: {differ}; "
+        f"if the moves were the same, {what} do the sensitivities differ: which holds for the tests{which}? "
+        f"'file: {path}' takes this one for all; a calibration of its own, and in each test that it is for "
+        f"channels: {{{other.name.removeprefix('jump_')}: {{calibration: ...}}}}, for these alone"
     )
+
+
+def _is_turned(here: Sequence[float], there: Sequence[float]) -> bool:
+    """Whether the steps of two jump tests are the same moves with the opposite sign."""
+    return len(here) == len(there) and all(a * b < 0 for a, b in zip(here, there, strict=True))
+
+
+def _listed(steps: Sequence[float]) -> str:
+    more = ", ..." if len(steps) > _SHOWN_STEPS else ""
+    return ", ".join(f"{s:+.3g}" for s in steps[:_SHOWN_STEPS]) + more
 
 
 def _height(steps: Sequence[float]) -> float:
@@ -113,6 +130,7 @@ def _drafted(
             seen,
             said.unit,
             "moves: the commanded ones, signed, in machine coordinates; " + _steps(seen, said.unit or "V") + beside,
+            jump.file.sheet,
         )
     )
     return (f"jump_{name}" if axis else None), said

@@ -46,7 +46,8 @@ class DraftChannel:
 
 @dataclass(frozen=True, slots=True)
 class DraftJump:
-    """calibrations.<name>: a jump test whose moves nobody but the lab knows. seen: its steps as they were logged."""
+    """calibrations.<name>: a jump test whose moves nobody but the lab knows. seen: its steps as they were logged;
+    sheet: of a workbook whose sheets are tests."""
 
     name: str
     source: str
@@ -57,6 +58,7 @@ class DraftJump:
     seen: tuple[float, ...]
     unit: str | None
     question: str
+    sheet: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
+from thermodata.draft.file_copies import other_versions
 from thermodata.draft.group import files_of, tests_of
 from thermodata.draft.hints import hinted
+from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
@@ -50,7 +53,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     notes: list[str] = []
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
-        made = beside_each_other(made)
+        made = asked_whether_held(beside_each_other(made), g, groups)
         channels += made
         notes += left
         by_signal[g.source] = {
@@ -72,18 +75,20 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
         for g in groups
     )
+    jumps_drafted, every_source = with_their_sources(calibrations, sources)
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
-    tests = tuple(_test(t, groups, table, named, warm.get(t)) for t in ids)
+    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    tests = tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids)
     left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
     known = [j for of_source in of_probes.values() for j in of_source]
-    left_out += tuple((p, why_idle(p, known, calibrations)) for p in idle)
+    left_out += tuple((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle)
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
@@ -105,9 +110,9 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
     return Draft(
         campaign,
-        sources,
+        tuple(every_source),
         tuple(channels),
-        tuple(calibrations),
+        tuple(jumps_drafted),
         tests,
         table,
         left_out,
@@ -116,6 +121,16 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         tuple(x for x in found.failed if table is None or x[0] != table.file),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
+
+
+def _behind(path: str, used: Sequence[DraftJump], found: Scan, groups: Sequence[Group]) -> list[str]:
+    """The tests that were recorded after a jump test, where those that are used were before it."""
+    began = {str(f.path): f.start_ns for f in found.logs}
+    own, others = began.get(path), [began.get(j.file) for j in used]
+    if own is None or any(o is None or o >= own for o in others):
+        return []
+    tests = {t: [f.start_ns for f in fs if f.start_ns is not None] for g in groups for t, fs in g.tests.items()}
+    return [t for t, starts in tests.items() if starts and min(starts) > own]
 
 
 def _claimed_table(folder: Path, found: Scan) -> str | None:
@@ -157,11 +172,17 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
 
 
 def _test(
-    test: str, groups: Sequence[Group], table: TestTable | None, named: Mapping[int, Named], warm: str | None
+    test: str,
+    groups: Sequence[Group],
+    table: TestTable | None,
+    named: Mapping[int, Named],
+    warm: str | None,
+    version: RawFile | None,
 ) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     kind = kind_of(test, files)
-    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else [])]
+    asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
+    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
     listed = table.rows.get(test, {}) if table else {}
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")

@@ -24,6 +24,7 @@ _EITHER = re.compile(rf"{_START}(\d)-(\d{{1,2}})k(?:{_RPM})?{_END}")
 _SAID_SPEED = re.compile(rf"{_START}({_NUMBER}) ?(k?) ?{_RPM}{_END}|(?<![a-z]){_WORD} ?[=-]? ?({_NUMBER})(k?){_END}")
 _LETTER = re.compile(rf"(?<![a-z])[sn](\d{{3,5}})(?!\d)(?![a-z])|(?<![a-z])[sn] (\d{{3,5}}){_END}")
 _THOUSANDS = re.compile(rf"{_START}(\d{{1,2}}(?:[.,]\d)?)k{_END}")
+_LEAST_RPM = 50  # of a number behind a word; no spindle test turns slower, and runs are counted so
 _FEED = re.compile(rf"(?<![a-z])(?:f|vf|feed|vorschub|posuv|进给) ?({_NUMBER})(?: ?(m|mm)/? ?min)?{_END}")
 _FEED_UNIT = re.compile(rf"{_START}({_NUMBER}) ?(m|mm)/?min{_END}")
 _DEGREES = rf"((?:(?<![a-z0-9])-)?{_NUMBER}) ?(?:°|deg)?c"  # the dash of 0-20C is none of the number
@@ -98,8 +99,10 @@ def _speed(
         one, other = _value(f"{match[1]}.{match[2]}", True), _value(match[2], True)
         questions.append(f"speed: '{match[0]}' is {one:g} rpm, or number {match[1]} at {other:g} rpm?")
         return one, other
-    if match := _first(_SAID_SPEED, texts):
+    for match in (m for t in texts for m in _SAID_SPEED.finditer(t)):
         number, k = (match[1], match[2] or match[0].find("krpm") > 0) if match[1] else (match[3], match[4])
+        if not match[1] and not k and _value(number) < _LEAST_RPM:
+            continue  # 'sp1' is the first spindle, or the first run
         conditions["speed"] = f"{_value(number, bool(k)):g} rpm"
         return ()
     for match in (m for t in texts for m in _LETTER.finditer(t)):

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
-from thermodata.draft.file_copies import copies_in
+from thermodata.draft.file_copies import copies_in, unfinished_in
 from thermodata.draft.raw_file import RawFile, claimant, described_files, sample_of_file
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
@@ -49,7 +49,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     ignored: list[tuple[str, str]] = []
     failed: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
-    copies = copies_in(folder, paths)
+    copies, unfinished = copies_in(folder, paths), unfinished_in(paths)
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
@@ -58,6 +58,9 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             continue
         if path in copies:
             ignored.append((str(path), f"a copy of {copies[path]}: their bytes are equal"))
+            continue
+        if path in unfinished:
+            ignored.append((str(path), f"by its name a half-written copy of {unfinished[path]}, which is there"))
             continue
         try:
             like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
@@ -108,7 +111,9 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
-        tuple(dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in copies)),  # a log is no list of tests
+        tuple(
+            dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in {*copies, *unfinished})
+        ),  # a log is no list of tests
         tuple(failed),
     )
 

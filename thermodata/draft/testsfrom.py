@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
-from thermodata.draft.parts import Draft
+from thermodata.draft.parts import Draft, DraftTest
 from thermodata.draft.said_by_names import speed_in
 
 _LEAST = 3
@@ -60,7 +60,18 @@ def pattern_of(draft: Draft) -> Pattern | None:
             doubts.append(f"feed in {unit}?")
         if unit:
             units[condition] = unit
+        if not _as_told(condition, values, unit, tests):
+            return None
     return Pattern(source.name, source.files.replace("{test}", text), units, tuple(doubts))
+
+
+def _as_told(condition: str, values: Sequence[float], unit: str, tests: Sequence[DraftTest]) -> bool:
+    """Whether the numbers that the pattern would take are those that are told of the tests: a 'k' that it leaves
+    out, or a number that the logged speed contradicts, makes them others."""
+    told = [t.conditions.get(condition) for t in tests]
+    if condition == "feed" and not any(told):
+        return True
+    return condition not in ("speed", "feed") or told == [f"{v:g} {unit}" for v in values]
 
 
 def _known(piece: str) -> str | None:

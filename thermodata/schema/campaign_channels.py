@@ -9,6 +9,8 @@ from pydantic import ConfigDict, Field, model_validator
 from thermodata.schema.declared import Direction, Seconds, Strict, Um, Value
 from thermodata.schema.quantity import Quantity
 
+MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
+
 
 class Sensor(Strict):
     """`channels.*.sensor`: the sensor behind a channel. Free attributes are kept.
@@ -44,6 +46,8 @@ class Channel(Strict):
     sensor: what measured it
     only_in: the tests whose files have the signal, where others lack it; in these it is read where it stands
     missing_in: the tests whose files lack it, the other way round
+    held: whether each value stands until the next row, as where it was written on change (true), or runs on between
+        them (false); for what is set, `ingest` tells it from the rows
     notes: free text
     """
 
@@ -61,6 +65,7 @@ class Channel(Strict):
     sensor: Sensor | None = None
     only_in: list[str] = Field(default=[], exclude_if=lambda tests: not tests)
     missing_in: list[str] = Field(default=[], exclude_if=lambda tests: not tests)
+    held: bool | None = Field(default=None, exclude_if=lambda held: held is None)
     notes: str = ""
 
     def may_lack(self, test: str) -> bool:
@@ -76,6 +81,10 @@ class Channel(Strict):
             raise ValueError("a channel with 'signal' needs 'source'")
         if self.instead_of is not None and self.unit is None:
             raise ValueError("'instead_of' names the file's unit that 'unit' replaces: write both")
+        if self.held is not None and (self.signal is None or self.quantity in MEASURED):
+            raise ValueError(
+                "'held' is for a logged channel ('signal') that drives something: what a model explains is never held"
+            )
         if self.only_in and self.missing_in:
             raise ValueError(
                 "'only_in' and 'missing_in' say the same, one of the tests and one of the others: write one"

@@ -183,3 +183,17 @@ def test_a_year_of_two_digits_may_stand_first_where_it_is_declared(tmp_path: Pat
     with pytest.raises(FormatError, match="either way round") as refused:
         read(tmp_path, head, NUMBERS, "head")
     assert "ymd" in (refused.value.hint or "")
+
+
+@pytest.mark.parametrize("zone", ["(UTC+01:00)", "(+01:00)", "UTC+01:00", "(GMT+1)"])
+def test_a_start_with_its_offset_in_brackets_counts(zone: str) -> None:
+    said = head_start([["Start time:", f"2026-03-02 08:00:00 {zone}"]])
+    assert said is not None
+    assert said.zoned
+    assert said.clock_ns == 7 * 3600 * 10**9
+
+
+@pytest.mark.parametrize("zone", ["(UTC+01:00", "(Channel 1)", "(UTC+01:00) Berlin"])
+def test_what_stands_behind_a_start_and_is_no_offset_does_not(zone: str) -> None:
+    said = head_start([["Start time:", f"2026-03-02 08:00:00 {zone}"]])
+    assert said is None or not said.zoned

@@ -150,3 +150,19 @@ def test_a_declared_format_that_reads_some_of_the_cells_is_kept() -> None:
     cells = ["26-02-09 21:30:00"] + ["damaged"] * 39
     (found,) = find_formats(["Time"], [cells], "%y-%m-%d %H:%M:%S", "here")
     assert found.text == "%y-%m-%d %H:%M:%S"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "order"),
+    [("11/03/2026", "12/03/2026", "dmy"), ("03/11/2026", "03/12/2026", "mdy"), ("05/05/2026", "06/05/2026", "dmy")],
+)
+def test_a_midnight_tells_day_from_month(before: str, after: str, order: str) -> None:
+    cells = [f"{before} 23:59:{s}" for s in (30, 40, 50)] + [f"{after} 00:00:{s}" for s in ("00", "10", "20")]
+    right = find_format(cells, "a file", order=order)
+    assert find_format(cells, "a file") == right
+
+
+def test_a_pause_over_midnight_does_not() -> None:
+    cells = [f"11/03/2026 08:00:{s}" for s in (30, 40, 50)] + [f"12/03/2026 08:00:{s}" for s in ("00", "10", "20")]
+    with pytest.raises(QuestionError):
+        find_format(cells, "a file")

@@ -28,7 +28,8 @@ from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells
-from thermodata.reader.text.zone_words import stated_zone, zone_above
+from thermodata.reader.text.zone_named import zones_said
+from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.zone import NAT
 
 _HEAD_LINES = 500  # in which the layout shows
@@ -132,9 +133,8 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
-    zone = zone_above(cells(line) for line in head[: layout.first])
-    if source.timezone is None and zone is not None:
-        groups = tuple(g if g.stated else replace(g, stated=zone[0], above=zone[1]) for g in groups)
+    lines = map(cells, head[: layout.first])
+    groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
     cells_of = _cells_of(layout, groups, body)
     quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
@@ -180,7 +180,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     else:
         doubt = unused_start(declared_start(said))
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
-    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt]
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt, open_zone]
     return Table(
         name=where,
         sample=first,

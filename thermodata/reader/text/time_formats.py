@@ -32,6 +32,7 @@ _FEW, _MANY = 40, 4000
 _SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
 _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
+_MIDNIGHT_NS = 3600 * 10**9  # within which the row after midnight follows
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
 
 
@@ -175,6 +176,9 @@ def _order(
         left = [o for o in left if shares[o] == best]
         if len(left) == 1:
             return left[0]
+    by_midnight = [o for o in left if _passes_midnight(more() or cells, forms[o])]
+    if len(by_midnight) == 1:
+        return by_midnight[0]
     if re.search(r"[ap]\.?m", first, re.IGNORECASE) and "mdy" in left:
         return "mdy"
     raise QuestionError(
@@ -187,6 +191,16 @@ def _order(
         declare={"time": {"format": UNKNOWN}},
         meanwhile={"time": {"format": "dmy"}},
     )
+
+
+def _passes_midnight(cells: Sequence[str], form: TimeFormat) -> bool:
+    """Whether the date changes somewhere from one row to the next within minutes: read the other way round, it would
+    go on by a month there."""
+    ns = timestamp.parse([c for c in cells if c.strip()], form)
+    if form.role != "datetime" or ns.size < 2:
+        return False
+    turns = (ns[1:] // DAY_NS != ns[:-1] // DAY_NS) & (ns[1:] != NAT) & (ns[:-1] != NAT)
+    return bool((np.abs(np.diff(ns))[turns] < _MIDNIGHT_NS).any())
 
 
 def _ask_for_year(cells: Sequence[str], where: str) -> None:

@@ -36,7 +36,8 @@ SEVERAL = {
 OFFSET = r"[+-]\d{2}(?::?\d{2})?"
 # longer words first, or CEST would be read as CE and a rest
 WORDS = "|".join(sorted(HOURS, key=len, reverse=True))
-ZONE = rf"(?P<z>\s*(?:(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}|\(?(?:{WORDS})\)?(?!\w)))"
+_STATED_OFFSET = rf"(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}"
+ZONE = rf"(?P<z>\s*(?:{_STATED_OFFSET}|\((?:{_STATED_OFFSET})\)|\(?(?:{WORDS})\)?(?!\w)))"
 _BEHIND = re.compile(r"\d\s*(?:[AaPp]\.?[Mm]\.?)?\s*(?P<word>\(?[^\W\d_]{2,5}\)?)$")
 
 

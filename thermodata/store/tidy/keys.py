@@ -9,10 +9,12 @@ from collections.abc import Mapping, Sequence
 from thermodata.calibration.measuring import measuring_names
 from thermodata.calibration.result import CalibrationResult
 from thermodata.schema.campaign import Channel
+from thermodata.schema.campaign_channels import MEASURED
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy import derive
+from thermodata.store.tidy.on_change import BY_HAND
 from thermodata.store.tidy.overrule import rules_of
-from thermodata.store.tidy.plan import MEASURED, SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.series import Member
 from thermodata.store.tidy.source_clock import Clock, Span
 
@@ -46,6 +48,8 @@ def member_key(
         parts.append(repr([r.model_dump(mode="json", exclude={"tests"}) for r in rules]))
     for name in sorted(used):
         parts.append(texts.of(used[name]))
+        if used[name].channel.quantity in BY_HAND and (beside := plan.step_beside(used[name])):
+            parts.append(repr((name, beside)))
     for source, stream in sorted(members):
         if source in plan.sources:
             source_plan = plan.sources[source]

@@ -1,4 +1,5 @@
-"""Whether a log was written when something changed: its rows come at no rate.
+"""Whether a log was written when something changed: its rows come at no rate, or are a few set values that somebody
+wrote down beside a log that is much denser.
 
 A speed that is 0 at 6:30 and 4000 at 9:00 did not rise for two hours and a half: between the rows of such a log each
 value stands. What a sensor measures runs on meanwhile, and is left to the readers that know their format.
@@ -6,11 +7,13 @@ value stands. What a sensor measures runs on meanwhile, and is left to the reade
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 
-from thermodata.plugin import Int1D
+from thermodata.plugin import Array, Int1D
+from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.timeline import Timeline
 
 # what is commanded, and what follows a command at once
@@ -18,6 +21,16 @@ SET = frozenset({"rotational_speed", "feed", "power", "load", "current", "torque
 LEAST_ROWS = 3
 UNEVEN = 3.0  # between the longer and the shorter of the times between its rows (deciles)
 MOST_ROWS = 100_000  # of which it is told
+
+BY_HAND = SET | {"position"}  # of what somebody writes down the steps
+DENSER = 10.0  # the densest log beside it has so many rows where it has one
+MOST_BY_HAND = 200  # rows
+_MINUTE_NS, _ASKED_NS, _LONG_NS = 60 * 10**9, 300 * 10**9, 1200 * 10**9
+_STEPS = 0.5  # of its rows that change something, unless they lie far apart
+_ROUND = 25  # of the largest value, set ones are multiples of no less than such a part
+_FEW_ROWS, _LARGE = 24, 0.3  # rows, and what they change of the largest, that are asked for where they are not round
+
+Written = Literal["on change", "asked"]
 
 
 def has_no_rate(line: Timeline) -> bool:
@@ -34,7 +47,56 @@ def come_at_no_rate(t_ns: Int1D) -> bool:
     return bool(long > UNEVEN * short)
 
 
-def told(names: Sequence[str]) -> tuple[str, ...]:
-    """What is said of the channels that are held for that; nothing of none."""
-    what = "come at no rate, as a log's that is written on change: each value stands until the next row"
-    return (f"{', '.join(names)}: rows {what}",) if names else ()
+def step_beside(streams: Mapping[tuple[str, str], Sequence[RawStream]], own: tuple[str, str]) -> int:
+    """The time between rows of the densest of the other streams of a test that are longer [ns]; 0 where none is."""
+    rows = sum(r.rows for r in streams.get(own, ()))
+    others = [r.step_ns for key, raws in streams.items() if key != own for r in raws if r.rows > DENSER * rows]
+    return min((s for s in others if s > 0), default=0)
+
+
+def written_by_hand(quantity: str, t_ns: Int1D, values: Array, beside_ns: int) -> Written | None:
+    """Whether a channel's rows are steps that somebody wrote down: each stands until the next one, is asked for where
+    the values are none that anybody sets, and runs on (None) else.
+
+    t_ns, values: shape (n,), as logged; beside_ns: of a row in the densest log beside it, 0 for none.
+    """
+    if quantity not in BY_HAND or not beside_ns or values.dtype.kind not in "iuf" or len(values) > MOST_BY_HAND:
+        return None
+    x = values.astype(np.float64)
+    t, x = t_ns[np.isfinite(x)], x[np.isfinite(x)]
+    if x.size < LEAST_ROWS:
+        return None
+    apart = float(np.median(np.diff(t)))
+    if apart < max(_MINUTE_NS, DENSER * beside_ns):
+        return None
+    if np.count_nonzero(np.diff(x)) < (1 if apart >= _LONG_NS else _STEPS * (x.size - 1)):
+        return None
+    if _are_set(np.abs(x)):
+        return "on change"
+    large = float(np.ptp(x)) >= _LARGE * float(np.abs(x).max())
+    return "asked" if large and apart >= _ASKED_NS and x.size <= _FEW_ROWS else None
+
+
+def _are_set(x: Array) -> bool:
+    """Whether values >= 0 are multiples of one that is no small part of the largest: 0, 2000, 4500; not 5.23, 5.31."""
+    largest = float(x.max())
+    parts = x[:, None] / largest * np.arange(1, _ROUND + 1) if largest > 0 else np.zeros((1, 1))
+    return bool((np.abs(parts - np.rint(parts)) < 1e-6).all(axis=0).any())
+
+
+def asked(name: str, rows: int) -> str:
+    """What is said of a channel whose few rows may stand until the next one."""
+    return (
+        f"{name}: its {rows} rows lie far apart beside a log that is much denser, and are drawn as ramps from one to "
+        "the next; if each value stood until the next row: held: true in the channel, else held: false"
+    )
+
+
+def told(names: Sequence[str], *, by_hand: bool = False) -> tuple[str, ...]:
+    """What is said of the channels that are held for that; nothing of none. by_hand: for their few set values."""
+    what = (
+        "are a few set values beside a log that is much denser, as somebody writes changes down"
+        if by_hand
+        else "come at no rate, as a log's that is written on change"
+    )
+    return (f"{', '.join(names)}: rows {what}: each value stands until the next row",) if names else ()

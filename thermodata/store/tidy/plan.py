@@ -11,13 +11,12 @@ from thermodata.plugin import Signal
 from thermodata.reader.match import NoSignalError, match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
+from thermodata.schema.campaign_channels import MEASURED
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import schedule
+from thermodata.store.tidy.on_change import step_beside
 
 SCHEDULE = "schedule"
-
-
-MEASURED = ("displacement", "tilt", "angle")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +40,16 @@ class Bound:
     @property
     def is_held(self) -> bool:
         """Whether its log is written on change. What a model explains is never made up between two rows."""
-        by_file = self.signal is not None and self.signal.held and self.channel.quantity not in MEASURED
-        return by_file or self.on_change
+        return self.channel.held if self.channel.held is not None else self._by_file or self.on_change
+
+    @property
+    def is_said(self) -> bool:
+        """Whether the campaign file or the log itself says whether it is held."""
+        return self.channel.held is not None or self._by_file
+
+    @property
+    def _by_file(self) -> bool:
+        return self.signal is not None and self.signal.held and self.channel.quantity not in MEASURED
 
 
 @dataclass(slots=True)
@@ -99,6 +106,11 @@ class TestPlan:
         if alone or not all(s.shared and s.is_dated for s in chosen):
             return chosen
         return [s for s in with_data if not s.shared and s.is_dated] or chosen
+
+    def step_beside(self, bound: Bound) -> int:
+        """The time between rows of the densest log beside that of a channel [ns]; 0 where none is much denser."""
+        every = {(s.name, stream): raws for s in self.sources.values() for stream, raws in s.streams.items()}
+        return step_beside(every, (bound.source, bound.stream))
 
     @property
     def _of_displacements(self) -> set[str]:

@@ -14,6 +14,7 @@ from thermodata.calibration.quality_concise import concise
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Measuring
+from thermodata.schema.campaign_channels import MEASURED
 from thermodata.schema.flag import Flag
 from thermodata.store.tidy import windows
 from thermodata.store.tidy.between import Verdict
@@ -21,7 +22,7 @@ from thermodata.store.tidy.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.event import Event
 from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
 from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
-from thermodata.store.tidy.plan import MEASURED, SCHEDULE, Bound
+from thermodata.store.tidy.plan import SCHEDULE, Bound
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.standing import join_while_standing
 from thermodata.store.tidy.windows import Joined

@@ -12,7 +12,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.chunk import Chunk
-from thermodata.store.tidy.on_change import SET, has_no_rate
+from thermodata.store.tidy.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
 from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
 from thermodata.store.tidy.source_clock import Clock, Span, build, last_ns
 from thermodata.store.tidy.timeline import Timeline, given_timeline
@@ -51,7 +51,8 @@ class TestSeries:
         self.clocks = dict(clocks)
         self._lines: dict[Member, Timeline] = {}
         self._sampled: dict[str, tuple[Int1D, Array, Array]] = {}
-        self._on_change: dict[Member, bool] = {}
+        self._no_rate: dict[Member, bool] = {}
+        self._by_hand: dict[str, Written | None] = {}
 
     def timeline(self, member: Member) -> Timeline:
         """The rows of a stream; those of the schedule are a grid of a minute plus its changes."""
@@ -69,13 +70,37 @@ class TestSeries:
         return self._lines[member]
 
     def as_written(self, bound: Bound) -> Bound:
-        """The same, with what its rows show: what is set stands until the next row of a log that has no rate."""
-        member = (bound.source, bound.stream)
-        if bound.channel.quantity not in SET or bound.is_held or bound.signal is None:
+        """The same, with what its rows show: what is set stands until the next row of a log that has no rate, or that
+        somebody wrote by hand."""
+        if bound.channel.quantity not in BY_HAND or bound.is_said or bound.signal is None:
             return bound
-        if member not in self._on_change:
-            self._on_change[member] = has_no_rate(self.timeline(member))
-        return replace(bound, on_change=self._on_change[member])
+        member = (bound.source, bound.stream)
+        no_rate = bound.channel.quantity in SET and self.has_no_rate(member)
+        return replace(bound, on_change=no_rate or self.by_hand(bound) == "on change")
+
+    def has_no_rate(self, member: Member) -> bool:
+        """Whether the rows of a stream come at no rate."""
+        if member not in self._no_rate:
+            self._no_rate[member] = has_no_rate(self.timeline(member))
+        return self._no_rate[member]
+
+    def by_hand(self, bound: Bound) -> Written | None:
+        """Whether somebody wrote a logged channel's steps down, by its rows and by what was logged beside them."""
+        if bound.channel.quantity not in BY_HAND or bound.signal is None or bound.is_said:
+            return None
+        if not (beside_ns := self.plan.step_beside(bound)):
+            return None
+        if bound.name not in self._by_hand:
+            line = self.timeline((bound.source, bound.stream))
+            rows = min(line.rows, MOST_BY_HAND + 1)
+            found = line.columns([bound.signal.name], 0, rows).get(bound.signal.name)
+            told = (
+                None
+                if found is None
+                else written_by_hand(bound.channel.quantity, line.times(0, rows), found, beside_ns)
+            )
+            self._by_hand[bound.name] = told
+        return self._by_hand[bound.name]
 
     def rows(self, member: Member) -> Rows:
         """Which rows of a stream are the test's, and which its history."""

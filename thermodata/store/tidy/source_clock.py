@@ -15,6 +15,7 @@ from thermodata.reader.zone import local_to_utc_ns
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.timeline import Timeline, make_timeline
+from thermodata.store.tidy.times_of_day import began, first_of
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
 _TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length
@@ -112,19 +113,39 @@ def _is_told(source: SourcePlan) -> bool:
 def _in_doubt(plan: TestPlan, dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
     """Logs without a date that last longer than what has dates, or shorter: they did not begin together, or did not end
     together, and nothing says which."""
+    told = {s.name: _by_its_clock(plan, dated, s) for s in undated}
+    by_clock = [said for said in told.values() if said is not None]
+    undated = [s for s in undated if told[s.name] is None]
     log_s = (max(map(last_ns, dated)) - min(map(first_ns, dated))) / 1e9
     lasts_s = {s.name: (last_ns(s) - first_ns(s)) / 1e9 for s in undated}
     names = [n for n, s in lasts_s.items() if abs(log_s - s) > _TOGETHER_S]
     if not names:
-        return []
+        return by_clock
     probes = any(s.name in names for s in plan.reference)
     say = "give the test its start: 2026-03-04 08:15" if probes else "declare the source's clock: {align_to: ...}"
     own_s = lasts_s[names[0]]
     return [
+        *by_clock,
         f"test '{plan.test.id}': nothing says when '{', '.join(names)}' began: it lasts {own_s / 3600:.3g} h, "
         f"what has dates {log_s / 3600:.3g} h, and is taken to begin with that; try: {say}, or, where they did begin "
-        "together, clock: {offset: 0 s}"
+        "together, clock: {offset: 0 s}",
     ]
+
+
+def _by_its_clock(plan: TestPlan, dated: list[SourcePlan], source: SourcePlan) -> str | None:
+    """A log without a date whose times of day say that it began at another time than what has dates."""
+    of_day_ns = first_of([r.of_day_ns for r in source.raws])
+    there = min(dated, key=first_ns)
+    zone = source.spec.timezone or there.spec.timezone
+    at = None if of_day_ns is None else began(of_day_ns, first_ns(there), zone)
+    if at is None:
+        return None
+    way = f"give the test its start: {at}" if source in plan.reference else "declare its clock: {offset: ...}"
+    return (
+        f"test '{plan.test.id}': '{source.name}' tells times of day without a date, and is taken to begin with "
+        f"'{there.name}'; by its first row it began {at}; try: {way}, or, where they did begin together, "
+        "clock: {offset: 0 s}"
+    )
 
 
 def start_ns(start: str, plan: TestPlan, source: SourcePlan | None = None) -> int:

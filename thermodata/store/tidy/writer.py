@@ -19,7 +19,7 @@ from thermodata.store.tidy.between import Sampler, Verdict
 from thermodata.store.tidy.chunk import Column
 from thermodata.store.tidy.cut_start import driven_before
 from thermodata.store.tidy.event import Event
-from thermodata.store.tidy.on_change import told
+from thermodata.store.tidy.on_change import SET, asked, told
 from thermodata.store.tidy.overrule import overrule, overruled, rules_of
 from thermodata.store.tidy.plan import Bound
 from thermodata.store.tidy.quality import Flagged
@@ -77,7 +77,7 @@ def write_member(
         return result
     here = [series.as_written(b) for b in series.plan.bound.values() if (b.source, b.stream) == member]
     held = tuple(b.name for b in here if b.is_held)
-    result.notes += told([b.name for b in here if b.on_change])
+    result.notes += _as_written(series, member, here, line.rows)
     result.notes += driven_before(series, member, here, rows.start, rows.stop)
     verdict = (verdict or Verdict()).of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
@@ -107,6 +107,15 @@ def write_member(
             part.discard()
     result.problems = list(dict.fromkeys(result.problems))
     return result
+
+
+def _as_written(series: TestSeries, member: Member, here: Sequence[Bound], rows: int) -> tuple[str, ...]:
+    """What is told of channels that are held for what their rows show, or may have to be."""
+    held = [b for b in here if b.on_change]
+    by_hand = [b.name for b in held if b.channel.quantity not in SET or not series.has_no_rate(member)]
+    asked_of = [b.name for b in here if not b.on_change and series.by_hand(b) == "asked"]
+    no_rate = [b.name for b in held if b.name not in by_hand]
+    return told(no_rate) + told(by_hand, by_hand=True) + tuple(asked(n, rows) for n in asked_of)
 
 
 def _pass(verdict: Verdict, t_s: Float1D, channels: Mapping[str, Column]) -> None:

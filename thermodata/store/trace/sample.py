@@ -136,7 +136,7 @@ def _behind(series: TestSeries, name: str, home: Member, t_ns: int, at: int, aga
         line = series.timeline(member)
         after = line.find(t_ns)
         exact = after < line.rows and int(line.times(after, after + 1)[0]) == t_ns
-        held = bound.channel.quantity in ("state", "label")
+        held = bound.channel.quantity in ("state", "label") or series.as_written(bound).is_held
         rows = [after] if exact else [r for r in ((after - 1,) if held else (after - 1, after)) if 0 <= r < line.rows]
     return [{"channel": name, **_raw(series, member, r, bound.signal.name, again)} for r in rows]
 

@@ -27,6 +27,7 @@ from thermodata.reader.text.time_formats import (
     times_of_numbers,
     times_of_texts,
 )
+from thermodata.reader.text.zone_named import named_note
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
@@ -84,6 +85,7 @@ class Table:
             name = group.stream if sheet is None else f"{sheet}/{group.stream}" if own else sheet
             before = "" if sheet is None else f"{sheet}/"
             self.notes += times.notes
+            self._say_named_zone(group, times)
             keep = self._rows_of(group, times.t_ns)
             values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
             percent: set[str] = set()
@@ -101,6 +103,14 @@ class Table:
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = replace(times, t_ns=times.t_ns[keep], notes=())
             yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
+
+    def _say_named_zone(self, group: Group, times: Stamps) -> None:
+        """A note on a zone that a header names, where it leaves open what holds in summer or another is declared."""
+        good = times.t_ns[times.t_ns != NAT]
+        headers = [self.layout.names[i] for i in group.time]
+        if times.absolute and good.size and stated_zone(headers) is None:
+            note = named_note(headers, self.source.timezone, int(good.min()), int(good.max()))
+            self.notes += [note] if note else []
 
     def _dated(self) -> list[Stamps]:
         """The times of each group, from the start that stands above the rows; that can't be one of some which count

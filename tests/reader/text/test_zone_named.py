@@ -1,0 +1,82 @@
+"""A zone that a head names and that leaves open where the times stand in summer: asked, and told where another is
+declared; never taken in silence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.make import draft_files
+from thermodata.plugin import Recording, Source
+from thermodata.reader.text import delimited
+from thermodata.reader.text.zone_named import named_in, saving_on
+
+HOUR = 3600 * 10**9
+EIGHT = 1772438400 * 10**9  # 2026-03-02 08:00 UTC
+
+
+def described(
+    folder: Path, *, time: str = "Zeit", above: str = "", month: int = 3, zone: str | None = None
+) -> Recording:
+    rows = [f"2026-{month:02d}-02 08:{k:02d}:00;{20 + k % 9},5" for k in range(40)]
+    lines = [*above.splitlines(), f"{time};T1 [°C]", *rows]
+    (folder / "log.csv").write_text("\n".join([*lines, ""]), "utf-8")
+    source = Source(timezone=zone)
+    return delimited.describe(delimited.open_table(folder / "log.csv", source), source)
+
+
+@pytest.mark.parametrize(
+    ("header", "zone"),
+    [
+        ("Zeit (MEZ)", "Etc/GMT-1"),
+        ("Time [EST]", "Etc/GMT+5"),
+        ("Time, CEST", "Etc/GMT-2"),
+        ("time_MESZ", "Etc/GMT-2"),
+        ("Time (WET)", "UTC"),
+        ("Time (UTC)", None),  # is taken
+        ("time_est", None),
+        ("CETTime", None),
+        ("Time (CST)", None),
+        ("Zeit", None),
+    ],
+)
+def test_words_of_zones_in_headers(header: str, zone: str | None) -> None:
+    assert (named_in([header]) or (None,))[0] == zone
+
+
+def test_without_a_declared_zone_it_is_asked(tmp_path: Path) -> None:
+    found = described(tmp_path, time="Zeit (MEZ)")
+    assert found.start_ns == EIGHT
+    assert any("no time zone" in n for n in found.notes)
+    assert any("'Zeit (MEZ)'" in n and "timezone: Etc/GMT-1 where they never are" in n for n in found.notes)
+    draft_files(tmp_path)
+    (line,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
+    assert "the head says 'Zeit (MEZ)'" in line
+
+
+@pytest.mark.parametrize(
+    ("month", "zone", "told"), [(7, "Europe/Berlin", True), (3, "Europe/Berlin", False), (7, "Etc/GMT-1", False)]
+)
+def test_a_declared_zone_that_stands_elsewhere_is_told(tmp_path: Path, month: int, zone: str, told: bool) -> None:
+    notes = described(tmp_path, time="Zeit (MEZ)", month=month, zone=zone).notes
+    assert any(f"'Zeit (MEZ)'; the declared {zone} is used" in n for n in notes) is told
+    assert not any("where they never are" in n for n in notes)
+
+
+@pytest.mark.parametrize("line", ["Daylight saving;On", "DST: Yes", "# Sommerzeit = ein", "DST;1"])
+def test_an_offset_beside_daylight_saving_is_asked(tmp_path: Path, line: str) -> None:
+    found = described(tmp_path, above=f"UTC offset;+01:00\n{line}", month=3)
+    assert found.start_ns == EIGHT
+    assert any("no time zone" in n for n in found.notes)
+    assert any("timezone: Etc/GMT-1 where they never are" in n for n in found.notes)
+
+
+@pytest.mark.parametrize("line", ["Daylight saving;Off", "DST: No", "DST correction: On", "Interval;On"])
+def test_an_offset_beside_none_is_taken(tmp_path: Path, line: str) -> None:
+    assert described(tmp_path, above=f"UTC offset;+01:00\n{line}").start_ns == EIGHT - HOUR
+
+
+def test_which_line_says_that_clocks_are_put_ahead() -> None:
+    assert saving_on([["UTC offset", "+01:00"], ["Daylight saving", "On"]]) == "Daylight saving On"
+    assert saving_on([["DST", "Off"]]) is None

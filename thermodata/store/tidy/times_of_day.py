@@ -1,0 +1,29 @@
+"""Logs that tell times of day without a date, beside logs that have dates: whether they begin when these do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
+
+from thermodata.reader.zone import utc_offset_ns
+
+DAY_NS, _HOUR_NS = 86_400 * 10**9, 3_600 * 10**9
+NEAR_NS = 120 * 10**9  # by which logs that are taken to begin together differ
+
+
+def began(of_day_ns: int, first_ns: int, timezone: str | None) -> str | None:
+    """When a log whose first row tells a time of day began, on the clock of one that begins at `first_ns` (UTC), where
+    that is another time: '2026-03-02 22:45:00'. None where they begin together, or by whole hours apart on clocks of
+    which nobody says the zone."""
+    local_ns = first_ns + (utc_offset_ns(timezone, first_ns // 10**9) if timezone is not None else 0)
+    apart_ns = (of_day_ns - local_ns + DAY_NS // 2) % DAY_NS - DAY_NS // 2
+    beside_hours = abs((apart_ns + _HOUR_NS // 2) % _HOUR_NS - _HOUR_NS // 2)
+    if abs(apart_ns) <= NEAR_NS or (timezone is None and beside_hours <= NEAR_NS):
+        return None
+    moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=(local_ns + apart_ns) // 1000)
+    return f"{moment:%Y-%m-%d %H:%M:%S}"
+
+
+def first_of(of_days: Sequence[int | None]) -> int | None:
+    """The time of day of the first row of a log's first part; None where a part tells none."""
+    return of_days[0] if of_days and all(x is not None for x in of_days) else None
