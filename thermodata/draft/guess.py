@@ -18,7 +18,7 @@ from thermodata.draft.naming import words
 from thermodata.draft.place import Place, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
 from thermodata.draft.values import Values
-from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says
+from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
@@ -105,16 +105,18 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
     known = unit or written
-    if known and not is_unit(known):
+    counts = units.counts_or_range(_last(name)) if not known else None
+    if counts or (known and not is_unit(known)):
         found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
             return _place(found, own, text)
-        asked = f"unit: the file says '{known}', which is no unit known here"
-        return (
-            replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,))
-            if found.quantity
-            else found
-        )
+        asked = f"the file says '{known}', which is no unit known here"
+        if counts:
+            asked = f"the file says '{counts}': is each count one of these, or is that a range? ({range_text(values)})"
+        if found.quantity is None or found.basis == ("values",):  # of which nobody knows what they count
+            why = found.why_not if found.quantity is None and foreign_in(what) else f"quantity and unit? {asked}"
+            return Guess(None, why_not=why)
+        return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
     found = quantity_of(what, text, known, dtype, values)
     if found.quantity == "label" and _STATUS.fullmatch(_last(bare).strip()):
         return replace(found, sure=False, questions=(_ASK_STATUS,))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from thermodata.errors import UsageError
-from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
+from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
 from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import bare_unit
 
@@ -54,6 +54,7 @@ _IN_NAME = re.compile(
 )
 
 _SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
+_COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|[°º%][^\[\]]*))\]\s*$")
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
@@ -70,6 +71,12 @@ def from_name(name: str) -> str | None:
     """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
     match = _IN_NAME.search(name.strip())
     return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
+
+
+def counts_or_range(name: str) -> str | None:
+    """'10 nm' of 'd6Z [10 nm]': what one count is, or how far the values may go, which only the lab knows."""
+    match = _COUNTS.search(name)
+    return match["all"] if match and is_unit(match["unit"]) else None
 
 
 def may_be_fahrenheit(name: str) -> bool:
