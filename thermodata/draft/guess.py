@@ -100,10 +100,15 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in bare.split("/"))
     own, text = words(_last(bare)), words(bare)
-    written = (rate or units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
+    ends = dict.fromkeys((_last(bare), _field(bare), _last(units.without_value(bare))))
+    written = (rate or next(filter(None, map(units.from_name, ends)), None)) if not unit else None
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
+    if not unit and not written:
+        by_name = quantity_of(what, text, None, dtype, values)
+        quantity = by_name.quantity if "name" in by_name.basis else None
+        written = next(filter(None, (units.beside(end, quantity, values) for end in ends)), None)
     known = unit or written
     counts = units.counts_or_range(_last(name)) if not known else None
     if counts or (known and not is_unit(known)):
@@ -179,9 +184,9 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         asked = f"unit: {implied}?"
         return replace(found, unit=implied, sure=False, questions=(*found.questions, asked), instead_of=unit)
     hint = {
-        "displacement": "um, mm or V?",
+        "displacement": "um, mm, m or V?",
         "feed": "m/min or mm/min?",
-        "power": "kW or W?",
+        "power": "kW, W or hp?",
         "pressure": "bar or MPa?",
         "flow": "l/min?",
         "irradiance": "W/m2?",
