@@ -76,7 +76,7 @@ _DEVICE = re.compile(r"\s*\((?P<device>[^()]*\bS/N\b[^()]*)\)$")
 _LABEL = re.compile(r"\bLBL: *(?P<label>[^,]+)")
 # '101 (C)- T_front', '101 <front> (C)', 'M00: °C': a unit behind the number of a channel
 _OF_CHANNEL = re.compile(
-    r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S+))$"
+    r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S.*))$"
 )
 _SQUARE = re.compile(r"^(?P<before>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\[\]]{2,})\]\s+(?P<behind>[^\[\]]+)$")
 
