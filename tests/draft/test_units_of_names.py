@@ -39,3 +39,15 @@ def test_the_end_of_a_name_is_its_unit_beside_a_quantity_that_has_it(
 def test_a_question_offers_horsepower_and_metres() -> None:
     assert "kW, W or hp?" in guess("spindle_power", None, "float64", _seen(1, 7)).comment()
     assert "um, mm, m or V?" in guess("dX", None, "float64", _seen(0, 3e-5)).comment()
+
+
+@pytest.mark.parametrize("name", ["/temps.temps[0]", "/thermo.temps", "mc/temps"])
+def test_temps_in_a_message_are_temperatures(name: str) -> None:
+    said = guess(name, None, "float64", _seen(294.0, 299.5))
+    assert (said.quantity, said.unit) == ("temperature", "K")
+
+
+@pytest.mark.parametrize(("name", "unit"), [("temps", None), ("Temps", "s"), ("mc/temps", "s")])
+def test_temps_of_a_table_or_in_seconds_is_time(name: str, unit: str | None) -> None:
+    said = guess(name, unit, "float64", _seen(0.0, 3590.0))
+    assert said.quantity is None

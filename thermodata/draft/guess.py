@@ -105,6 +105,8 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
+    if field == "temps" and _field(bare) != bare and not unit:
+        what = own = "temperature"  # the time of a message is no field of it called in French
     if not unit and not written:
         by_name = quantity_of(what, text, None, dtype, values)
         quantity = by_name.quantity if "name" in by_name.basis else None
