@@ -13,7 +13,7 @@ from functools import lru_cache
 from thermodata.draft import units
 from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
-from thermodata.draft.doubted_units import doubted
+from thermodata.draft.doubted_units import doubted, implausible
 from thermodata.draft.naming import words
 from thermodata.draft.place import Place, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
@@ -132,7 +132,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(_place(_unit(found, unit, written, values), own, text), own, values)
-    return found if known or values is None else doubted(found, bare, values)
+    if values is None:
+        return found
+    return implausible(found, values) if known else doubted(found, bare, values)
 
 
 def _small(found: Guess, own: str, values: Values | None) -> Guess:

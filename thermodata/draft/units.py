@@ -148,6 +148,22 @@ def kelvins(unit: str) -> float | None:
     return None if size is None else scale * size
 
 
+def factor_to(unit: str, target: str) -> float:
+    """How many of the target one of a unit is; 0 where it does not convert."""
+    try:
+        return abs(linear_conversion(unit, target)[0])
+    except UsageError:
+        return 0.0
+
+
+def to_degc(unit: str) -> tuple[float, float]:
+    """(factor, offset) from a unit of temperature to degC; as if it were degC where it is none."""
+    try:
+        return linear_conversion(unit, "degC")
+    except UsageError:
+        return 1.0, 0.0
+
+
 def is_inclination(unit: str) -> bool:
     """Whether a unit is one of angles or of slopes, which a name may make a tilt: 'mm/m', 'µm/m', 'arcsec'."""
     bare = bare_unit(unit)

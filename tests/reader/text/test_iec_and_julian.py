@@ -42,7 +42,11 @@ def test_julian_days_are_counted_from_their_zero(unit: str, number: float) -> No
 
 @pytest.mark.parametrize(
     ("first", "asked", "not_asked"),
-    [(61101.25, "mjd (modified Julian days: 2026-03-02)", "(Julian"), (2461101.75, "jd (Julian", "excel"), (46083.25, "excel", "mjd")],
+    [
+        (61101.25, "mjd (modified Julian days: 2026-03-02)", "(Julian"),
+        (2461101.75, "jd (Julian", "excel"),
+        (46083.25, "excel", "mjd"),
+    ],
 )
 def test_days_are_asked_for_by_their_size(first: float, asked: str, not_asked: str) -> None:
     with pytest.raises(QuestionError) as found:

@@ -4,7 +4,19 @@
 _DASHES = tuple("-" * n + mark + "-" * k for n in range(1, 5) for mark in ".," for k in range(1, 5))
 EMPTY = frozenset(
     (
-        *("", *("-" * n for n in range(1, 13)), *_DASHES, "*", "***", "****", "?", "???", "null", "none", "unavailable"),
+        *(
+            "",
+            *("-" * n for n in range(1, 13)),
+            *_DASHES,
+            "*",
+            "***",
+            "****",
+            "?",
+            "???",
+            "null",
+            "none",
+            "unavailable",
+        ),
         *("na", "n/a", "#n/a", "n.a.", "#nv", "nan", "+nan", "-nan", "nan(ind)", "-nan(ind)"),
         *("1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1,#qnan", "-1,#qnan", "1,#ind", "-1,#ind"),
     )

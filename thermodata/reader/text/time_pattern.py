@@ -109,7 +109,9 @@ _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": 
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
     # a spreadsheet leaves out the time of day at midnight
-    order: _format("datetime", f"{_IEC if order == 'ymd' else ''}{body}(?:{_BETWEEN}{CLOCK})?", f"{_TEXTS[order]} HH:MM:SS")
+    order: _format(
+        "datetime", f"{_IEC if order == 'ymd' else ''}{body}(?:{_BETWEEN}{CLOCK})?", f"{_TEXTS[order]} HH:MM:SS"
+    )
     for order, body in _DATES.items()
 }
 
