@@ -46,3 +46,22 @@ def test_a_unit_that_is_stated_is_not_asked() -> None:
     assert asked("Spindle speed", 0, 8, unit="rpm") == ""
     assert asked("T_bearing", 70, 104, unit="°C") == ""
     assert asked("Spindle speed_krpm", 0, 8) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "low", "high", "asked"),
+    [
+        ("dZ", "mm", 0.0, 19.0, "unit: mm? it goes over 19 mm"),
+        ("dZ", "mm", 0.0, 0.3, ""),
+        ("dZ", "um", 2000.0, 2300.0, ""),  # an offset of the probe is none
+        ("Bett", "°C", 70.0, 87.0, "unit: °C? no reading is below 70 degC"),
+        ("Bett", "°F", 70.0, 87.0, ""),
+        ("Bett", "°C", 21.0, 87.0, ""),
+        ("T Motor Z", "°C", 70.0, 87.0, ""),
+    ],
+)
+def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
+    name: str, unit: str, low: float, high: float, asked: str
+) -> None:
+    said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200))).comment()
+    assert asked in said if asked else "unit:" not in said

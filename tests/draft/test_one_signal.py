@@ -53,3 +53,25 @@ def test_two_columns_of_one_file_are_two_channels(tmp_path: Path) -> None:
         header = ["t [s]", "Front brg (C)", "Front brg (F)"]
         text(tmp_path / f"run_{k}.csv", header, [numbers(t, 0), numbers(20 + t / 99, 2), numbers(68 + t / 55, 2)])
     assert len(draft_files(tmp_path).draft.channels) == 2
+
+
+def test_a_head_that_only_some_files_have_makes_no_second_channel(tmp_path: Path) -> None:
+    logs(tmp_path, ["mc/Front brg (C)", "Front brg (C)", "Front brg (C)"], [(1, 0)] * 3)
+    (bearing,) = [c for c in draft_files(tmp_path).draft.channels if c.said.at == "spindle.bearing.front"]
+    assert (bearing.signal, bearing.only_in) == ("Front brg", ())
+
+
+def test_heads_that_tell_columns_of_one_file_apart_stay(tmp_path: Path) -> None:
+    t = np.arange(300) * 10.0
+    warm = [numbers(t, 0), numbers(20 + t / 299, 3), numbers(21 + t / 299, 3)]
+    text(tmp_path / "run_1.csv", ["t [s]", "left/Front brg (C)", "right/Front brg (C)"], warm, mark=",")
+    text(tmp_path / "run_2.csv", ["t [s]", "Front brg (C)", "Hall air [degC]"], warm, mark=",")
+    names = [c.signal for c in draft_files(tmp_path).draft.channels if "air" not in c.signal]
+    assert names == ["left/Front brg (C)", "right/Front brg (C)", "Front brg (C)"]
+
+
+def test_a_statistic_is_called_by_the_name_above_it(tmp_path: Path) -> None:
+    t = np.arange(300) * 10.0
+    warm = [numbers(t, 0), numbers(20 + t / 299, 3), numbers(21 + t / 299, 3)]
+    text(tmp_path / "run.csv", ["t [s]", "BRG_FRONT/Min [degC]", "Eddy Z/AVE (µm)"], warm, mark=",")
+    assert [c.name for c in draft_files(tmp_path).draft.channels] == ["BRG_FRONT_Min", "Eddy_Z_AVE"]

@@ -232,7 +232,10 @@ MUTANTS = [
     text("table.py", "            decimal_declared=self.decimal_declared,\n", "", "the declared mark is left out"),
     # ---- what stands above and below the rows
     text(
-        "header_rows.py", "and _mostly_units(below[0]) and unnamed", "and _mostly_units(below[0])", "names are comments"
+        "header_rows.py",
+        "and of_units(below[0], times) and unnamed",
+        "and of_units(below[0], times)",
+        "names are comments",
     ),
     text(
         "header_rows.py", "[n or a for n, a in zip(row, above", "[n for n, a in zip(row, above", "merged names are lost"

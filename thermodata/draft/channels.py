@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import replace
@@ -10,7 +11,7 @@ from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import called, guess
 from thermodata.draft.jumps import JumpTest
 from thermodata.draft.naming import channel_name, words
-from thermodata.draft.one_signal import OneSignal, joined_over_units
+from thermodata.draft.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
 from thermodata.draft.other_units import unit_question
 from thermodata.draft.own_scale import scale_note
@@ -27,6 +28,7 @@ from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
+_STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
 
 
@@ -37,7 +39,7 @@ def channels_of(
     which a jump test may have under another head."""
     found = [
         one
-        for one in joined_over_units(group.signals)
+        for one in joined_over_heads(joined_over_units(group.signals), group.files)
         if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
     ]
     more = len(found) - _MOST_SIGNALS
@@ -125,6 +127,8 @@ def _wished(signal: str, said: Guess) -> str:
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
         last = "_".join(parts[-2:])
+    if len(parts) > 1 and _STATISTIC.fullmatch(last.strip()):  # of which only the name above says what it is of
+        last = f"{split_unit(parts[-2])[0]}_{last.strip()}"
     if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
         last = split_unit(parts[-2])[0]
     foreign = sum(ord(c) > 0x2FF for c in bare)

@@ -13,6 +13,9 @@ _NO_REST_C = 60.0  # no bearing, column or oil begins a log above that, though a
 _AIR = ("hall", "floor", "outside")
 # spindles turn with hundreds of rpm; in krpm, or in turns a second, a test has fewer than this
 _FEW_RPM = 60.0
+_FURTHEST_UM = 3000.0  # a tool is displaced by tenths of a millimetre
+_COOL = ("bed", "column", "table", "crossbeam", "saddle", "hall", "floor", "outside")  # no heat is made there
+_HOTTEST_C = 150.0  # above it stand counts and kelvins, which are asked for elsewhere
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -28,6 +31,24 @@ def doubted(found: Guess, name: str, values: Values) -> Guess:
     if asked is None:
         return found
     return replace(found, sure=False, questions=(*found.questions, f"unit: {asked} ({range_text(values)})"))
+
+
+def implausible(found: Guess, values: Values) -> Guess:
+    """With a question where a unit that the file says makes readings of it that no machine gives: a header that was
+    typed, and is wrong."""
+    if found.unit is None or values.n == 0:
+        return found
+    asked = None
+    if found.quantity == "displacement":
+        span = (values.high - values.low) * units.factor_to(found.unit, "um")
+        if span > _FURTHEST_UM:
+            asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
+    elif found.quantity == "temperature" and units.kelvins(found.unit) is None and _stands_at(found, _COOL):
+        factor, offset = units.to_degc(found.unit)
+        least = factor * _coldest(values) + offset
+        if _NO_REST_C <= least <= _HOTTEST_C:
+            asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
+    return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
 
 
 def _coldest(values: Values) -> float:

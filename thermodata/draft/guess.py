@@ -13,12 +13,12 @@ from functools import lru_cache
 from thermodata.draft import units
 from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
-from thermodata.draft.doubted_units import doubted
+from thermodata.draft.doubted_units import doubted, implausible
 from thermodata.draft.naming import words
 from thermodata.draft.place import Place, place_of
 from thermodata.draft.quantity import Guess, quantity_of, range_text
 from thermodata.draft.values import Values
-from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, quantities_in, says
+from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
@@ -100,21 +100,30 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in bare.split("/"))
     own, text = words(_last(bare)), words(bare)
-    written = (rate or units.from_name(_last(bare)) or units.from_name(_field(bare))) if not unit else None
+    ends = dict.fromkeys((_last(bare), _field(bare), _last(units.without_value(bare))))
+    written = (rate or next(filter(None, map(units.from_name, ends)), None)) if not unit else None
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
+    if field == "temps" and _field(bare) != bare and not unit:
+        what = own = "temperature"  # the time of a message is no field of it called in French
+    if not unit and not written:
+        by_name = quantity_of(what, text, None, dtype, values)
+        quantity = by_name.quantity if "name" in by_name.basis else None
+        written = next(filter(None, (units.beside(end, quantity, values) for end in ends)), None)
     known = unit or written
-    if known and not is_unit(known):
+    counts = units.counts_or_range(_last(name)) if not known else None
+    if counts or (known and not is_unit(known)):
         found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
             return _place(found, own, text)
-        asked = f"unit: the file says '{known}', which is no unit known here"
-        return (
-            replace(_place(replace(found, unit=None), own, text), sure=False, questions=(asked,))
-            if found.quantity
-            else found
-        )
+        asked = f"the file says '{known}', which is no unit known here"
+        if counts:
+            asked = f"the file says '{counts}': is each count one of these, or is that a range? ({range_text(values)})"
+        if found.quantity is None or found.basis == ("values",):  # of which nobody knows what they count
+            why = found.why_not if found.quantity is None and foreign_in(what) else f"quantity and unit? {asked}"
+            return Guess(None, why_not=why)
+        return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
     found = quantity_of(what, text, known, dtype, values)
     if found.quantity == "label" and _STATUS.fullmatch(_last(bare).strip()):
         return replace(found, sure=False, questions=(_ASK_STATUS,))
@@ -123,7 +132,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(_place(_unit(found, unit, written, values), own, text), own, values)
-    return found if known or values is None else doubted(found, bare, values)
+    if values is None:
+        return found
+    return implausible(found, values) if known else doubted(found, bare, values)
 
 
 def _small(found: Guess, own: str, values: Values | None) -> Guess:
@@ -177,9 +188,9 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         asked = f"unit: {implied}?"
         return replace(found, unit=implied, sure=False, questions=(*found.questions, asked), instead_of=unit)
     hint = {
-        "displacement": "um, mm or V?",
+        "displacement": "um, mm, m or V?",
         "feed": "m/min or mm/min?",
-        "power": "kW or W?",
+        "power": "kW, W or hp?",
         "pressure": "bar or MPa?",
         "flow": "l/min?",
         "irradiance": "W/m2?",

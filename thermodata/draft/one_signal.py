@@ -27,7 +27,11 @@ class OneSignal:
     @property
     def written(self) -> str:
         """Its name in a campaign file, by which every one of its files is read."""
-        return self.signal.name if len(self.spellings) == 1 else split_unit(self.signal.name)[0]
+        names = {s.name for s in self.spellings}
+        if len(names) == 1:
+            return self.signal.name
+        bare = {split_unit(n)[0] for n in names}
+        return bare.pop() if len(bare) == 1 else _last(self.signal.name)
 
     def of(self, file: RawFile) -> Signal | None:
         """The signal as this file has it."""
@@ -51,6 +55,38 @@ def joined_over_units(found: Sequence[tuple[Signal, Sequence[RawFile]]]) -> list
         homes.append(len(made))
         made.append(own)
     return made
+
+
+def joined_over_heads(found: Sequence[OneSignal], of_tests: Sequence[RawFile]) -> list[OneSignal]:
+    """The same, those in one whose files call them alike but for the groups above or the stream: 'data/rpm' and, in a
+    file of another kind, 'rpm'. A campaign file's name fits both; as two channels both would be read twice. Signals of
+    jump tests, which no file of tests has, stay as they are."""
+    made: list[OneSignal] = []
+    by_name: dict[str, list[int]] = {}
+    own_files = {id(f) for f in of_tests}
+    for own in found:
+        if not all(id(f) in own_files for f in own.files):
+            made.append(own)
+            continue
+        homes = by_name.setdefault(_last(own.signal.name), [])
+        home = next((i for i in homes if _are_one(made[i], own) and not (_ambiguous(made[i]) or _ambiguous(own))), None)
+        if home is not None:
+            one = made[home]
+            made[home] = OneSignal((*one.spellings, *own.spellings), (*one.files, *own.files))
+            continue
+        homes.append(len(made))
+        made.append(own)
+    return made
+
+
+def _last(name: str) -> str:
+    return split_unit(name)[0].rsplit("/", 1)[-1]
+
+
+def _ambiguous(one: OneSignal) -> bool:
+    """Whether a file of it has more signals whose names end so: the last part would not tell them apart."""
+    name = _last(one.signal.name)
+    return any(sum(_last(s.name) == name for s in f.signals) > 1 for f in one.files)
 
 
 def _are_one(one: OneSignal, other: OneSignal) -> bool:

@@ -25,8 +25,8 @@ def which_way(said: Guess) -> str:
     looks = f"+{axis} or -{axis}" if said.axis else "+X, -X, +Y, -Y, +Z or -Z"
     return (
         f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: "
-        f"{calibration_for(axis, '?', '?')} under calibrations; facing: {looks}, where the probe looks; "
-        "increases_with: gap or approach"
+        f"{calibration_for(axis, '?', '?')} under calibrations; facing: {looks}, where a probe that stands on the "
+        "table looks, and the opposite of where one in the spindle does; increases_with: gap or approach"
     )
 
 

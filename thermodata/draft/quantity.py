@@ -12,7 +12,7 @@ from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
 from thermodata.reader.time_units import found_epoch
 from thermodata.schema.quantity import normal_unit
-from thermodata.schema.unit_spelling import bare_unit
+from thermodata.schema.unit_spelling import bare_unit, is_of_humidity
 
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 # what creeps there between 5 and 80 is a temperature
@@ -104,6 +104,11 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     both = [q for q in possible if q in named]
     if (size := units.kelvins(unit)) is not None:
         return _kelvin(named, unit, size, values)
+    if is_of_humidity(unit):
+        other = next((q for q in named if q not in ("state", "humidity")), None)
+        asked = (f"quantity: {other}? the unit says humidity",) if other else ()
+        sure = "humidity" in named and not asked
+        return Guess("humidity", unit, sure=sure, basis=("name", "unit") if sure else ("unit",), questions=asked)
     if both and (both[0] != "voltage" or "displacement" not in both):
         return Guess(both[0], unit, sure=True, basis=("name", "unit"))
     if "displacement" in both:

@@ -41,7 +41,8 @@ class RawFile:
     """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
     answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
-    its sheets are none; letters: the encoding of a text that is no ASCII."""
+    its sheets are none; letters: the encoding of a text that is no ASCII; delivered: what its reader gives, where
+    columns of it are left out of `recording`."""
 
     path: PurePosixPath
     reader: str
@@ -54,6 +55,7 @@ class RawFile:
     sheet: str | None = None
     besides: tuple[str, ...] = ()
     letters: str | None = None
+    delivered: Recording | None = None
 
     @property
     def source(self) -> Source:
@@ -133,8 +135,8 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]
         asked += [Asked(f"time: {n}", {}) for n in recording.notes if re.search(_ASSUMED, n)]
         asked += [Asked(_asked_start(n), _START) for n in recording.notes if NOT_TAKEN in n and "{start: head}" in n]
-    recording = _without_times(recording, {name for a in asked for name in a.times})
-    return replace(file, recording=recording, asked=tuple(asked), table=table or None)
+    left = _without_times(recording, {name for a in asked for name in a.times})
+    return replace(file, recording=left, delivered=recording, asked=tuple(asked), table=table or None)
 
 
 def _without_times(recording: Recording, times: Set[str]) -> Recording:
@@ -200,4 +202,4 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
 
 def sample_of_file(path: Path, file: RawFile) -> Sample:
     """A sample of a file's values, as it was described."""
-    return sample_of(path, reader(file.reader), file.source, file.recording, file.size)
+    return sample_of(path, reader(file.reader), file.source, file.delivered or file.recording, file.size)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 
+from thermodata.draft.values import Values
 from thermodata.errors import UsageError
-from thermodata.schema.quantity import CANONICAL_UNIT, linear_conversion, normal_unit
+from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
 from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import bare_unit
 
@@ -54,6 +56,21 @@ _IN_NAME = re.compile(
 )
 
 _SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
+_COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|[°º%][^\[\]]*))\]\s*$")
+# units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
+# but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
+_BESIDE: Mapping[str, Mapping[str, str]] = {
+    "power": {"kw": "kW", "w": "W", "hp": "hp"},
+    "displacement": {"m": "m", "nm": "nm"},
+    "position": {"m": "m"},
+    "current": {"a": "A"},
+    "voltage": {"v": "V"},
+    "temperature": {"k": "K"},
+}
+_LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
+_COLDEST_K = 250.0
+_FURTHEST_M = 0.05  # no tool is displaced by more
+_VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
@@ -70,6 +87,31 @@ def from_name(name: str) -> str | None:
     """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
     match = _IN_NAME.search(name.strip())
     return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
+
+
+def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
+    """The unit in lower case at the end of a name that says such a quantity: 'spindle_power_kw', 'probe_z_m'. None
+    where the values speak against it."""
+    match = _LOWER_AT_END.search(name.strip())
+    if match is None:
+        return None
+    unit = _BESIDE.get(quantity or "", {}).get(match[1])
+    if unit == "m" and quantity == "displacement":
+        return unit if values is not None and values.high - values.low < _FURTHEST_M else None
+    if unit == "K":
+        return unit if values is not None and values.low > _COLDEST_K else None
+    return unit
+
+
+def without_value(name: str) -> str:
+    """A path of names without a last one that says nothing: 'mc/probe/dZ_um/value' -> 'mc/probe/dZ_um'."""
+    return _VALUE.sub("", name) or name
+
+
+def counts_or_range(name: str) -> str | None:
+    """'10 nm' of 'd6Z [10 nm]': what one count is, or how far the values may go, which only the lab knows."""
+    match = _COUNTS.search(name)
+    return match["all"] if match and is_unit(match["unit"]) else None
 
 
 def may_be_fahrenheit(name: str) -> bool:
@@ -104,6 +146,22 @@ def kelvins(unit: str) -> float | None:
     scale, bare = scaled_unit(unit)
     size = {"K": 1.0, "dK": 0.1, "cK": 0.01, "mK": 0.001}.get(normal_unit(bare))
     return None if size is None else scale * size
+
+
+def factor_to(unit: str, target: str) -> float:
+    """How many of the target one of a unit is; 0 where it does not convert."""
+    try:
+        return abs(linear_conversion(unit, target)[0])
+    except UsageError:
+        return 0.0
+
+
+def to_degc(unit: str) -> tuple[float, float]:
+    """(factor, offset) from a unit of temperature to degC; as if it were degC where it is none."""
+    try:
+        return linear_conversion(unit, "degC")
+    except UsageError:
+        return 1.0, 0.0
 
 
 def is_inclination(unit: str) -> bool:

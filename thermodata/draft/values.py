@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Array
+from thermodata.calibration.quality_limit import impossible, sentinels
+from thermodata.calibration.quality_value import run_stats
+from thermodata.plugin import Array, Float1D
 
 _FEW = 8
+_OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +54,7 @@ def values_of(column: Array) -> Values | None:
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
-    x = x[np.isfinite(x)]
+    x = _readings(x[np.isfinite(x)])
     if not x.size:
         return None
     change = np.abs(np.diff(x))
@@ -67,6 +70,22 @@ def values_of(column: Array) -> Values | None:
         bool((x == np.round(x)).all()),
         float(x[0]),
     )
+
+
+def _readings(x: Float1D) -> Float1D:
+    """Without a logger's marks for "over range" and "no value", which are no reading: 1e+38, -9999, 1000000. x: shape
+    (n,), finite; as it is where nothing else is left."""
+    if not x.size:
+        return x
+    marks = impossible(x, "displacement") | sentinels(x, run_stats(x))
+    largest = float(np.abs(x).max())
+    if largest >= _OVERFLOW and np.log10(largest) == round(np.log10(largest)):
+        # a full number of zeros, far above all else: catman writes 1000000
+        there = np.abs(x) == largest
+        others = np.abs(x[~there & ~marks])
+        if others.size and largest > _FAR * float(others.max()):
+            marks |= there
+    return x[~marks] if not marks.all() else x
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:

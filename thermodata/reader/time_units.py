@@ -66,6 +66,8 @@ EPOCHS = {
     "datenum": Epoch(_DAY, -719529 * 86400, True),
     "excel": Epoch(_DAY, -25569 * 86400, True),
     "excel1904": Epoch(_DAY, -24107 * 86400, True),
+    "mjd": Epoch(_DAY, -40587 * 86400, False),  # modified Julian days, since 1858-11-17
+    "jd": Epoch(_DAY, -210_866_760_000, False),  # Julian days, which begin at noon
     "unix": Epoch(1.0, 0, False),
     "posix": Epoch(1.0, 0, False),
     "unix_ms": Epoch(1e-3, 0, False),

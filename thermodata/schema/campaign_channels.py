@@ -105,7 +105,8 @@ class JumpCalibration(Strict):
         calibrated until they are written
     dwell: time at each position [s]
     move_uncertainty: of one commanded move [um]; goes into the sensitivity's uncertainty
-    facing: the way the probe looks, for a check of the sign
+    facing: the way a probe that stands on the table looks, and the opposite of where one in the spindle does; for a
+        check of the sign
     increases_with: what makes the reading grow: gap (eddy current) or approach (many contact probes)
     gain: of the data sheet, for a check: 250 um/V
     """
@@ -131,7 +132,8 @@ class ScaleCalibration(Strict):
     axis: the axis that it measures
     gain: with a unit: 250 um/V
     offset: added after the gain, in the unit of the result
-    facing: the way the probe looks; gives the sign
+    facing: the way a probe that stands on the table looks, and the opposite of where one in the spindle does; gives
+        the sign
     increases_with: what makes the reading grow: gap or approach
     uncertainty: of the gain: 2 %
     """

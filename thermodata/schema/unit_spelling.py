@@ -95,6 +95,7 @@ UNIT_SPELLING: dict[str, str] = {
     "rh": "percent",
     "%r.h.": "percent",
     "%rf": "percent",
+    "%h": "percent",
     "%r.f.": "percent",
     "proz.": "percent",
     "kw": "kW",
@@ -172,6 +173,15 @@ _GRAD = re.compile(r"(?<![^\W\d_])grad(?![^\W\d_])", re.IGNORECASE)
 _WIDE = re.compile("[\uff01-\uff5e\u3351\u3371-\u33df\u2113\u2103\u2109]")
 _LITRE = "\u3351"
 _ALIKE = str.maketrans({"º": "°", "˚": "°", "µ": "μ", "−": "-", "∙": "·", "⋅": "·", "×": "*"})
+
+
+# of humidity: no other share is called so ('%H' is Almemo's)
+_HUMID = frozenset({"%rh", "rh%", "rh", "%r.h.", "%rf", "%r.f.", "%h"})
+
+
+def is_of_humidity(text: str) -> bool:
+    """Whether a unit says of what it is a share: '%rF', '% r.H.', '%H'."""
+    return bare_unit(text).casefold() in _HUMID
 
 
 @lru_cache(maxsize=4096)

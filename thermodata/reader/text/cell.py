@@ -6,7 +6,8 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from thermodata.reader.text.number import EMPTY, OVERLOAD, spelled
+from thermodata.reader.text.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.number import spelled
 from thermodata.reader.text.time_pattern import is_date_text, is_time_of_day
 
 Cell = Any  # text, or what a workbook holds: numbers, bool, datetime, date, time, timedelta

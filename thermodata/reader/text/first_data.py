@@ -36,7 +36,7 @@ def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
     for i, row in enumerate(body):
         if stamped and not any(is_stamp(c) for k, c in enumerate(row) if k in stamped):
             continue  # a row of a list of channels with their ranges
-        if labels and said_by(str(row[0] if row else "").strip(" :")) is not None:
+        if labels and _is_labelled(row):
             continue  # 'Start date;2026-03-02' above 'Start time;07:00:00'
         following = [r for r in body[i + 1 : i + 11] if any(c not in ("", None) for c in r)]
         if not is_data(row, width) or sum(is_data(r, width) for r in following) * 2 < len(following):
@@ -57,6 +57,16 @@ def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         expected="rows of numbers and times",
         hint="declare table: {header_rows: ..., skip_rows: ...}",
     )
+
+
+def _is_labelled(row: Sequence[Cell]) -> bool:
+    """Whether a row whose first cell is a number or a time elsewhere is one of a preamble: that names the date behind
+    it, ends with a colon, or is a word beside a value and cells that are left out."""
+    first = str(row[0] if row else "").strip()
+    if said_by(first.strip(" :")) is not None:
+        return True
+    filled = [c for c in row if c not in ("", None)]
+    return first[:1].isalpha() and not is_stamp(first) and (first.endswith(":") or len(filled) == 2 < len(row))
 
 
 def _dates(body: Sequence[Sequence[Cell]], width: int) -> set[int] | None:

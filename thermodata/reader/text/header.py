@@ -13,7 +13,7 @@ from thermodata.schema.unit_spelling import bare_unit, plain_letters, spelled
 
 _BASE = (
     r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"
-    r"inch|thou|deg|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
+    r"inch|[uµμ]in|thou|deg|N[cm]m|[°º]R|U|rev|mas|arcsec|ppm|RH|dB|psi|inc|imp|1|bit|counts?|digits?)"
 )
 _UNIT = re.compile(rf"^{_BASE}(?:\s?\^?-?[1-4]|[²³⁻¹]+)?(?:\s?[/*·.]\s?{_BASE}(?:\^?-?[1-4]|[²³⁻¹]+)?){{0,3}}$")
 # what counts by the time, in units that are words as well where they stand alone
@@ -76,7 +76,7 @@ _DEVICE = re.compile(r"\s*\((?P<device>[^()]*\bS/N\b[^()]*)\)$")
 _LABEL = re.compile(r"\bLBL: *(?P<label>[^,]+)")
 # '101 (C)- T_front', '101 <front> (C)', 'M00: °C': a unit behind the number of a channel
 _OF_CHANNEL = re.compile(
-    r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S+))$"
+    r"^(?:(?P<number>\d{1,4}) \((?P<round>[^()]+)\)[ -]*(?P<name>.+)|(?P<code>[A-Za-z]{0,3}\d{1,4}): *(?P<unit>\S.*))$"
 )
 _SQUARE = re.compile(r"^(?P<before>[^\[\]]*[^\[\]\s])\s*\[(?P<unit>[^\[\]]{2,})\]\s+(?P<behind>[^\[\]]+)$")
 

@@ -8,11 +8,19 @@ from collections.abc import Sequence
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_number, is_stamp
 from thermodata.reader.text.header import looks_like_unit, split_unit
 from thermodata.reader.text.number import clean
+from thermodata.reader.text.units_row import (
+    STATISTIC,
+    are_units,
+    as_units,
+    known_units,
+    mostly_units,
+    of_units,
+    units_below,
+)
 
 # what loggers write before a row that describes the columns, and below the names for what was done with the readings
 OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
 OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
-_STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 
 
@@ -28,17 +36,18 @@ def names_and_units(
     if units_row is not None and 0 <= units_row < len(texts):
         row = texts.pop(units_row)
         row = ["", *row[1:]] if OF_UNITS.fullmatch(row[0].strip(" :")) else row  # what the row is called is no unit
-        units = _as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
+        units = as_units(_merged(row, texts[units_row - 1], texts[-1]) if 0 < units_row < len(texts) else row)
     at_all = _spanning(texts, width)
     spanning = [texts[i] for i in at_all]
     named = _named(texts, at_all, width)
     if units_row is None and len(spanning) >= 2:
-        if named is not None and (below := next((r for r in spanning[named + 1 :] if _mostly_units(r)), None)):
-            units = [u if looks_like_unit(u or "") else None for u in _as_units(below)]
-        elif _mostly_units(spanning[-1]):
-            units = _as_units(spanning.pop())
+        times = _times_among(spanning[-1 if named is None else named])
+        if named is not None and (below := next((r for r in spanning[named + 1 :] if of_units(r, times)), None)):
+            units = units_below(spanning[named], below)
+        elif of_units(spanning[-1], _times_among(spanning[-2])):
+            units = as_units(spanning.pop())
         elif _units_among(spanning[-2], spanning[-1]):
-            units = [u if looks_like_unit(u) else None for u in spanning.pop()]
+            units = known_units(spanning.pop())
     if named is not None:
         spanning = spanning[: named + 1]
     names = spanning[-1] if spanning else [""] * width
@@ -62,10 +71,6 @@ def texts_of(row: Sequence[Cell]) -> list[str]:
 
 def _texts(row: Sequence[Cell], width: int) -> list[str]:
     return texts_of(row) + [""] * (width - len(row))
-
-
-def _as_units(cells: Sequence[str]) -> list[str | None]:
-    return [u.strip("[]() ") or None for u in cells]
 
 
 def _merged(row: Sequence[str], above: Sequence[str], last: Sequence[str]) -> list[str]:
@@ -101,7 +106,7 @@ def _named(texts: Sequence[Sequence[str]], at: Sequence[int], width: int) -> int
         row = spanning[i]
         times = _times_among(row)
         if times:
-            others = [r for r in below if not _mostly_units(r)]
+            others = [r for r in below if not of_units(r, times)]
             return i if others and all(_names_nothing(r, times) for r in others) else None
     return None
 
@@ -112,7 +117,7 @@ def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Seque
     merged = [n or a for n, a in zip(row, above, strict=True)] if above else row
     times = _times_among(merged)
     unnamed = not any(_says_time(r[k]) for r in below[1:] for k in times)
-    return bool(times) and not _mostly_units(row) and _mostly_units(below[0]) and unnamed
+    return bool(times) and not mostly_units(row) and of_units(below[0], times) and unnamed
 
 
 def _times_among(row: Sequence[str]) -> list[int]:
@@ -126,7 +131,7 @@ def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
     """Whether a row below names holds none: statistics, or the same word again and again, or words where the time
     stands that neither name one nor say that the row is one of descriptions."""
     filled = [c for c in row if c]
-    if all(map(_STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
+    if all(map(STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
         return True
     said = [row[k] for k in times if row[k]]
     return bool(said) and not _is_label(row[0]) and not any(map(_says_time, said))
@@ -159,7 +164,7 @@ def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
         and found[-1] == last - 1
         and len(filled[last]) > 1
         and not any(is_number(c) or is_stamp(c) for c in filled[last])
-        and not _are_units(filled[found[-1]])
+        and not are_units(filled[found[-1]])
         and not _ends_early(rows[last], rows[found[-1]], width)
     ):
         found.append(last)
@@ -185,7 +190,8 @@ def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list
         return []
     named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
-    odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not _mostly_units(texts[i]))]
+    times = [] if named is None else _times_among(texts[at[spanning[named]]])
+    odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
     return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
 
 
@@ -195,15 +201,6 @@ def are_numbers(cells: Sequence[Cell]) -> bool:
     numbers = [str(c) for c in cells if is_number(c)]
     decimals = any(re.search(r"[.,]\d+$", n) and not n.endswith(".0") for n in numbers)
     return len(numbers) == len(cells) or (decimals and len(cells) > 2 and len(numbers) == len(cells) - 1)
-
-
-def _are_units(cells: Sequence[Cell]) -> bool:
-    """Whether most filled cells of a row are units."""
-    return sum(looks_like_unit(str(c)) or str(c).startswith("[") for c in cells) * 2 > len(cells)
-
-
-def _mostly_units(row: Sequence[str]) -> bool:
-    return _are_units([c for c in row if c])
 
 
 def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
@@ -226,7 +223,7 @@ def _heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
     and words, not numbers; a single one is a title of the sheet."""
     heads = [c for c in above if c]
     merged = len(heads) < len(names) and any(n and not a for a, n in zip(above, names, strict=True))
-    if len(heads) < 2 or not merged or any(is_number(c) or is_stamp(c) for c in heads) or _mostly_units(above):
+    if len(heads) < 2 or not merged or any(is_number(c) or is_stamp(c) for c in heads) or mostly_units(above):
         return [""] * len(names)
     carried, group = [], ""
     for k, cell in enumerate(above):
@@ -269,7 +266,7 @@ def _of_channels(rows: Sequence[Sequence[str]], names: list[str]) -> list[str]:
     """Statistics that repeat (MIN, MAX, MIN, MAX), each with its channel, by the lowest row above them that tells them
     apart: 'spindle/MIN'. Other names stay."""
     again = [k for k, n in enumerate(names) if n and names.count(n) > 1]
-    if not all(_STATISTIC.fullmatch(names[k]) for k in again):
+    if not all(STATISTIC.fullmatch(names[k]) for k in again):
         return names
     for row in reversed(rows):
         # a channel begins over any value, also one whose own name does not repeat; over the time stands what the row,

@@ -26,27 +26,8 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
 from thermodata.reader.text import arrow
+from thermodata.reader.text.no_value import EMPTY, OVERLOAD
 
-EMPTY = frozenset(
-    (
-        *("", *("-" * n for n in range(1, 13)), "*", "***", "****", "?", "???", "null", "none", "unavailable"),
-        *("na", "n/a", "#n/a", "n.a.", "#nv", "nan", "+nan", "-nan", "nan(ind)", "-nan(ind)"),
-        *("1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind", "1,#qnan", "-1,#qnan", "1,#ind", "-1,#ind"),
-    )
-)
-OVERLOAD = frozenset(
-    (
-        *("+" * n for n in range(3, 13)),
-        *(
-            sign + word
-            for sign in ("", "+", "-")
-            for word in (
-                *("ol", "ovl", "ovld", "ovr", "over", "overload", "overflow", "overrange", "over range"),
-                *("burnout", "open tc"),
-            )
-        ),
-    )
-)
 TRUE = frozenset({"true", "wahr"})
 FALSE = frozenset({"false", "falsch"})
 _FEW = 100  # cells below which the way through Arrow costs more than it saves

@@ -22,6 +22,7 @@ _DATES = {
     "reiwa": r"(?:R|令和) ?(?P<R>\d{1,2})[-/.年] ?(?P<m>\d{1,2})[-/.月] ?(?P<d>\d{1,2})日?",
     "mdy": rf"(?P<m>\d{{1,2}})(?P<s>[-/.]) ?(?P<d>\d{{1,2}})(?P=s) ?{_YEAR}",
 }
+_IEC = r"(?:(?:DTL|L?DT|DATE_AND_TIME)#)?"  # of IEC 61131-3, and of Siemens S7: DTL#2026-03-02-08:00:00.000
 _BETWEEN = rf"(?:,?{BLANK}*[T_-]?{BLANK}*)"
 _STRPTIME = {
     "Y": r"(?P<Y>\d{4})",
@@ -108,7 +109,9 @@ _TEXTS = {"ymd": "YYYY-MM-DD", "dmy": "DD.MM.YYYY", "mdy": "MM/DD/YYYY", "cjk": 
 DATE = {order: _format("date", body, _TEXTS[order], zone=False) for order, body in _DATES.items()}
 DATETIME = {
     # a spreadsheet leaves out the time of day at midnight
-    order: _format("datetime", f"{body}(?:{_BETWEEN}{CLOCK})?", f"{_TEXTS[order]} HH:MM:SS")
+    order: _format(
+        "datetime", f"{_IEC if order == 'ymd' else ''}{body}(?:{_BETWEEN}{CLOCK})?", f"{_TEXTS[order]} HH:MM:SS"
+    )
     for order, body in _DATES.items()
 }
 
@@ -169,7 +172,7 @@ _DATE_TEXT = (
     r"(?:\d{4}([-/.]) ?\d{1,2}\1 ?\d{1,2}|\d{1,2}([-/.]) ?\d{1,2}\2 ?(?:\d{4}|\d{2})|"
     r"\d{4}[年년] ?\d{1,2}[月월] ?\d{1,2}[日일]|(?:R|令和) ?\d{1,2}[-/.年] ?\d{1,2}[-/.月] ?\d{1,2}日?)"
 )
-_ANY_DATE = _compile(rf"{_DATE_TEXT}(?:{_BETWEEN}{_CLOCK_TEXT})?")
+_ANY_DATE = _compile(rf"{_IEC}{_DATE_TEXT}(?:{_BETWEEN}{_CLOCK_TEXT})?")
 
 
 def is_date_text(cell: str) -> bool:

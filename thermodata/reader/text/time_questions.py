@@ -103,10 +103,24 @@ def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
+_MJD_2000 = 51_544
+
+
 def may_be_excel(values: Array) -> bool:
     """Whether numbers may be Excel's days of 2000 to 2099, in steps below some hours; or seconds all the same."""
     days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
     return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+
+
+def _may_be_julian(values: Array) -> bool:
+    """Whether numbers may be Julian days of 1983 to 2119, in steps below some hours."""
+    days = values.size > 1 and bool(((values > 2_445_500) & (values < 2_495_000)).all())
+    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+
+
+def _day(number: float, unit: str) -> str:
+    """The day that a count of days says."""
+    return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
 
 
 def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
@@ -116,16 +130,31 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
         return epoch
+    if _may_be_julian(values):
+        raise QuestionError(
+            "times that may be Julian days",
+            where=where,
+            got=f"{name}: {values[0]:.12g} ...",
+            expected="a unit",
+            hint="declare table: {time: {unit: jd}} or {time: {unit: s}}",
+            ask=f"unit of the time: jd (Julian days, in UTC) or s? '{name}' begins with {values[0]:.12g}",
+            declare={"time": {"unit": UNKNOWN}},
+            meanwhile={"time": {"unit": "jd"}},
+        )
     if may_be_excel(values):
         if re.search(r"(?i)dat", name):
             return "excel"
+        days = "excel (days since 1900)"
+        if values[0] > _MJD_2000:
+            of_excel, of_mjd = _day(values[0], "excel"), _day(values[0], "mjd")
+            days = f"excel (days since 1900: {of_excel}), mjd (modified Julian days: {of_mjd})"
         raise QuestionError(
             "times that may be Excel's days or seconds",
             where=where,
             got=f"{name}: {values[0]:.12g} ...",
             expected="a unit",
-            hint="declare table: {time: {unit: excel}} or {time: {unit: s}}",
-            ask=f"unit of the time: excel (days since 1900) or s? '{name}' begins with {values[0]:.12g}",
+            hint="declare table: {time: {unit: excel}}, unit: mjd or unit: s",
+            ask=f"unit of the time: {days} or s? '{name}' begins with {values[0]:.12g}",
             declare={"time": {"unit": UNKNOWN}},
             meanwhile={"time": {"unit": "excel"}},
         )

@@ -1,0 +1,53 @@
+"""Units at the end of names, as ROS and pandas have them, and which units a question offers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.draft.guess import guess
+from thermodata.draft.values import Values, values_of
+
+
+def _seen(low: float, high: float) -> Values:
+    found = values_of(np.linspace(low, high, 360))
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high", "quantity", "unit"),
+    [
+        ("/drive.motor_power_kw", 1, 7, "power", "kW"),
+        ("power_hp", 1, 9, "power", "hp"),
+        ("/probe.probe_z_m", 0, 3e-5, "position", "m"),  # asked: or a displacement?
+        ("probe_z_m", 0, 30, "displacement", None),  # no tool is displaced by 30 m
+        ("mc/probe/dZ_um/value", 0, 30, "displacement", "um"),
+        ("/probe/dZ_um.data", 0, 30, "displacement", "um"),
+        ("T_spindle_m", 20, 30, "temperature", "degC"),  # of a motor
+        ("T_kw", 20, 30, "temperature", "degC"),  # cooling water
+        ("pump_hp", 1, 9, None, None),  # high pressure
+    ],
+)
+def test_the_end_of_a_name_is_its_unit_beside_a_quantity_that_has_it(
+    name: str, low: float, high: float, quantity: str | None, unit: str | None
+) -> None:
+    said = guess(name, None, "float64", _seen(low, high))
+    assert (said.quantity, said.unit) == (quantity, unit)
+
+
+def test_a_question_offers_horsepower_and_metres() -> None:
+    assert "kW, W or hp?" in guess("spindle_power", None, "float64", _seen(1, 7)).comment()
+    assert "um, mm, m or V?" in guess("dX", None, "float64", _seen(0, 3e-5)).comment()
+
+
+@pytest.mark.parametrize("name", ["/temps.temps[0]", "/thermo.temps", "mc/temps"])
+def test_temps_in_a_message_are_temperatures(name: str) -> None:
+    said = guess(name, None, "float64", _seen(294.0, 299.5))
+    assert (said.quantity, said.unit) == ("temperature", "K")
+
+
+@pytest.mark.parametrize(("name", "unit"), [("temps", None), ("Temps", "s"), ("mc/temps", "s")])
+def test_temps_of_a_table_or_in_seconds_is_time(name: str, unit: str | None) -> None:
+    said = guess(name, unit, "float64", _seen(0.0, 3590.0))
+    assert said.quantity is None

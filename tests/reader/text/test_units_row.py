@@ -1,0 +1,63 @@
+"""A row of units in which some are not known: known ones are used, the others stand as written and are asked for."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.draft.guess import guess
+from thermodata.draft.values import values_of
+from thermodata.plugin import Array
+from thermodata.reader.text.header_rows import names_and_units
+
+
+def _layout(names: str, units: str, *more: str) -> dict[str, str | None]:
+    rows = [line.split(";") for line in (names, units, *more)]
+    found, of, _ = names_and_units(rows, len(rows[0]), None)
+    return dict(zip(found, of, strict=True))
+
+
+def test_units_that_are_not_known_stand_among_known_ones() -> None:
+    read = _layout("Time;d3Z;d4Z;d6Z;M1;T3;T bed;Q", "s;µin;tenths;10 nm;Ncm;°R;°X;L/min")
+    assert list(read.values()) == ["s", "µin", "tenths", "10 nm", "Ncm", "°R", "°X", "L/min"]
+
+
+def test_a_unit_of_time_below_the_word_for_it_makes_a_row_of_units() -> None:
+    assert _layout("Time;a;b;c;d", "s;Zoll;tenths;ticks;mV") == {
+        "Time": "s",
+        "a": "Zoll",
+        "b": "tenths",
+        "c": "ticks",
+        "d": "mV",
+    }
+
+
+@pytest.mark.parametrize("below", ["min;avg;max", "s;front;rear of the machine"])
+def test_statistics_and_words_below_names_are_no_units(below: str) -> None:
+    assert set(_layout("Time;T front;T rear", below).values()) <= {None, "s"}
+
+
+def test_what_a_logger_writes_for_stamps_and_records_is_no_unit() -> None:
+    read = _layout("TIMESTAMP;RECORD;T_bed;T_hall;U", "TS;RN;Deg C;Deg C;Volts", ";;Avg;Avg;Smp")
+    assert read == {"TIMESTAMP": None, "RECORD": None, "T_bed": "Deg C", "T_hall": "Deg C", "U": "Volts"}
+
+
+def test_a_channel_in_a_unit_that_is_not_known_is_no_temperature_by_its_values(creeping: Array) -> None:
+    said = guess("d4Z", "tenths", "float64", values_of(creeping))
+    assert said.quantity is None
+    assert said.why_not == "quantity and unit? the file says 'tenths', which is no unit known here"
+    named = guess("T_bed", "°X", "float64", values_of(creeping))
+    assert (named.quantity, named.unit) == ("temperature", None)
+
+
+def test_a_number_before_a_unit_in_brackets_is_asked(creeping: Array) -> None:
+    said = guess("d6Z [10 nm]", None, "float64", values_of(creeping))
+    assert said.quantity is None
+    assert "the file says '10 nm': is each count one of these, or is that a range?" in (said.why_not or "")
+    assert guess("T6 [2]", None, "float64", values_of(creeping)).quantity == "temperature"
+
+
+@pytest.fixture
+def creeping() -> Array:
+    import numpy as np
+
+    return np.linspace(13.0, 16.6, 360)
