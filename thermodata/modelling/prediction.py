@@ -1,5 +1,5 @@
-"""Another program's prediction as an effect: a CSV file with the columns test, t_s, predicted, as `predict --out` writes
-them too."""
+"""Another program's prediction as an effect: a CSV file with the columns test, t_s, predicted, as `predict --out`
+writes them too."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ class Prediction(OfTests):
 
 def read_prediction(path: Path) -> Prediction:
     """Columns test, t_s [s from the test's start], predicted [the response's unit]; units may stand in brackets behind
-    the names, and a campaign before the test as campaign/test, or in a column of its own. SpecError with the line where a
-    value is no number, or of another response than those before."""
+    the names, and a campaign before the test as campaign/test, or in a column of its own. SpecError with the line
+    where a value is no number, or of another response than those before."""
     tables: dict[str, tuple[list[float], list[float]]] = {}
     response: str | None = None
     try:
