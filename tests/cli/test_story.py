@@ -322,6 +322,8 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
     taken = json.loads(back.out)
     assert taken["notes"] == ["removed: feed_screw"]
     assert (taken["parent"], taken["before"]) == (better["model"], better["scores"])
+    chain = json.loads(say("--store", store, "history", taken["model"], "--json").out)
+    assert [(v["added"], v["removed"]) for v in chain] == [(None, None), ("feed_screw", None), (None, "feed_screw")]
     start = json.loads(say("--store", store, "compare", base, "--json").out)
     assert [s["rmse_um"] for s in taken["scores"]] == pytest.approx([s["rmse_um"] for s in start["scores"]], rel=0.3)
     wrong = say("--store", store, "remove", better["model"], "feed_srew")

@@ -59,6 +59,8 @@ def test_beyond_its_end_a_prediction_says_nothing(world: Dataset, tmp_path: Path
         ("test,time,predicted\na,0,1\n", "no column 't_s'"),
         ("test,t_s,predicted\na,0,x\n", ":2"),
         ("", "no column 'test'"),
+        ("test,time [s],predicted [um]\na,0,1\n", "no column 't_s'"),
+        ("test,response,t_s,predicted\na,dX,0,1\na,dZ,0,1\n", "of one response"),
     ],
 )
 def test_a_file_that_is_none_is_refused(tmp_path: Path, text: str, says: str) -> None:
@@ -88,3 +90,15 @@ def test_another_programs_prediction_keeps_its_scale_unless_its_gain_is_freed() 
     assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv")).fixed == {"gain": 1.0}
     assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv", bounds={"gain": (0, 3)})).fixed == {}
     assert as_it_was_made(EffectSpec(effect="lag")).fixed == {}
+
+
+def test_what_predict_writes_is_read(tmp_path: Path) -> None:
+    """Units stand in brackets behind its names, and each test's campaign in a column."""
+    path = tmp_path / "out.csv"
+    path.write_text(
+        '"campaign","test","response","t_s [s]","predicted [um]","measured [um]","known"\n'
+        '"c","a","dZ",30,1.5,,true\n"c","a","dZ",0,0.5,,true\n'
+    )
+    t, y = read_prediction(path).tables["c/a"]
+    assert t.tolist() == [0.0, 30.0]
+    assert y.tolist() == [0.5, 1.5]

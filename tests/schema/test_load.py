@@ -112,6 +112,31 @@ def test_conditions_come_from_file_names_and_the_table(tmp_path: Path) -> None:
     assert tests["S3000_F500_07"].role == "calibration"
 
 
+@pytest.mark.parametrize(
+    ("sources", "source"),
+    [
+        ('nc: {reader: cnc, files: "raw/{test}.csv"}, daq: {reader: crio, files: "raw/{test}.tdms"}', "nc"),
+        ('daq: {reader: crio, files: "raw/{test}.tdms"}, nc: {reader: cnc, files: [x.csv, "raw/{test}.*"]}', "nc"),
+        ('daq: {reader: crio, files: "raw/{test}.tdms"}, nc: {reader: cnc}', "nc"),
+        ('nc: {reader: cnc, files: "raw/*.csv"}, daq: {reader: crio, files: "raw/{test}.*"}', None),
+        ('nc: {reader: cnc, files: "raw/{test}.txt"}, daq: {reader: crio, files: "raw/{test}_b.csv"}', None),
+        ("nc: {reader: cnc}, daq: {reader: crio}", None),
+    ],
+)
+def test_of_several_sources_the_files_are_those_of_the_one_that_names_them(
+    tmp_path: Path, sources: str, source: str | None
+) -> None:
+    path = _from_names(tmp_path)
+    path.write_text(path.read_text().replace("sources: {nc: {reader: cnc}}", f"sources: {{{sources}}}"))
+    if source is None:
+        with pytest.raises(SpecError, match="which source are these files"):
+            load_campaign(path)
+    else:
+        assert [t.files for t in load_campaign(path).tests] == [
+            {source: f"raw/{name}.csv"} for name in ("S3000_F500_07", "S6000_F750_8")
+        ]
+
+
 def test_a_file_name_that_contradicts_the_table_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(SpecError, match="disagree on 'speed'"):
         load_campaign(_from_names(tmp_path, ", speed: speed"))

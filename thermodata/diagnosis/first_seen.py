@@ -67,16 +67,16 @@ def _when(found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence
     close = [c for c in found if c.verdict == "with" and c.on_with is not None]
     parts = []
     if close:
-        parts.append(
-            "on while "
-            + ", ".join(
-                f"{c.info.name} runs ({c.on_with:.0%} of that time, else {c.on_without:.0%})" for c in close[:NAMED]
-            )
-        )
+        parts.append("on while " + ", ".join(map(_runs, close[:NAMED])))
     parts.append("strongest in " + ", ".join(_test(t) for t in strong[:NAMED]))
     if weak:
         parts.append("absent in " + ", ".join(_test(t) for t in weak[:NAMED]))
     return _capital("; ".join(parts))
+
+
+def _runs(one: Companion) -> str:
+    then, other = (one.on_without, one.on_with) if one.is_inverse else (one.on_with, one.on_without)
+    return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
 
 
 def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None) -> list[str]:

@@ -43,6 +43,11 @@ class Companion:
     on_without: float | None
     follows: float | None
 
+    @property
+    def is_inverse(self) -> bool:
+        """Whether the source is on while it is off: a clamp that is open, a guard."""
+        return self.on_with is not None and self.on_without is not None and self.on_with < self.on_without
+
 
 def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companion]:
     """Every channel that can be compared, the closest first. A source that goes both ways is never on or off, so that
@@ -92,7 +97,8 @@ def strong_and_weak_tests(heat: MissingHeat) -> tuple[list[TestData], list[TestD
 def _closeness(one: Companion) -> float:
     if one.follows is not None:
         return one.follows
-    return (one.on_with or 0.0) - (one.on_without or 0.0)
+    apart = (one.on_with or 0.0) - (one.on_without or 0.0)
+    return abs(apart) if one.verdict == "with" else apart
 
 
 def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Companion | None:
@@ -113,6 +119,9 @@ def _activity(courses: Sequence[Course], info: ChannelInfo, seed: int) -> Compan
     oftener = drawn[:, 2] / np.maximum(drawn[:, 0], 1e-9) - drawn[:, 3] / np.maximum(drawn[:, 1], 1e-9)
     verdict: Verdict = "undecided"
     if with_ >= ON_WITH and float(np.quantile(oftener, 0.05)) >= MORE_OFTEN:
+        verdict = "with"
+    elif info.quantity == "state" and without >= ON_WITH and float(np.quantile(-oftener, 0.05)) >= MORE_OFTEN:
+        # a state may as well be named by what it holds back; a speed or a load makes no heat by its rest
         verdict = "with"
     elif with_ <= OFF_WITH and with_ - without <= NO_OFTENER:
         verdict = "not"

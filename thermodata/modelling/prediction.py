@@ -1,8 +1,10 @@
-"""Another program's prediction as an effect: a CSV file with the columns test, t_s, predicted."""
+"""Another program's prediction as an effect: a CSV file with the columns test, t_s, predicted, as `predict --out`
+writes them too."""
 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from thermodata.view.dataset import TestData
 
 NAME = "prediction"
 _COLUMNS = ("test", "t_s", "predicted")
+_UNIT = re.compile(r"\s*\[[^\]]*\]\s*$")  # as `predict --out` writes it behind a name
 
 
 class Prediction(OfTests):
@@ -47,13 +50,15 @@ class Prediction(OfTests):
 
 
 def read_prediction(path: Path) -> Prediction:
-    """Columns test, t_s [s from the test's start], predicted [the response's unit]; a campaign may stand before the
-    test as campaign/test. SpecError with the line where a value is no number."""
+    """Columns test, t_s [s from the test's start], predicted [the response's unit]; units may stand in brackets behind
+    the names, and a campaign before the test as campaign/test, or in a column of its own. SpecError with the line
+    where a value is no number, or of another response than those before."""
     tables: dict[str, tuple[list[float], list[float]]] = {}
+    response: str | None = None
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             rows = csv.DictReader(file)
-            names = {n.strip().lower(): n for n in rows.fieldnames or []}
+            names = {_UNIT.sub("", n).strip().lower(): n for n in rows.fieldnames or []}
             if "t" in names:
                 names.setdefault("t_s", names["t"])
             for column in _COLUMNS:
@@ -71,6 +76,16 @@ def read_prediction(path: Path) -> Prediction:
                     t, y = float(row[names["t_s"]]), float(row[names["predicted"]])
                 except (TypeError, ValueError):
                     raise SpecError("not a number", where=f"{path}:{rows.line_num}", got=str(row)) from None
+                own = row[names["response"]] if "response" in names else None
+                response = own if response is None else response
+                if own != response:
+                    raise SpecError(
+                        "a prediction file is of one response",
+                        where=f"{path}:{rows.line_num}",
+                        expected=str(response),
+                        got=str(own),
+                        hint="write a file for each: one effect reads one",
+                    )
                 prefix = f"{row[names['campaign']]}/" if "campaign" in names else ""
                 table = tables.setdefault(prefix + row[names["test"]], ([], []))
                 table[0].append(t)

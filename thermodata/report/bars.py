@@ -35,7 +35,7 @@ def waterfall(versions: Sequence[Version]) -> list[Step]:
         fell = new < old
         made.append(
             Step(
-                f"+ {version.added or version.name}",
+                version.change or f"+ {version.name}",
                 100 * min(old, new) / full,
                 100 * abs(new - old) / full,
                 "good" if fell else "bad",

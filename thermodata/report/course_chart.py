@@ -6,7 +6,10 @@ import numpy as np
 
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.spec import Axis, Chart, Panel, Series
-from thermodata.schema.candidate import Candidate
+from thermodata.plugin import Float1D, Int1D
+from thermodata.schema.candidate import Candidate, CandidateCourse
+
+PAUSE = 3.0  # steps as on either side of it: no sample counts for so long, and no line is drawn over it
 
 
 def course_chart(c: Candidate, unit: str) -> Chart:
@@ -16,17 +19,29 @@ def course_chart(c: Candidate, unit: str) -> Chart:
         f"What the model leaves over in each test, and what {c.id} would take of it",
         Axis("time", "h", range=(0.0, length)),
         np.empty(0),
-        [
-            Panel(
-                run.test,
-                unit,
-                [
-                    Series("residual", unit, np.asarray(run.residual_um), "residual", x=np.asarray(run.t_s) / 3600),
-                    Series(c.effect, unit, np.asarray(run.contribution_um), EFFECTS[0], x=np.asarray(run.t_s) / 3600),
-                ],
-                height=110,
-                zero=True,
-            )
-            for run in c.courses
-        ],
+        [Panel(run.test, unit, _curves(run, c.effect, unit), height=110, zero=True) for run in c.courses],
     )
+
+
+def _curves(run: CandidateCourse, effect: str, unit: str) -> list[Series]:
+    t_s = np.asarray(run.t_s)
+    after = pauses(t_s)
+    middle = (t_s[after - 1] + t_s[after]) / 2 if len(after) else t_s[:0]
+    hours = np.insert(t_s, after, middle) / 3600
+    return [
+        Series(name, unit, np.insert(np.asarray(values, dtype=np.float64), after, np.nan), colour, x=hours)
+        for name, values, colour in (
+            ("residual", run.residual_um, "residual"),
+            (effect, run.contribution_um, EFFECTS[0]),
+        )
+    ]
+
+
+def pauses(t_s: Float1D) -> Int1D:
+    """First samples behind a pause, as indices of t_s, shape (n,): a step far longer than those before and after it. A
+    stretch that was sampled seldom has no pause within itself."""
+    steps = np.diff(t_s)
+    if len(steps) < 2:
+        return np.empty(0, dtype=np.int64)
+    beside = np.maximum(np.concatenate([[0.0], steps[:-1]]), np.concatenate([steps[1:], [0.0]]))
+    return np.flatnonzero((steps > PAUSE * beside) & (steps > PAUSE * np.median(steps))) + 1

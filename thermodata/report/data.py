@@ -50,7 +50,8 @@ class TestPart:
 
 @dataclass(frozen=True, slots=True)
 class Version:
-    """One version of the model. added: the effect that it has more than its parent. *_um: pooled RMSE [um]."""
+    """One version of the model. added: the effect that it has more than its parent. *_um: pooled RMSE [um].
+    removed: the effect that its parent has more."""
 
     model: str
     name: str
@@ -59,6 +60,12 @@ class Version:
     calibration_um: float | None
     verification_um: float | None
     stale: bool = False
+    removed: str | None = None
+
+    @property
+    def change(self) -> str:
+        """What it has more and less than its parent, in signs; '' where it has the same effects."""
+        return " ".join(f"{sign} {what}" for sign, what in (("+", self.added), ("-", self.removed)) if what)
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ HISTORY = (
     ("name", "name"),
     ("model", "model"),
     ("added", "added"),
+    ("removed", "removed"),
     ("rmse_um", "RMSE [um]"),
     ("calibration_rmse_um", "calibration [um]"),
     ("verification_rmse_um", "verification [um]"),

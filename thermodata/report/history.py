@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
 
 def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None = None) -> tuple[Version, ...]:
-    """The chain as rows, oldest first, with what each version added to the one before it. scored: the scores of each,
-    those that were kept with it where None."""
+    """The chain as rows, oldest first, with what each version added to the one before it, or removed. scored: the
+    scores of each, those that were kept with it where None."""
     from thermodata.modelling.resolve import term_ids
 
     made: list[Version] = []
     known: dict[str, str] = {}
+    words: dict[str, str] = {}
     for i, m in enumerate(chain):
         ids = term_ids(m.spec.effects)
         fresh = (
@@ -33,6 +34,7 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
             if i
             else []
         )
+        gone = [words[name] for name in known if name not in ids]
         scores = scored[i] if scored is not None else m.result.scores
         made.append(
             Version(
@@ -43,8 +45,10 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
                 pooled(scores, "calibration"),
                 pooled(scores, "verification"),
                 m.stale,
+                ", ".join(gone) or None,
             )
         )
+        words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
         known = {name: _parted_by(spec) for name, spec in zip(ids, m.spec.effects, strict=True)}
     return tuple(made)
 
@@ -64,6 +68,7 @@ def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
             "calibration_rmse_um": v.calibration_um,
             "verification_rmse_um": v.verification_um,
             "stale": v.stale,
+            "removed": v.removed,
         }
         for v, m in zip(versions(chain), chain, strict=True)
     ]

@@ -105,4 +105,7 @@ def percent(share: float) -> str:
 def _companion(one: HeatCompanion) -> str:
     if one.follows is not None:
         return f"{one.channel} ({percent(one.follows)} alike)"
-    return f"{one.channel} (on in {percent(one.on_with or 0.0)} while it runs, {percent(one.on_without or 0.0)} else)"
+    on, off = one.on_with or 0.0, one.on_without or 0.0
+    if off > on:
+        return f"{one.channel} (on in {percent(off)} while it is off, {percent(on)} else)"
+    return f"{one.channel} (on in {percent(on)} while it runs, {percent(off)} else)"

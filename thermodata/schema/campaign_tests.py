@@ -160,7 +160,7 @@ class TestsFrom(Strict):
     """`tests_from`: many tests whose conditions stand in file names, or in a table beside them.
 
     files: pattern with fields: raw/S{speed}_F{feed}_{nr}.csv
-    source: key of `sources`; by default the only one
+    source: key of `sources`; by default the only one, or of several the one whose own `files` names these files
     id: of each test, from the fields; by default the file's name without its ending
     table: a table with more conditions
     units: of fields: speed: rpm

@@ -68,7 +68,7 @@ class EffectSpec(Strict):
     fixed: parameter or gain -> value, in the effect's unit
     start: parameter -> where its search starts
     bounds: parameter -> [lower, upper], in the effect's unit
-    file: of a prediction: CSV with the columns test, t_s [s], predicted
+    file: of a prediction: CSV with the columns test, t_s [s], predicted, or as `predict --out` writes it
     name: of a model: its name or id in the store, or its file; what it predicts is the driver
     gain: of a model: a number holds the factor on its output; a word, or nothing, leaves it free (under that name)
     parts: of a model: ids of the effects whose sum is taken; by default all

@@ -47,14 +47,8 @@ def expand(campaign: Campaign, document: Document) -> Campaign:
 
 def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: Place) -> list[tuple[Test, str]]:
     inside(spec.files, document, (*place, "files"))
-    source = spec.source or next(iter(campaign.sources), None)
-    if source is None or (spec.source is None and len(campaign.sources) != 1) or source not in campaign.sources:
-        raise SpecError(
-            "which source are these files?",
-            where=document.where((*place, "source")),
-            expected="source: one of " + ", ".join(sorted(campaign.sources)),
-            got=str(spec.source),
-        )
+    if spec.source is not None and spec.source not in campaign.sources:
+        raise _which_source(campaign, spec, document, place)
     folder = document.path.parent.resolve()
     pattern = pattern_of(spec.files)
     table = _read_table(spec, folder, document, place) if spec.table else {}
@@ -69,6 +63,9 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
         test_id = _FIELD.sub(lambda m, f=fields: f.get(m[1], m[0]), spec.id) if spec.id else path.stem  # type: ignore[misc]
         given: dict[str, Any] = {"role": "none", **spec.set}
         given["conditions"] = {**conditions, **given.get("conditions", {})}
+        source = spec.source or _source_of(campaign, name, test_id)
+        if source is None:
+            raise _which_source(campaign, spec, document, place)
         given |= {"id": test_id, "files": {source: name}}
         try:
             tests.append((validate(Test, Document(document.path, given)), name))
@@ -81,6 +78,31 @@ def _from_files(campaign: Campaign, spec: TestsFrom, document: Document, place: 
                 hint=error.hint,
             ) from None
     return tests
+
+
+def _source_of(campaign: Campaign, name: str, test: str) -> str | None:
+    """The only source; else the one whose own `files` has this file for the test, or the one that says none while no
+    other has it. None where that leaves several, or no one."""
+    if len(campaign.sources) == 1:
+        return next(iter(campaign.sources))
+    listed = {k: [s.files] if isinstance(s.files, str) else s.files or [] for k, s in campaign.sources.items()}
+    own = [
+        k
+        for k, patterns in listed.items()
+        if any(re.fullmatch(re.escape(test).join(map(_glob_to_regex, p.split("{test}"))), name) for p in patterns)
+    ]
+    found = own or [k for k, patterns in listed.items() if not patterns]
+    return found[0] if len(found) == 1 else None
+
+
+def _which_source(campaign: Campaign, spec: TestsFrom, document: Document, place: Place) -> SpecError:
+    return SpecError(
+        "which source are these files?",
+        where=document.where((*place, "source")),
+        expected="source: one of " + ", ".join(sorted(campaign.sources)),
+        got=str(spec.source),
+        hint="without 'source' it is the one whose own 'files' names them: files: raw/{test}.csv",
+    )
 
 
 def pattern_of(files: str) -> re.Pattern[str]:

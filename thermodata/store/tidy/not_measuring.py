@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -40,13 +40,20 @@ class Activity:
 ONLY = "only while not measuring"  # detail of an event that says nothing against its channel
 
 
-def join_while_not_measuring(events: Sequence[QualityEvent], activity: dict[str, Activity]) -> list[QualityEvent]:
+def join_while_not_measuring(
+    events: Sequence[QualityEvent],
+    activity: Mapping[str, Activity],
+    repeats: Mapping[tuple[str, str], Activity] | None = None,
+) -> list[QualityEvent]:
     """Events of values, of channels that are measured at times only: those that fall wholly between the measuring
-    phases become one event a channel and flag, which says so. The others are left as they are."""
+    phases become one event a channel and flag, which says so. The others are left as they are.
+
+    repeats: by channel and flag, when a measured sample has the flag: of flags that not all samples of an event keep.
+    """
     kept: list[QualityEvent] = []
     idle: dict[tuple[str, str], list[QualityEvent]] = {}
     for event in events:
-        times = activity.get(event.channel or "")
+        times = (repeats or {}).get((event.channel or "", event.flag), activity.get(event.channel or ""))
         if (
             times is None
             or event.flag not in _OF_VALUES

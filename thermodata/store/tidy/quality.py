@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.calibration.quality import ANALOG, QualityEvent
 from thermodata.calibration.quality_concise import concise
 from thermodata.errors import ThermodataError
-from thermodata.plugin import Array, Int1D
+from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.campaign_channels import MEASURED
 from thermodata.schema.flag import Flag
@@ -20,6 +20,7 @@ from thermodata.store.tidy import windows
 from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.event import Event
+from thermodata.store.tidy.measured_alone import REPEATS, cleared
 from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
 from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.plan import SCHEDULE, Bound
@@ -49,17 +50,23 @@ class Flagged:
     events: list[Event] = field(default_factory=list)
     _judged: list[QualityEvent] = field(default_factory=list)
     _activity: dict[str, Activity] = field(default_factory=dict)
+    _repeats: dict[tuple[str, str], Activity] = field(default_factory=dict)
+    _timed: list[str] = field(default_factory=list)
+    _kept: dict[str, Stretches] = field(default_factory=dict)
     _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
 
     def chunks(self, rows: int, borders: Sequence[int] = ()) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
         """(first row, times, channels with all their flags) of chunks of so many rows; none crosses a border."""
         with ThreadPoolExecutor(2) as pool:
-            yield from self._measured(self._judged_chunks(rows, borders, pool), pool)
+            self._look_when_measured(pool)
+            yield from self._measured(self._judged_chunks(rows, borders, pool))
         self._judged += self._of_the_clock()
         zero = self.series.span.zero_ns
         self.events += [
             Event(e.channel, e.flag, (e.from_ns - zero) / 1e9, (e.to_ns - zero) / 1e9, e.n, e.detail or None)
-            for e in concise(join_while_standing(join_while_not_measuring(self._judged, self._activity), self.series))
+            for e in concise(
+                join_while_standing(join_while_not_measuring(self._judged, self._activity, self._repeats), self.series)
+            )
         ]
 
     def _of_the_clock(self) -> list[QualityEvent]:
@@ -108,7 +115,10 @@ class Flagged:
             b = min(a + size, self.stop)
             low = chunk.start
             flags = joined.add(chunk.t_ns, seen, a - low, b - low)
-            yield chunk, {n: Column(c.bound, c.values[a - low : b - low], flags[n]) for n, c in columns.items()}, a, b
+            own = {n: c.part(a - low, b - low) for n, c in columns.items()}
+            masks = self._masks(chunk.part(a, b), own)
+            flags = cleared(chunk.t_ns[a - low : b - low], joined.inputs(own), flags, masks)
+            yield chunk, {n: Column(c.bound, c.values, flags[n]) for n, c in own.items()}, a, b
         self._judged += joined.events
 
     def _with_releases(self, columns: Mapping[str, Column], own: int, stop: int) -> dict[str, Column]:
@@ -185,31 +195,49 @@ class Flagged:
     def _chunk(self, start: int, stop: int, bounds: Sequence[Bound] | None = None) -> Chunk:
         return Chunk(self.series, self.member, start, stop, self.bounds if bounds is None else bounds)
 
-    def _measured(
-        self, chunks: Iterator[tuple[Chunk, dict[str, Column]]], pool: ThreadPoolExecutor
-    ) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
-        """Adds NOT_MEASURING to the channels that are measured."""
+    def _look_when_measured(self, pool: ThreadPoolExecutor) -> None:
+        """Finds the channels that are measured at times only, and the stretches that count as a whole."""
         spec = self.series.plan.test.measuring
-        names = [b.name for b in self.bounds if b.channel.quantity in MEASURED] if spec is not None else []
-        kept: dict[str, Stretches] = {}
+        if spec is None or self.member[0] == SCHEDULE:
+            return
+        names = [b.name for b in self.bounds if b.channel.quantity in MEASURED]
         try:
             if names and isinstance(spec, Measuring) and lasts(spec):
-                kept = self._stretches(spec, names, pool)
+                self._kept = self._stretches(spec, names, pool)
+            self._timed = names
         except ThermodataError as error:
             self._cannot_measure(error)
-            names = []
+
+    def _mask(self, chunk: Chunk, name: str, columns: Mapping[str, Column]) -> Bool1D:
+        """Where a channel is measured, shape (n,) of the chunk."""
+        if self._kept:
+            return self._kept[name].mask(chunk.start, chunk.t_ns)
+        return measures(chunk, columns[name], columns)
+
+    def _masks(self, chunk: Chunk, columns: Mapping[str, Column]) -> dict[str, Bool1D]:
+        try:
+            return {n: self._mask(chunk, n, columns) for n in self._timed if n in columns}
+        except ThermodataError:  # said where the flag is set
+            return {}
+
+    def _measured(
+        self, chunks: Iterator[tuple[Chunk, dict[str, Column]]]
+    ) -> Iterator[tuple[int, Int1D, dict[str, Column]]]:
+        """Adds NOT_MEASURING to the channels that are measured."""
         for chunk, columns in chunks:
-            for name in names if self.member[0] != SCHEDULE else ():
-                if name not in columns:
-                    continue
+            for name in [n for n in self._timed if n in columns]:
                 try:
-                    mask = kept[name].mask(chunk.start, chunk.t_ns) if kept else measures(chunk, columns[name], columns)
+                    mask = self._mask(chunk, name, columns)
                 except ThermodataError as error:
                     self._cannot_measure(error)
-                    names = []
+                    self._timed = []
                     break
+                own = columns[name].flags
                 self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
-                columns[name].flags = columns[name].flags | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
+                for flag in Flag(int(REPEATS)):
+                    times = self._repeats.setdefault((name, str(flag.name).lower()), Activity())
+                    times.add(chunk.t_ns, mask & ((own & np.uint16(flag)) != 0))
+                columns[name].flags = own | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
             yield chunk.start, chunk.t_ns, columns
 
     def _cannot_measure(self, error: ThermodataError) -> None:

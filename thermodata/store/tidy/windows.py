@@ -51,27 +51,28 @@ class Joined:
     _open: dict[tuple[str | None, str], int] = field(default_factory=dict)
     _count: dict[tuple[str | None, str], int] = field(default_factory=dict)
 
+    def inputs(self, columns: Mapping[str, Column]) -> dict[str, ColumnInput]:
+        """What the rules of quality ask of channels."""
+        return {
+            n: ColumnInput(
+                values=c.values,
+                quantity=c.bound.channel.quantity,
+                flags=c.flags,
+                at=c.bound.channel.at,
+                elsewhere=self.elsewhere.get(n),
+                limits=self.limits.get(n, (None, None)),
+                held=c.bound.is_held,
+            )
+            for n, c in columns.items()
+        }
+
     def add(self, t_ns: Int1D, columns: Mapping[str, Column], start: int, stop: int) -> dict[str, Array]:
         """Flags of the rows start to stop of a window, each of shape (stop - start,); the flags that the columns have
         are among them. The rows before and after are the window's margins, which belong to its neighbours.
 
         t_ns: shape (n,), non-decreasing.
         """
-        flags, events = flag_stream(
-            t_ns,
-            {
-                n: ColumnInput(
-                    values=c.values,
-                    quantity=c.bound.channel.quantity,
-                    flags=c.flags,
-                    at=c.bound.channel.at,
-                    elsewhere=self.elsewhere.get(n),
-                    limits=self.limits.get(n, (None, None)),
-                    held=c.bound.is_held,
-                )
-                for n, c in columns.items()
-            },
-        )
+        flags, events = flag_stream(t_ns, self.inputs(columns))
         for name, column in columns.items():
             carried = self._carried.get(name)
             if start and carried is not None:

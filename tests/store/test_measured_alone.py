@@ -1,0 +1,85 @@
+"""What the logger repeats between two moments that are measured is no fault of these (store/tidy/measured_alone.py)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from store_fakes import START_NS, write_campaign, write_log
+
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.schema.flag import Flag
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+CAMPAIGN = """
+schema: thermodata/campaign/1
+id: sampled
+machine: {id: m}
+sources: {daq: {reader: npz, files: "raw/{test}.npz"}}
+channels:
+  dZ: {source: daq, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp}
+  meas: {source: daq, signal: meas, quantity: state}
+tests:
+  - {id: a, kind: other, measuring: MEASURING}
+"""
+EVERY = 30  # rows: a row each 10 s, a reading each 5 min
+SAMPLED = 48 * EVERY
+N = 2 * SAMPLED
+MEASURED: Bool1D = (np.arange(N) % EVERY == 0) | (np.arange(N) >= SAMPLED)
+MASKED = '"meas > 0.5"'
+
+
+def readings() -> Float1D:
+    """A drift of 40 um with noise, read every 5 min and repeated for 4 h, then read each time."""
+    rows = np.arange(N)
+    read = np.where(rows < SAMPLED, rows - rows % EVERY, rows)
+    x = 40 * (1 - np.exp(-rows / 900)) + np.random.default_rng(0).normal(0, 0.3, N)
+    return np.asarray(np.round(x, 3)[read])
+
+
+def ingested(store: Store, folder: Path, dz: Float1D, measuring: str = MASKED) -> tuple[Bool1D, list[tuple[str, str]]]:
+    """(where dZ counts, shape (n,); its events)."""
+    path = write_campaign(folder, CAMPAIGN.replace("MEASURING", measuring), logs=False)
+    t = START_NS + np.arange(N, dtype=np.int64) * 10 * 10**9
+    write_log(path.parent / "raw/a.npz", {"main": {"t_ns": t, "dZ": dz, "meas": MEASURED.astype(np.float64)}})
+    ingest(store, path)
+    with store.reader() as con:
+        flags = [f for (f,) in con.execute("select flag from sample where channel = 'dZ' order by t").fetchall()]
+        events = con.execute("select flag, detail from quality where channel = 'dZ' order by flag, from_s").fetchall()
+    faults = int(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.NOT_MEASURING)
+    return (np.array(flags) & faults) == 0, events
+
+
+# the mask goes by rows, or by stretches that are found first
+@pytest.mark.parametrize("measuring", [MASKED, "{when: meas > 0.5, for: 1 s}"])
+def test_each_measured_sample_is_a_reading_of_its_own(store: Store, tmp_path: Path, measuring: str) -> None:
+    counts, events = ingested(store, tmp_path / "lab", readings(), measuring)
+    assert (counts == MEASURED).all()
+    assert events == [("held", "only while not measuring")]
+
+
+def test_what_repeats_among_the_measured_samples_is_held(store: Store, tmp_path: Path) -> None:
+    """A logger that hangs for an hour of the part that is sampled, and for half an hour of the other one."""
+    dz = readings()
+    hangs = np.zeros(N, dtype=np.bool_)
+    hangs[10 * EVERY : 22 * EVERY] = hangs[2000:2180] = True
+    dz[10 * EVERY : 22 * EVERY], dz[2000:2180] = dz[10 * EVERY], dz[2000]
+    counts, events = ingested(store, tmp_path / "lab", dz)
+    assert (counts == (MEASURED & ~hangs)).all()
+    assert any(detail != "only while not measuring" for _, detail in events)
+
+
+def test_without_a_mask_what_the_logger_repeats_is_held(store: Store, tmp_path: Path) -> None:
+    counts, _ = ingested(store, tmp_path / "lab", readings(), '"meas > -1"')
+    assert not counts[: SAMPLED - EVERY].any()
+    assert counts[SAMPLED:].all()
+
+
+def test_an_extreme_that_the_logger_repeats_is_no_end_of_a_range(store: Store, tmp_path: Path) -> None:
+    dz = readings()
+    dz[20 * EVERY : 21 * EVERY] = -12.5  # one reading, far out
+    counts, _ = ingested(store, tmp_path / "lab", dz)
+    assert counts[20 * EVERY]
+    assert (counts == MEASURED).all()

@@ -1,0 +1,53 @@
+"""Readings that repeat because the logger repeats them between two moments that are measured: among the samples that
+`measuring` leaves, each is a reading of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from thermodata.calibration.quality import ColumnInput, flag_stream
+from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.schema.flag import Flag
+
+REPEATS = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED)  # what a value is accused of for coming again
+
+
+def cleared(
+    t_ns: Int1D, columns: Mapping[str, ColumnInput], flags: Mapping[str, Array], masks: Mapping[str, Bool1D]
+) -> dict[str, Array]:
+    """flags, shape (n,) each, without those of REPEATS on measured samples that these alone, side by side, don't bear
+    out. columns: with the flags that they had before they were judged, which stay. masks: where a channel is measured,
+    shape (n,); of channels that are measured at times only."""
+    found = dict(flags)
+    alike: dict[bytes, list[str]] = {}
+    for name, mask in masks.items():
+        if bool(mask.all()) or not (_accused(columns[name], flags[name]) & REPEATS)[mask].any():
+            continue
+        alike.setdefault(mask.tobytes(), []).append(name)
+    for names in alike.values():
+        mask = masks[names[0]]
+        alone, _ = flag_stream(t_ns[mask], {n: _part(c, mask) for n, c in columns.items()})
+        for name in names:
+            doubted = _accused(columns[name], flags[name])[mask] & REPEATS & ~alone[name]
+            found[name] = flags[name].copy()
+            found[name][mask] &= ~doubted
+    return found
+
+
+def _accused(column: ColumnInput, flags: Array) -> Array:
+    return flags if column.flags is None else flags & ~column.flags
+
+
+def _part(column: ColumnInput, mask: Bool1D) -> ColumnInput:
+    return ColumnInput(
+        values=column.values[mask],
+        quantity=column.quantity,
+        flags=None if column.flags is None else column.flags[mask],
+        range=column.range,
+        at=column.at,
+        elsewhere=column.elsewhere,
+        limits=column.limits,
+        held=column.held,
+    )
