@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from thermodata.draft.axis import axis_of
-from thermodata.draft.vocabulary import places_in
+from thermodata.draft.switches import place_of_switch
+from thermodata.draft.vocabulary import OF_CONTROL, places_in, says
 
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
@@ -59,6 +60,8 @@ def place_of(text: str, quantity: str) -> Place:
         return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
+    if quantity == "state" and says(OF_CONTROL, text):
+        said |= {"control"}
     # what turns is the spindle, but for n_B and n_C beside it
     turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
     axis = turning[1] if turning else axis
@@ -248,18 +251,7 @@ def _fluid(said: set[str], axis: str | None) -> Place:
 
 
 def _state(said: set[str], axis: str | None) -> Place:
-    if "door" in said:
-        told = said & {"enclosure", "hall", "gate"}
-        asked = None if told else "at: hall.door, or enclosure, where it is the machine's own door?"
-        return Place("enclosure" if "enclosure" in said else "hall.door", question=asked)
-    if "coolant" in said:
-        return Place("coolant", True)
-    if "hydraulics" in said:
-        return Place("hydraulics", True)
-    for key in ("lubrication", "spindle", "table", "chiller"):
-        if key in said:
-            return Place(key)
-    return Place(f"axis.{axis}" if axis and axis in "xyz" else None)
+    return Place(*place_of_switch(said, axis))
 
 
 def _displacement(said: set[str], axis: str | None) -> Place:

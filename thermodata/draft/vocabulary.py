@@ -127,7 +127,10 @@ _PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
-    "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    # of the cut, or of a bearing that runs on oil and air
+    "mist": "mist. oil~mist mist~coolant nebel. olnebel oelnebel niebla brouillard nebbia nevoa mlha mgla~olej "
+    "mgielka 油雾 喷雾 ミスト",
     "chiller": "chiller chladic. chladice. kuhler. kuehler. spindelkuhler spindelkuehler 冷却机 "
     "ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
     "oilcooler oil~cooler oelkuhler water. wasser "
@@ -150,7 +153,7 @@ _PLACE_WORDS: dict[str, str] = {
     "tank": "液箱 tank. tanks. nadrz behalter behaelter 水箱 油箱 reservoir",
     "hydraulics": "hydraul 液压 液壓 hyd. hydr.",
     "oil": "oil. oel. ol. olej ^oil 油温 油 oltemp oeltemp",
-    "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
+    "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube. lub.",
     "cabinet": "cabinet schaltschrank schrank rozvade 电柜 电气柜 控制柜 電櫃 elektroschrank switch~box e~cabinet",
     "hall": "hall. ^halle. ^hallen hala. haly. hale. ^ambi amb. umgeb okoli. okoln. okolni raum. raumt raumluft room. "
     "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
@@ -221,6 +224,11 @@ SETPOINT = in_all_languages(
 LIMIT = in_all_languages(
     "limit",
     "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni.",
+)
+# a state of a control or a program, and of no part of the machine
+OF_CONTROL = (
+    "alarm alarms fault. mode. modus. rezim. ready. freigabe. execution. ok. program programm status. state. enable. "
+    "enabled. error. warning. stav. zustand. estado. etat. stato. 报警 状态 運転"
 )
 DIFFERENCE = in_all_languages(
     "difference",
