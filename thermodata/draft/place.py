@@ -55,6 +55,8 @@ def place_of(text: str, quantity: str) -> Place:
     counter = "counter spindle" in said
     said = _by_the_machine(said) - {"counter spindle", "milling spindle", "main spindle"}
     near_the_floor = {"air", "floor"} <= said and quantity == "temperature"
+    if {"air", "bearing"} <= said and quantity == "temperature":
+        return Place("pneumatics", question="at: pneumatics, the supply air of the bearing, or spindle.bearing itself?")
     said -= {"air"}
     if near_the_floor:
         return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
@@ -110,7 +112,9 @@ def _temperature(said: set[str], axis: str | None) -> Place:
             return Place(f"axis.{axis}.{part}", part != "guide")
         return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
     if "workhead" in said:
-        return Place(None, question="at: where on the workhead? e.g. rotary.c")
+        part = next((f".{p}" for p in ("bearing", "motor") if p in said), "")
+        asked = f"at: where on the workhead? e.g. counter_spindle{part}, as a second spindle, or rotary.c{part}"
+        return Place(None, question=asked)
     if "bearing" in said:
         return _bearing(said, axis)
     if said & {"motor", "drive"}:
@@ -139,8 +143,16 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place(found[0], len(found) == 1)
     if "table" in said:
         return Place("table", not said & {"hall"})
+    if "climate chamber" in said:
+        return Place("hall")
+    if "chamber" in said and "workspace" not in said:
+        return Place(
+            "enclosure", question="at: enclosure, the working space, or hall, of a chamber around the machine?"
+        )
+    if "granite" in said:
+        return Place("bed", question="at: bed, column, crossbeam or table, of granite?")
     if "workspace" in said:
-        return Place("enclosure", said <= {"workspace", "enclosure", "hall"})
+        return Place("enclosure", said <= {"workspace", "enclosure", "hall", "chamber"})
     if "spindle" in said:
         return Place("spindle", said == {"spindle"})
     if "window" in said or "sun" in said:

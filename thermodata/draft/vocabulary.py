@@ -97,7 +97,8 @@ _PLACE_WORDS: dict[str, str] = {
     "right": "right rechts. recht. rechte pravy. prava. prave. pravo. vpravo. napravo. 右 r. dx. destra. destro. "
     "droit. droite.",
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
-    "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors.",
+    "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors. "
+    "stator. statore.",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
     "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel vis. "
     "vite. viti.",
@@ -111,7 +112,8 @@ _PLACE_WORDS: dict[str, str] = {
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
     "tavola. plateau.",
-    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf "
+    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf schleifkopf "
+    "schleifspindelkopf wheelhead wheel~head "
     "vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
@@ -171,7 +173,14 @@ _PLACE_WORDS: dict[str, str] = {
     "workspace": "enclosure. machine~interior workspace. work~space working~space working~area machining~area "
     "arbeitsraum pracovni~prostor ws~air "
     "air~ws "
-    "zona~lavoro zona~di~lavoro vano~lavoro enceinte. zone~travail zone~de~travail espace~de~travail",
+    "zona~lavoro zona~di~lavoro vano~lavoro enceinte~machine enceinte~de~travail zone~travail zone~de~travail "
+    "espace~de~travail",
+    # a chamber: the working space, or one that is tempered and holds the whole machine
+    "chamber": "chamber. enceinte.",
+    "climate chamber": "climate~chamber climatic~chamber klimakammer klimaraum klimatizovana~komora "
+    "enceinte~climatique "
+    "chambre~climatique camera~climatica camara~climatica",
+    "granite": "granite. granit. granito. zula. 花岗岩 大理石 グラナイト",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
     "cnc": "cnc. cnc~temp steuerung. ridici. 数控 control~unit ncu. ipc.",
