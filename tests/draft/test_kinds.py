@@ -140,6 +140,40 @@ def test_a_test_that_is_more_than_its_environment_is_asked(
     assert said in (tmp_path / "campaign.yaml").read_text("utf-8")
 
 
+@pytest.mark.parametrize(
+    ("head", "rpm", "feed", "kind", "said"),
+    [
+        ("Giri utensile motorizzato [1/min]", 4000, 0, "other", "kind: other? turret at 4000 rpm"),
+        ("Turret tool speed [rpm]", 4000, 2, "mixed", "turret at 4000 rpm"),
+        ("Counter spindle speed [rpm]", 4000, 0, "spindle", "spindle at 4000 rpm"),
+        ("Drehzahl B-Achse [1/min]", 30, 0, "rotary_axis", "the table turns"),
+        ("Speed workhead [rpm]", 300, 0, "rotary_axis", "the table turns"),
+        ("Speed X motor [rpm]", 900, 0, "linear_axis", "X moves"),
+        ("Turret tool speed [rpm]", 0, 0, "etve", "nothing moves"),
+        ("Fan speed [rpm]", 1500, 0, "etve", "nothing moves"),
+    ],
+)
+def test_whatever_turns_moves(tmp_path: Path, say: Say, head: str, rpm: int, feed: int, kind: str, said: str) -> None:
+    rows = [f"{10 * i};0;{rpm * (20 < i < 80)};{feed * (20 < i < 80)};{20 + 0.01 * i:.2f}" for i in range(120)]
+    names = f"Time [s];Main spindle speed [rpm];{head};Feed X [m/min];Spindle bearing front [°C]"
+    (tmp_path / "t1.csv").write_text("\n".join([names, *rows]) + "\n", "utf-8")
+    assert say("init", tmp_path).code == 0
+    (found,) = load_campaign(tmp_path / "campaign.yaml").tests
+    assert found.kind == kind
+    assert said in (tmp_path / "campaign.yaml").read_text("utf-8")
+
+
+def test_a_name_that_says_rest_is_asked_where_a_tool_turns(tmp_path: Path, say: Say) -> None:
+    rows = [f"{10 * i};{4000 * (20 < i < 80)};{20 + 0.01 * i:.2f}" for i in range(120)]
+    (tmp_path / "reposo.csv").write_text(
+        "\n".join(["Time [s];Turret tool speed [rpm];Bed [°C]", *rows]) + "\n", "utf-8"
+    )
+    assert say("init", tmp_path).code == 0
+    assert "? kind: the name says etve, the data that something turns" in (tmp_path / "campaign.yaml").read_text(
+        "utf-8"
+    )
+
+
 def spindle_log(folder: Path, name: str, rows: list[tuple[float, float]]) -> Path:
     """rows: (time [s], speed [rpm])."""
     lines = ["Time [s];Spindle speed [rpm];Feed X [m/min];Coolant on"]

@@ -83,6 +83,8 @@ def test_two_speeds_without_a_name_at_one_spindle_are_asked(tmp_path: Path, say:
     found = _draft(tmp_path / "a", "Zeit;n_Spindel [1/min];n_Nebenantrieb [1/min]", say)
     assert "# ? at: spindle, rotary.c or table? n_Spindel is drafted at the spindle, too" in found["n_Nebenantrieb"]
     assert "# sure" in found["n_Spindel"]
+    found = _draft(tmp_path / "c", "Zeit;Drehzahl Schleifspindel [1/min];Drehzahl Werkstueck [1/min]", say)
+    assert "# ? at: counter_spindle or rotary.c, as a workhead, or spindle?" in found["Drehzahl_Werkstueck"]
     found = _draft(tmp_path / "b", "Zeit;nAct [1/min];T_Halle [°C]", say)
     assert "at: spindle}   # guess" in found["nAct"]
 

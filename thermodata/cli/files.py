@@ -40,6 +40,8 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         session.say(f"the {before.name} that was there is now {after}")
     if made.model is not None:
         session.say(f"a first model of what the sensors explain: {made.model}")
+    if made.no_model is not None:
+        session.say(made.no_model)
     draft = made.draft
     reasons = dict(draft.not_used)
     for path, _ in draft.failed[:_SAID]:

@@ -8,13 +8,15 @@ _BESIDE = (
     r"d|e|ed|eddy|wz|pos|feed|nut|ax|axis|achse|osa|mot|motor|tcp|err|error|delta|disp|act|ist|load|cur|curr|"
     r"current|torque|acs|mcs|wcs|bcs|temp|temper|speed|vel|rapid|v|s|i|t|m|p|f"
 )
-_AFTER = r"abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
+_AFTER = (
+    r"jiku|zhou|abs|act|pos|mpos|wpos|load|axis|achse|mot|motor|temp|frt|com|curr|vel|speed|ist|soll|position|feedrate"
+)
 # 'MX840B' is an amplifier, and no axis
 _LINEAR = re.compile(rf"(?<!\S)(?:{_BESIDE})?([xyz])(?!\S)(?! \d{{3}} b)|(?<!\S)([xyz])(?:{_AFTER})(?!\S)")
 _ROTARY = re.compile(
     r"(?<!\S)(?:axis|achse|osa|asse|axe|eje|eixo|tengely|eksen|ось|ax|rotary|torquemotor|act|ist|pos|mot|motor|load|"
     r"curr|current|torque|speed|drehzahl|otacky) ?([abc])(?!\S)"
-    r"|(?<!\S)([abc])(?: \d)? ?(?:axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
+    r"|(?<!\S)([abc])(?: \d)? ?(?:jiku|zhou|axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
     r"n|speed|drehzahl|otacky|rpm)(?!\S)"
     r"|(?<!\S)([abc]) ?[轴軸]"
 )

@@ -147,6 +147,8 @@ def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[st
     if by_data == "mixed" and moved.with_spindle and moved.loaded is None:
         asked = "mixed, or cutting? the axes feed only while the spindle turns, whose power is not logged"
         return by_data, "", f"kind: {asked} ({moved})"
+    if by_name == "etve" and moved.turning:
+        return "other", "", f"kind: the name says etve, the data that something turns ({moved})"
     if by_data == "other" and not by_name:
         return by_data, "", f"kind: other? {moved}"
     if by_data and by_data != "other":
@@ -159,6 +161,9 @@ def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[st
 def _by_data(moved: Moved) -> str | None:
     if not moved.seen:
         return None
+    if moved.turning:
+        # a driven tool alone is none of the kinds: it turns as a spindle, and heats the turret
+        return "mixed" if moved.speeds or moved.axes or moved.rotary else "other"
     if moved.speeds and moved.axes:
         return "cutting" if moved.with_spindle and moved.loaded and not moved.rotary else "mixed"
     if moved.speeds:

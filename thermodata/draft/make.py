@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.draft.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.letters_of_files import declared_before
+from thermodata.draft.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
 from thermodata.draft.naming import plain
 from thermodata.draft.parts import Draft
 from thermodata.draft.plan import plan
@@ -19,12 +20,18 @@ from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign, load_model, parse_campaign
 from thermodata.store.base.files import write_error, write_text
 
+# of a folder in which every campaign keeps its logs
+_SAYS_NOTHING = re.compile(
+    r"(?i)(raw|roh|log|mess|test)?[ _-]?(data|daten|logs?|files)|raw|messung(en)?|measurements?|mereni|měření|"
+    r"donnees|données|brutes|mesures|datos|mediciones|dati|misure|dados|dane|pomiary|csv|export|数据|原始数据|データ|测量数据"
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Drafted:
     """campaign, model: the files that were written; model is None where no sensor allows one, or where one was there.
-    kept: what was there before -> its new name. files: raw ones that a reader reads; seen: with those that none does.
-    questions: lines that hold one."""
+    no_model: what is missing for one, in words. kept: what was there before -> its new name. files: raw ones that a
+    reader reads; seen: with those that none does. questions: lines that hold one."""
 
     campaign: Path
     model: Path | None
@@ -33,6 +40,7 @@ class Drafted:
     files: int
     seen: int
     questions: int
+    no_model: str | None = None
 
 
 def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
@@ -56,8 +64,7 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             got="nothing",
             hint="thermodata plugins lists what the installed readers read",
         )
-    name = re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(folder.resolve().name)).strip("-._")[:100] or "campaign"
-    draft = plan(name, folder, found)
+    draft = plan(id_of(folder), folder, found)
     text, model = text_of(draft), model_text(draft)
     kept = [keep(out)]
     write_new(out, text)
@@ -76,7 +83,15 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         len({f.path for f in found.logs}),
         len({str(f.path) for f in found.logs}.union(draft.unused)),
         questions_in(text),
+        missing_for_a_model(text, load_campaign(out)) if model is None else None,
     )
+
+
+def id_of(folder: Path) -> str:
+    """The id of a folder's campaign: its name, or that of the nearest one above it that says more than 'raw'."""
+    path = folder.resolve()
+    named = next((p for p in (path, *path.parents) if p.name and not _SAYS_NOTHING.fullmatch(p.name)), path)
+    return re.sub(r"[^A-Za-z0-9._-]+", "-", plain_name(named.name)).strip("-._")[:100] or "campaign"
 
 
 def plain_name(text: str) -> str:
@@ -123,14 +138,23 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
     if response is not None and response not in known:
         raise unknown_name("displacement", response, known, where=path.name)
     if not known:
-        raise UsageError("a model needs a displacement", where=str(path), got="none in channels")
+        raise UsageError(
+            "a model needs a displacement",
+            where=str(path),
+            expected="a channel with quantity: displacement, axis: and at: tcp",
+            got="none in channels",
+            hint=f"answer the '# ?' of {asked}" if (asked := asked_of_a_displacement(_read(path))) else None,
+        )
     text = model_text_of(campaign, response or known[0])
     if text is None:
         raise UsageError(
             "no sensor drives a plain effect here",
             where=str(path),
             expected="a temperature or a speed with its place",
-            hint="answer where the sensors are ('at'), or write a model file by hand",
+            hint=(
+                f"answer the '# ?' of {asked}" if (asked := asked_of_drivers(_read(path))) else "say where sensors are"
+            )
+            + ", or write a model file by hand",
         )
     model = path.with_name("model.yaml")
     there = _to_compare(model)
@@ -145,6 +169,10 @@ def modelled(path: Path) -> str | None:
     """The displacement that the model.yaml beside a campaign file was drafted for; None where somebody changed it, or
     where there is none."""
     return _as_drafted(_to_compare(path.with_name("model.yaml")), load_campaign(path))[1]
+
+
+def _read(path: Path) -> str:
+    return _to_compare(path) or ""
 
 
 def _to_compare(path: Path) -> str | None:

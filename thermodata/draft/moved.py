@@ -19,6 +19,7 @@ from thermodata.store.tidy.on_change import come_at_no_rate
 
 _DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
 _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves
+_BY_ITSELF = ("fan", "pump", "chiller", "coolant", "hydraulics", "lubrication")
 _SWITCHED = 0.8  # of its largest reading: it was off as well as on
 _TURNS_RPM, _SAME = 20.0, 0.02
 _STAYS, _LEAST_ROWS = 0.02, 3  # of the time in which it turns, and rows: else it passes
@@ -27,13 +28,15 @@ _FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much
 
 @dataclass(slots=True)
 class Moved:
-    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; seen: whether a spindle's speed, a feed or
+    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; turning: of what turns beside spindle and
+    table, as a lathe's driven tools, by its place; seen: whether a speed, a feed or
     a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded: that takes its
     power; None where that was not logged."""
 
     speeds: tuple[float, ...] = ()
     axes: set[str] = field(default_factory=set)
     rotary: bool = False
+    turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
     switched: bool = False
     seen: bool = False
     whole: bool = True
@@ -44,18 +47,20 @@ class Moved:
         """'spindle at 3000, 6000 rpm, X moves'; 'nothing moves'."""
         said = []
         if self.speeds:
-            said.append(
-                "spindle at "
-                + ", ".join(f"{s:g}" for s in self.speeds[:4])
-                + (f" and {len(self.speeds) - 4} more" if len(self.speeds) > 4 else "")
-                + " rpm"
-            )
+            said.append(f"spindle at {_rpm(self.speeds)}")
         if self.axes:
             cuts = " while the spindle turns under load" if self.with_spindle and self.loaded else ""
             said.append(f"{'/'.join(sorted(self.axes)).upper()} moves{cuts}")
         if self.rotary:
             said.append("the table turns")
+        said += [f"{at} at {_rpm(speeds)}" for at, speeds in self.turning.items()]
         return ", ".join(said) or ("switches change, nothing moves" if self.switched else "nothing moves")
+
+
+def _rpm(speeds: tuple[float, ...]) -> str:
+    """'3000, 6000 rpm', no more than four of them."""
+    more = f" and {len(speeds) - 4} more" if len(speeds) > 4 else ""
+    return ", ".join(f"{s:g}" for s in speeds[:4]) + f"{more} rpm"
 
 
 def moved_in(files: Sequence[RawFile]) -> Moved:
@@ -122,12 +127,15 @@ def _add(found: Moved, quantity: str | None, at: str, largest: float, span: floa
     axis = at.split(".")[1] if at.startswith("axis.") and at.count(".") == 1 else None
     if quantity == "rotational_speed":
         found.seen = True
-        if largest > 20 and (at.startswith("table") or at.startswith("rotary")):
-            found.rotary = True
-        elif largest > 20 and is_spindle(at) and course is not None:
-            found.speeds = max(found.speeds, _plateaus(course), key=len)
-        elif largest > 1 and at.startswith(("table", "rotary")):
-            found.rotary = True
+        if is_spindle(at):
+            if largest > _TURNS_RPM and course is not None:
+                found.speeds = max(found.speeds, _plateaus(course), key=len)
+        elif at.startswith(("table", "rotary")):
+            found.rotary |= largest > 1
+        elif at.startswith("axis."):  # of its motor
+            found.axes |= {at.split(".")[1]} if largest > _TURNS_RPM else set()
+        elif largest > _TURNS_RPM and not at.startswith(_BY_ITSELF) and (speeds := _turns(largest, course)):
+            found.turning[at or "what has no place"] = speeds
     elif quantity == "feed" and axis:
         found.seen = True
         if largest > 0.05:
@@ -140,6 +148,11 @@ def _add(found: Moved, quantity: str | None, at: str, largest: float, span: floa
         found.switched |= span > 0 and not at.startswith("hall")
     elif quantity in _DRIVEN and at.startswith(_PUMPED):
         found.switched |= span > _SWITCHED * largest
+
+
+def _turns(largest: float, course: Course | None) -> tuple[float, ...]:
+    """The speeds at which it stayed; the largest, where no course tells."""
+    return (float(f"{largest:.3g}"),) if course is None else _plateaus(course)
 
 
 def _plateaus(speed: Course) -> tuple[float, ...]:

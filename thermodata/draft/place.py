@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from thermodata.draft.axis import axis_of
-from thermodata.draft.vocabulary import places_in
+from thermodata.draft.switches import place_of_switch
+from thermodata.draft.vocabulary import OF_CONTROL, places_in, says
 
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
@@ -54,11 +55,15 @@ def place_of(text: str, quantity: str) -> Place:
     counter = "counter spindle" in said
     said = _by_the_machine(said) - {"counter spindle", "milling spindle", "main spindle"}
     near_the_floor = {"air", "floor"} <= said and quantity == "temperature"
+    if {"air", "bearing"} <= said and quantity == "temperature":
+        return Place("pneumatics", question="at: pneumatics, the supply air of the bearing, or spindle.bearing itself?")
     said -= {"air"}
     if near_the_floor:
         return Place("hall.bottom", question="at: hall.bottom, the air near the floor, or floor itself?")
     if _SPINDLE_1.search(text) and (quantity in _BY_DRIVE or "motor" in said):
         said |= {"spindle"}
+    if quantity == "state" and says(OF_CONTROL, text):
+        said |= {"control"}
     # what turns is the spindle, but for n_B and n_C beside it
     turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
     axis = turning[1] if turning else axis
@@ -107,7 +112,9 @@ def _temperature(said: set[str], axis: str | None) -> Place:
             return Place(f"axis.{axis}.{part}", part != "guide")
         return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
     if "workhead" in said:
-        return Place(None, question="at: where on the workhead? e.g. rotary.c")
+        part = next((f".{p}" for p in ("bearing", "motor") if p in said), "")
+        asked = f"at: where on the workhead? e.g. counter_spindle{part}, as a second spindle, or rotary.c{part}"
+        return Place(None, question=asked)
     if "bearing" in said:
         return _bearing(said, axis)
     if said & {"motor", "drive"}:
@@ -136,8 +143,16 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place(found[0], len(found) == 1)
     if "table" in said:
         return Place("table", not said & {"hall"})
+    if "climate chamber" in said:
+        return Place("hall")
+    if "chamber" in said and "workspace" not in said:
+        return Place(
+            "enclosure", question="at: enclosure, the working space, or hall, of a chamber around the machine?"
+        )
+    if "granite" in said:
+        return Place("bed", question="at: bed, column, crossbeam or table, of granite?")
     if "workspace" in said:
-        return Place("enclosure", said <= {"workspace", "enclosure", "hall"})
+        return Place("enclosure", said <= {"workspace", "enclosure", "hall", "chamber"})
     if "spindle" in said:
         return Place("spindle", said == {"spindle"})
     if "window" in said or "sun" in said:
@@ -248,18 +263,7 @@ def _fluid(said: set[str], axis: str | None) -> Place:
 
 
 def _state(said: set[str], axis: str | None) -> Place:
-    if "door" in said:
-        told = said & {"enclosure", "hall", "gate"}
-        asked = None if told else "at: hall.door, or enclosure, where it is the machine's own door?"
-        return Place("enclosure" if "enclosure" in said else "hall.door", question=asked)
-    if "coolant" in said:
-        return Place("coolant", True)
-    if "hydraulics" in said:
-        return Place("hydraulics", True)
-    for key in ("lubrication", "spindle", "table", "chiller"):
-        if key in said:
-            return Place(key)
-    return Place(f"axis.{axis}" if axis and axis in "xyz" else None)
+    return Place(*place_of_switch(said, axis))
 
 
 def _displacement(said: set[str], axis: str | None) -> Place:

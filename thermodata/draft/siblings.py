@@ -93,7 +93,9 @@ def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:
     for channel in channels:
         others = [c.name for c in turning if c is not channel and c.source == channel.source]
         if channel in turning and others and "spindle" not in places_in(_own(channel)) and not channel.said.questions:
-            asked = f"at: spindle, rotary.c or table? {', '.join(others[:3])} is drafted at the spindle, too"
+            where = "counter_spindle or rotary.c, as a workhead, or spindle"
+            where = where if "workpiece" in places_in(_own(channel)) else "spindle, rotary.c or table"
+            asked = f"at: {where}? {', '.join(others[:3])} is drafted at the spindle, too"
             channel = replace(channel, said=replace(channel.said, sure=False, questions=(asked,)))
         made.append(channel)
     return made

@@ -97,7 +97,8 @@ _PLACE_WORDS: dict[str, str] = {
     "right": "right rechts. recht. rechte pravy. prava. prave. pravo. vpravo. napravo. 右 r. dx. destra. destro. "
     "droit. droite.",
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
-    "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors.",
+    "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors. "
+    "stator. statore.",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
     "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel vis. "
     "vite. viti.",
@@ -111,7 +112,8 @@ _PLACE_WORDS: dict[str, str] = {
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
     "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
     "tavola. plateau.",
-    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf "
+    "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf schleifkopf "
+    "schleifspindelkopf wheelhead wheel~head "
     "vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
@@ -127,7 +129,10 @@ _PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
-    "cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    # of the cut, or of a bearing that runs on oil and air
+    "mist": "mist. oil~mist mist~coolant nebel. olnebel oelnebel niebla brouillard nebbia nevoa mlha mgla~olej "
+    "mgielka 油雾 喷雾 ミスト",
     "chiller": "chiller chladic. chladice. kuhler. kuehler. spindelkuhler spindelkuehler 冷却机 "
     "ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
     "oilcooler oil~cooler oelkuhler water. wasser "
@@ -150,7 +155,7 @@ _PLACE_WORDS: dict[str, str] = {
     "tank": "液箱 tank. tanks. nadrz behalter behaelter 水箱 油箱 reservoir",
     "hydraulics": "hydraul 液压 液壓 hyd. hydr.",
     "oil": "oil. oel. ol. olej ^oil 油温 油 oltemp oeltemp",
-    "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube.",
+    "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube. lub.",
     "cabinet": "cabinet schaltschrank schrank rozvade 电柜 电气柜 控制柜 電櫃 elektroschrank switch~box e~cabinet",
     "hall": "hall. ^halle. ^hallen hala. haly. hale. ^ambi amb. umgeb okoli. okoln. okolni raum. raumt raumluft room. "
     "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
@@ -168,7 +173,14 @@ _PLACE_WORDS: dict[str, str] = {
     "workspace": "enclosure. machine~interior workspace. work~space working~space working~area machining~area "
     "arbeitsraum pracovni~prostor ws~air "
     "air~ws "
-    "zona~lavoro zona~di~lavoro vano~lavoro enceinte. zone~travail zone~de~travail espace~de~travail",
+    "zona~lavoro zona~di~lavoro vano~lavoro enceinte~machine enceinte~de~travail zone~travail zone~de~travail "
+    "espace~de~travail",
+    # a chamber: the working space, or one that is tempered and holds the whole machine
+    "chamber": "chamber. enceinte.",
+    "climate chamber": "climate~chamber climatic~chamber klimakammer klimaraum klimatizovana~komora "
+    "enceinte~climatique "
+    "chambre~climatique camera~climatica camara~climatica",
+    "granite": "granite. granit. granito. zula. 花岗岩 大理石 グラナイト",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
     "cnc": "cnc. cnc~temp steuerung. ridici. 数控 control~unit ncu. ipc.",
@@ -221,6 +233,11 @@ SETPOINT = in_all_languages(
 LIMIT = in_all_languages(
     "limit",
     "limit. limits. max. min. maximum. minimum. threshold. grenze. grenzwert warn. warning. 上限 下限 mezni.",
+)
+# a state of a control or a program, and of no part of the machine
+OF_CONTROL = (
+    "alarm alarms fault. mode. modus. rezim. ready. freigabe. execution. ok. program programm status. state. enable. "
+    "enabled. error. warning. stav. zustand. estado. etat. stato. 报警 状态 運転"
 )
 DIFFERENCE = in_all_languages(
     "difference",

@@ -15,8 +15,10 @@ from thermodata.draft.languages import (
     italian,
     japanese,
     korean,
+    pinyin,
     polish,
     portuguese,
+    romaji,
     russian,
     spanish,
     swedish,
@@ -26,6 +28,8 @@ from thermodata.draft.languages import (
 # Czech and German stand with English in the vocabulary; what they lack stands in its words
 LANGUAGES: tuple[Mapping[str, str], ...] = (
     japanese.WORDS,
+    romaji.WORDS,
+    pinyin.WORDS,
     korean.WORDS,
     french.WORDS,
     italian.WORDS,

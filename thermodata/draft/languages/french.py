@@ -26,7 +26,8 @@ WORDS = {
     "saddle": "chariot trainard",
     "tool": "outil.",
     "workpiece": "piece.",
-    "fixture": "montage~d montage~pi bridage montage. support~palpeur support~palpeurs support~capteur "
+    "fixture": "montage~d montage~pi bridage montage. support~sonde support~sondes support~de~sonde "
+    "support~de~sondes support~palpeur support~palpeurs support~capteur "
     "support~capteurs support~de~palpeur support~de~palpeurs support~de~capteur support~de~capteurs",
     "probe": "palpeur",
     "coolant": "arrosage lubrifiant~de~coupe liquide~de~coupe fluide~de~coupe",

@@ -25,7 +25,7 @@ WORDS = {
     "left": "izquierd izq. izda. izdo.",
     "right": "derech dcha. dcho.",
     "middle": "centro. central.",
-    "motor": "bobinado devanado",
+    "motor": "bobinado devanado estator.",
     "nut": "tuerca",
     "screw": "husillo~de~bolas husillo~a~bolas husillo~bolas tornillo",
     "scale": "regla",
@@ -41,11 +41,12 @@ WORDS = {
     "crossbeam": "puente. travesano",
     "tool": "herramienta",
     "workpiece": "pieza",
-    "fixture": "utillaje soporte~sonda soporte~sondas soporte~palpador soporte~palpadores soporte~sensores "
+    "fixture": "utillaje soporte~sonda soporte~sondas soporte~sensor soporte~de~sensor soporte~palpador "
+    "soporte~palpadores soporte~sensores "
     "soporte~de~sonda soporte~de~sondas soporte~de~palpador soporte~de~palpadores soporte~de~sensores",
     "probe": "palpador",
     "coolant": "refrigerante. taladrina",
-    "chiller": "enfriador agua~refriger enfriadora",
+    "chiller": "enfriador agua~refriger~ agua~de~refriger~ agua. enfriadora",
     "supply": "impulsion entrada. ida.",
     "return": "salida. retorno.",
     "tank": "deposito tanque cuba.",
@@ -53,7 +54,8 @@ WORDS = {
     "oil": "aceite",
     "lubrication": "lubricacion engrase",
     "cabinet": "armario cuadro~el cuadro.",
-    "hall": "ambiente. nave. taller",
+    "hall": "ambiente. nave. taller sala. laboratorio. aire.",
+    "air": "aire.",
     "pneumatics": "aire~comprimido neumatic",
     "outside": "exterior. exteriores. fuera.",
     "floor": "suelo cimentacion solera",

@@ -1,0 +1,67 @@
+"""What a first model lacks is said with the lines that ask for it; and a campaign is called by a folder that says more
+than 'raw'."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.make import id_of
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+def _logged(folder: Path, head: str) -> Path:
+    width = head.count(";")
+    rows = [f"{10 * i}" + "".join(f";{20 + 0.01 * i + k:.2f}" for k in range(width)) for i in range(60)]
+    (folder / "t1.csv").write_text("\n".join([f"Time [s]{head}", *rows]) + "\n", "utf-8")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("head", "lacks", "asked", "not_asked"),
+    [
+        (";Z [mm];Spindle bearing front [°C]", "a displacement of the tool", "Z", "Spindle"),
+        (";Probe Z [um];T17 [°C]", "a temperature or a speed with its place", "T17", "Probe"),
+    ],
+)
+def test_init_and_first_model_say_what_is_missing_and_which_line_asks(
+    tmp_path: Path, say: Say, head: str, lacks: str, asked: str, not_asked: str
+) -> None:
+    said = say("init", _logged(tmp_path, head))
+    assert said.code == 0
+    assert not (tmp_path / "model.yaml").exists()
+    (line,) = [x for x in said.err.splitlines() if "no model.yaml" in x]
+    assert lacks in line
+    assert f"answer the '# ?' of {asked}," in line
+    refused = say("first-model", tmp_path / "campaign.yaml")
+    assert refused.code != 0
+    assert f"answer the '# ?' of {asked}" in refused.err
+    assert not_asked not in refused.err
+
+
+def test_init_says_nothing_of_a_model_that_it_wrote(tmp_path: Path, say: Say) -> None:
+    said = say("init", _logged(tmp_path, ";Probe Z [um];Spindle bearing front [°C]"))
+    assert (tmp_path / "model.yaml").exists()
+    assert "no model.yaml" not in said.err
+
+
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("B3/raw", "B3"),
+        ("B3/data/raw", "B3"),
+        ("B3/Messungen", "B3"),
+        ("B3/raw_data", "B3"),
+        ("B3/Rohdaten", "B3"),
+        ("rawlings", "rawlings"),
+        ("data_2026", "data_2026"),
+        ("raw/B3", "B3"),
+    ],
+)
+def test_a_campaign_is_called_by_a_folder_that_says_more_than_raw(tmp_path: Path, path: str, name: str) -> None:
+    assert id_of(tmp_path / path) == name
