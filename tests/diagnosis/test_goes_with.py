@@ -106,6 +106,14 @@ def test_a_source_may_be_on_while_a_state_is_off(on_with: int, on_without: int, 
     assert one(companions(clamped(on_with, on_without, "n"), "dZ")).verdict == "not", "no speed heats by its rest"
 
 
+def test_the_mask_of_the_measurement_is_compared_with_nothing() -> None:
+    made = clamped(18, 2, "pump")
+    mask = {"pump": replace(CHANNELS["pump"], is_mask=True)}
+    masked = replace(made, courses=tuple(replace(c, test=replace(c.test, channels=mask)) for c in made.courses))
+    assert [c.info.name for c in companions(made, "dZ")] == ["pump"]
+    assert companions(masked, "dZ") == []
+
+
 def test_it_is_said_that_the_source_is_on_while_the_state_is_off() -> None:
     made = clamped(2, 18, "pump")
     strong, weak = strong_and_weak_tests(made)

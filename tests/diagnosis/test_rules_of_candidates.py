@@ -377,5 +377,12 @@ def test_what_is_read_around_the_machine_alone_is_known() -> None:
     assert "layers:T_top,T_low" in found
 
 
+def test_the_mask_of_the_measurement_is_no_candidate() -> None:
+    state = ChannelInfo("meas", "state", "1")
+    library: dict[str, Effect] = {"lag": LAG}
+    assert [c.id for c in candidates(library, {"meas": state}, (), "dZ")] == ["lag:meas"]
+    assert candidates(library, {"meas": replace(state, is_mask=True)}, (), "dZ") == []
+
+
 def _two(one: str, other: str) -> tuple[Need, ...]:
     return (Need("a", "temperature", (one,)), Need("b", "temperature", (other,)))

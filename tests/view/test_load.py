@@ -160,6 +160,31 @@ def test_descriptions(build: Build) -> None:
     assert data.data_version == "v1"
 
 
+@pytest.mark.parametrize(
+    ("measuring", "masks"),
+    [
+        ("meas > 0.5 and clamped > 0.5 and n < 5", ["meas"]),
+        ({"when": "meas > 0.5", "in_range": None, "settle": 0.0, "for": 1.0}, ["meas"]),
+        ({"when": None, "in_range": {"meas": [0.5, 1.5]}, "settle": 0.0, "for": None}, ["meas"]),
+        ("in_range", []),
+        ("clamped > 0.5", []),
+        (None, []),
+    ],
+)
+def test_a_state_at_no_place_that_measuring_reads_is_its_mask(build: Build, measuring: Any, masks: list[str]) -> None:
+    """A part of the machine, or what turns it, may do something all the same."""
+    b = build()
+    b.test("c", "a", measuring=None if measuring is None else json.dumps(measuring))
+    b.channel("c", "a", "dZ", axis="Z", at="tcp")
+    b.channel("c", "a", "meas", "state")
+    b.channel("c", "a", "clamped", "state", at="table")
+    b.channel("c", "a", "n", "rotational_speed")
+    b.tidy("c", "a", np.arange(0.0, 100.0), {name: np.zeros(100) for name in ("dZ", "meas", "clamped", "n")})
+    data = load_dataset(b.store(), ["c"], 10)
+    assert [n for n, c in data.tests[0].channels.items() if c.is_mask] == masks
+    assert [n for n, c in data.channels.items() if c.is_mask] == masks
+
+
 def test_overrides_of_a_channel_belong_to_their_test(build: Build) -> None:
     b = build()
     for test, place in (("a", "hall.top"), ("b", "hall.door")):

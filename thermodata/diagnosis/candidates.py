@@ -136,7 +136,11 @@ def candidates(
     model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     # a sensor that failed goes with anything that happened when it did; one that failed in a test or two of many drives
     # nothing there (`CandidateEffect.in_test`)
-    usable = {n: c for n, c in channels.items() if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None}
+    usable = {
+        n: c
+        for n, c in channels.items()
+        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
+    }
     placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
     known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}
     # a temperature that is modelled reads its own part

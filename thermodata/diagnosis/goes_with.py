@@ -55,6 +55,8 @@ def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companio
     infos = {name: info for c in heat.courses for name, info in c.test.channels.items() if name != response}
     found = []
     for info in infos.values():
+        if info.is_mask:
+            continue
         if info.quantity.startswith("temperature"):
             found.append(_temperature(heat.courses, info))
         elif info.quantity in RESTS_AT_ZERO + RESTS_ABOVE_ZERO and heat.sign:

@@ -18,7 +18,8 @@ class ChannelInfo:
 
     lost: share of its samples in this test that flags rule out. faulty: the flag for which its sensor is judged faulty
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
-    whether the campaign file says how its source's clock stands (of a dataset: in all tests).
+    whether the campaign file says how its source's clock stands (of a dataset: in all tests). is_mask: a state at no
+    place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.
     """
 
     name: str
@@ -33,6 +34,7 @@ class ChannelInfo:
     lost: float = 0.0
     faulty: str | None = None
     clock_declared: bool = False
+    is_mask: bool = False
 
 
 @dataclass(frozen=True, slots=True)

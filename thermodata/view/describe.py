@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from thermodata.calibration.measuring import measuring_names
 from thermodata.errors import ThermodataError
+from thermodata.schema.campaign import Measuring
 from thermodata.schema.quantity import linear_conversion, split_value
 from thermodata.store.catalogue.conditions import plain_value
 from thermodata.store.views.catalogue import SCHEDULE
@@ -79,6 +81,7 @@ def channel_infos(
         [list(campaigns)],
     ).fetchall()
     flagged, declared = flagged_channels(con, campaigns), _declared_clocks(con, campaigns)
+    masks = _masks(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
     for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
         resolution = _json(sensor).get("resolution")
@@ -93,12 +96,28 @@ def channel_infos(
             sign,
             _resolution(resolution, unit, raw_unit),
             clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
+            is_mask=quantity == "state" and at is None and name in masks.get((campaign, test), frozenset()),
         )
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:
             known = infos[campaign, test][name]
             infos[campaign, test][name] = replace(known, lost=own.lost, faulty=own.faulty)
     return infos
+
+
+def _masks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> dict[tuple[str, str], frozenset[str]]:
+    """(campaign, test) -> the channels that its `measuring` reads."""
+    rows = con.execute(
+        "select campaign, test, measuring from test where list_contains(?, campaign) and measuring is not null",
+        [list(campaigns)],
+    ).fetchall()
+    found = {}
+    for campaign, test, text in rows:
+        spec = json.loads(text)
+        if isinstance(spec, dict):  # kept without units, which a campaign file has to write
+            spec = Measuring.model_construct(when=spec.get("when"), in_range=spec.get("in_range"))
+        found[campaign, test] = measuring_names(spec)
+    return found
 
 
 def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -> set[tuple[str, str, str]]:

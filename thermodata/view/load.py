@@ -75,7 +75,8 @@ def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
         mostly = sound >= LEAST_SOUND and len(failed) <= MOST_FAILED * len(infos)
         declared = all(info.clock_declared for info in infos)
         faulty = None if mostly or not failed else failed[0]
-        union[name] = replace(infos[0], faulty=faulty, clock_declared=declared)
+        is_mask = any(info.is_mask for info in infos)
+        union[name] = replace(infos[0], faulty=faulty, clock_declared=declared, is_mask=is_mask)
     return union
 
 
