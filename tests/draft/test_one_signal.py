@@ -75,3 +75,10 @@ def test_a_statistic_is_called_by_the_name_above_it(tmp_path: Path) -> None:
     warm = [numbers(t, 0), numbers(20 + t / 299, 3), numbers(21 + t / 299, 3)]
     text(tmp_path / "run.csv", ["t [s]", "BRG_FRONT/Min [degC]", "Eddy Z/AVE (µm)"], warm, mark=",")
     assert [c.name for c in draft_files(tmp_path).draft.channels] == ["BRG_FRONT_Min", "Eddy_Z_AVE"]
+
+
+def test_heads_that_differ_make_two_channels(tmp_path: Path) -> None:
+    """Two tests, each with a sensor of its own: nothing says that they are one."""
+    logs(tmp_path, ["spindle/T (C)", "column/T (C)"], [(1, 0)] * 2)
+    made = [c for c in draft_files(tmp_path).draft.channels if "Hall" not in c.signal]
+    assert [(c.signal, list(c.only_in)) for c in made] == [("spindle/T (C)", ["run_1"]), ("column/T (C)", ["run_2"])]

@@ -69,7 +69,8 @@ def joined_over_heads(found: Sequence[OneSignal], of_tests: Sequence[RawFile]) -
             made.append(own)
             continue
         homes = by_name.setdefault(_last(own.signal.name), [])
-        home = next((i for i in homes if _are_one(made[i], own) and not (_ambiguous(made[i]) or _ambiguous(own))), None)
+        alike = (i for i in homes if _are_one(made[i], own) and _heads_agree(made[i], own))
+        home = next((i for i in alike if not (_ambiguous(made[i]) or _ambiguous(own))), None)
         if home is not None:
             one = made[home]
             made[home] = OneSignal((*one.spellings, *own.spellings), (*one.files, *own.files))
@@ -81,6 +82,13 @@ def joined_over_heads(found: Sequence[OneSignal], of_tests: Sequence[RawFile]) -
 
 def _last(name: str) -> str:
     return split_unit(name)[0].rsplit("/", 1)[-1]
+
+
+def _heads_agree(one: OneSignal, other: OneSignal) -> bool:
+    """Whether what stands above the one name ends what stands above the other. 'spindle/T' is not 'column/T'."""
+    names = [f"/{split_unit(s.name)[0]}" for s in (*one.spellings, *other.spellings)]
+    longest = max(names, key=len)
+    return all(longest.endswith(name) for name in names)
 
 
 def _ambiguous(one: OneSignal) -> bool:
