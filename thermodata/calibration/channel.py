@@ -119,10 +119,11 @@ def reading_unit(
 ) -> str:
     """The unit of the scaled reading, before any calibration. CalibrationError where nothing tells it."""
     unit = channel.unit or signal_unit
+    # a row of units says 'auto' or '0/1' of what has none
+    if channel.quantity in _UNITLESS and (not unit or (channel.unit is None and not is_unit(unit))):
+        return "1"
     if unit:
         return unit
-    if channel.quantity in _UNITLESS:
-        return "1"
     if calibrations and calibrations[0].unit_in:
         return calibrations[0].unit_in
     raise CalibrationError(

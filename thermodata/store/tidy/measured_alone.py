@@ -11,6 +11,7 @@ from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 
+STANDS = 4  # stretches that are measured, and the same value in all of them and between: it stands still indeed
 REPEATS = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED)  # what a value is accused of for coming again
 
 
@@ -18,7 +19,7 @@ def cleared(
     t_ns: Int1D, columns: Mapping[str, ColumnInput], flags: Mapping[str, Array], masks: Mapping[str, Bool1D]
 ) -> dict[str, Array]:
     """flags, shape (n,) each, without those of REPEATS on measured samples that these alone, side by side, don't bear
-    out. columns: with the flags that they had before they were judged, which stay. masks: where a channel is measured,
+    out, nor one value through STANDS stretches. columns: with the flags that they had before they were judged, which stay. masks: where a channel is measured,
     shape (n,); of channels that are measured at times only."""
     found = dict(flags)
     alike: dict[bytes, list[str]] = {}
@@ -31,9 +32,19 @@ def cleared(
         alone, _ = flag_stream(t_ns[mask], {n: _part(c, mask) for n, c in columns.items()})
         for name in names:
             doubted = _accused(columns[name], flags[name])[mask] & REPEATS & ~alone[name]
+            doubted[_stands(columns[name].values, mask)[mask]] = 0
             found[name] = flags[name].copy()
             found[name][mask] &= ~doubted
     return found
+
+
+def _stands(values: Array, mask: Bool1D) -> Bool1D:
+    """Where a value stays the same through STANDS measured stretches and more, shape (n,)."""
+    run = np.cumsum(np.concatenate([[True], values[1:] != values[:-1]])) - 1
+    stretch = np.cumsum(mask & ~np.concatenate([[False], mask[:-1]]))
+    pairs = np.unique(np.stack([run[mask], stretch[mask]]), axis=1)
+    counted = np.bincount(pairs[0], minlength=int(run[-1]) + 1)
+    return np.asarray(counted[run] >= STANDS)
 
 
 def _accused(column: ColumnInput, flags: Array) -> Array:
