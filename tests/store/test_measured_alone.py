@@ -86,7 +86,7 @@ def test_an_extreme_that_the_logger_repeats_is_no_end_of_a_range(store: Store, t
 
 
 def test_a_probe_that_stands_still_between_a_few_moments_is_held(store: Store, tmp_path: Path) -> None:
-    """Five moments are few to tell by themselves; what lies between them stands as still. Three may be alike by chance."""
+    """Five moments are few to tell by themselves; what lies between them stands as still. Three are alike by chance."""
     for moments, held in ((5, True), (3, False)):
         dz = readings()
         dz[10 * EVERY : (10 + moments) * EVERY] = dz[10 * EVERY]

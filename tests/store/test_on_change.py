@@ -131,3 +131,13 @@ def test_where_all_is_logged_slowly_nothing_is_held(tmp_path: Path) -> None:
     notes, speed = of_hours(tmp_path, [0, 2000, 4000, 0, 0], every_s=1800)
     assert not notes
     assert 990 < speed[30] < 1040
+
+
+def test_many_rows_at_even_times_are_a_clocks_and_asked_for() -> None:
+    """Three hours of a row a minute; a day of hours, and hours at uneven minutes, somebody may have written."""
+    sawtooth = np.arange(180) % 11 * 30.0
+    even = np.arange(180, dtype=np.int64) * 60 * SECOND
+    assert written_by_hand("position", even, sawtooth, SECOND) == "asked"
+    assert written_by_hand("position", even[:24], sawtooth[:24], SECOND) == "on change"
+    uneven = even + np.arange(180) % 7 * SECOND
+    assert written_by_hand("position", uneven, sawtooth, SECOND) == "on change"

@@ -60,11 +60,10 @@ _COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|
 # units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
 # but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
 _BESIDE: Mapping[str, Mapping[str, str]] = {
-    "power": {"kw": "kW", "w": "W", "hp": "hp"},
+    # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
+    "power": {"kw": "kW", "hp": "hp"},
     "displacement": {"m": "m", "nm": "nm"},
     "position": {"m": "m"},
-    "current": {"a": "A"},
-    "voltage": {"v": "V"},
     "temperature": {"k": "K"},
 }
 _LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")

@@ -18,9 +18,9 @@ REPEATS = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED)  # what a value is 
 def cleared(
     t_ns: Int1D, columns: Mapping[str, ColumnInput], flags: Mapping[str, Array], masks: Mapping[str, Bool1D]
 ) -> dict[str, Array]:
-    """flags, shape (n,) each, without those of REPEATS on measured samples that these alone, side by side, don't bear
-    out, nor one value through STANDS stretches. columns: with the flags that they had before they were judged, which stay. masks: where a channel is measured,
-    shape (n,); of channels that are measured at times only."""
+    """flags, shape (n,) each, without those of REPEATS on measured samples that neither these alone, side by side, bear
+    out, nor one value through STANDS stretches. columns: with the flags that they had before they were judged, which
+    stay. masks: where a channel is measured, shape (n,); of channels that are measured at times only."""
     found = dict(flags)
     alike: dict[bytes, list[str]] = {}
     for name, mask in masks.items():

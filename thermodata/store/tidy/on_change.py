@@ -28,7 +28,8 @@ MOST_BY_HAND = 200  # rows
 _MINUTE_NS, _ASKED_NS, _LONG_NS = 60 * 10**9, 300 * 10**9, 1200 * 10**9
 _STEPS = 0.5  # of its rows that change something, unless they lie far apart
 _ROUND = 25  # of the largest value, set ones are multiples of no less than such a part
-_FEW_ROWS, _LARGE = 24, 0.3  # rows, and what they change of the largest, that are asked for where they are not round
+_FEW_ROWS, _LARGE = 24, 0.3  # rows, and what they change of the largest, that are asked for where they are not round;
+# more at even times are asked for, too
 
 Written = Literal["on change", "asked"]
 
@@ -72,9 +73,15 @@ def written_by_hand(quantity: str, t_ns: Int1D, values: Array, beside_ns: int) -
     if np.count_nonzero(np.diff(x)) < (1 if apart >= _LONG_NS else _STEPS * (x.size - 1)):
         return None
     if _are_set(np.abs(x)):
-        return "on change"
+        return "asked" if x.size > _FEW_ROWS and _comes_evenly(t) else "on change"
     large = float(np.ptp(x)) >= _LARGE * float(np.abs(x).max())
     return "asked" if large and apart >= _ASKED_NS and x.size <= _FEW_ROWS else None
+
+
+def _comes_evenly(t_ns: Int1D) -> bool:
+    """Whether rows come as a clock calls them: hours of them nobody writes down so."""
+    apart = np.diff(t_ns)
+    return bool(apart.max() <= 1.01 * apart.min())
 
 
 def _are_set(x: Array) -> bool:
