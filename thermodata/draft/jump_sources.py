@@ -17,8 +17,8 @@ def with_their_sources(
     finds no sheet in a jump test."""
     made, known = list[DraftJump](), list(sources)
     for jump in jumps:
-        home = next(s for s in sources if s.name == jump.source)
-        if home.table.get("sheet") != _TEST:
+        home = next((s for s in sources if s.name == jump.source), None)
+        if home is None or home.table.get("sheet") != _TEST:
             made.append(jump)
             continue
         table = {k: v for k, v in home.table.items() if k != "sheet"} | ({"sheet": jump.sheet} if jump.sheet else {})

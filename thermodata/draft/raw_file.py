@@ -36,7 +36,7 @@ class Asked:
     times: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class RawFile:
     """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
