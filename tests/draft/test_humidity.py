@@ -24,3 +24,9 @@ def test_a_name_that_says_another_share_than_its_unit_is_asked() -> None:
     said = guess("Last Spindel", "%rF")
     assert said.quantity == "humidity"
     assert "quantity: load?" in said.comment()
+
+
+def test_a_right_hand_bearing_is_no_humidity() -> None:
+    """RH is the right-hand one as well, where the name says a temperature."""
+    assert guess("T bearing", "RH").quantity is None
+    assert guess("Halle", "RH").quantity == "humidity"

@@ -106,6 +106,8 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
         return _kelvin(named, unit, size, values)
     if is_of_humidity(unit):
         other = next((q for q in named if q not in ("state", "humidity")), None)
+        if other and "%" not in unit:  # the right-hand one of two bearings, as well
+            return Guess(None, unit, why_not=f"quantity: {other}, or humidity? the name says {other}, and then {unit}")
         asked = (f"quantity: {other}? the unit says humidity",) if other else ()
         sure = "humidity" in named and not asked
         return Guess("humidity", unit, sure=sure, basis=("name", "unit") if sure else ("unit",), questions=asked)
