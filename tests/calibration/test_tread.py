@@ -112,3 +112,15 @@ def test_nor_where_most_of_a_test_stands() -> None:
     tests = alike_at((24.0, 24.0, 36.0, 36.0, 48.0), 0.2)
     stood = [np.concatenate([np.full(1200, 24.0), x, np.full(1200, 48.0)]) for x in tests]
     assert tread_of(stood) == 0.0
+
+
+def test_means_that_hardly_dither_beside_a_riser_keep_a_tread() -> None:
+    """Hours of whole kelvins with a twentieth of noise, means of 30 s: most of what moves is a few readings of thirty.
+    The tread, or a half or third of it, on which means lie as well."""
+    rng = np.random.default_rng(0)
+    tests = []
+    for rise in (2.0, 3.0, 5.0):
+        t = np.arange(6 * 3600) / (6 * 3600)
+        read = np.round(22.3 + rise * (1 - np.exp(-3 * t)) + rng.normal(0, 0.05, len(t)))
+        tests.append(read.reshape(-1, 30).mean(axis=1))
+    assert 0.3 < tread_of(tests) < 1.1
