@@ -13,8 +13,8 @@ import numpy as np
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.evidence import Columns, Weighed
 from thermodata.diagnosis.kin import Kin
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 from thermodata.view.dataset import ChannelInfo, TestData

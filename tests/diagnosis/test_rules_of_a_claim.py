@@ -11,8 +11,9 @@ import pytest
 
 from thermodata.diagnosis.judge import equivalents
 from thermodata.diagnosis.kin import Kin
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.probability import at_best, probability, sharpness
-from thermodata.diagnosis.rules import Measure, acting_size, blunt, explained, failed_rules
+from thermodata.diagnosis.rules import acting_size, blunt, explained, failed_rules
 
 from .hand_made import measure, scored
 

@@ -16,8 +16,8 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement, Verdict
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.ranking import Ranked
-from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 from thermodata.diagnosis.sound import Sound

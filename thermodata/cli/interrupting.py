@@ -45,10 +45,10 @@ def interruptible(items: Iterator[T], interrupt: Callable[[], None]) -> Iterator
         while True:
             taken = thread.submit(lambda: list(islice(items, 1)))
             try:
-                items_taken = taken.result()
+                found = taken.result()
             except KeyboardInterrupt:
                 interrupt()
                 raise
-            if not items_taken:
+            if not found:
                 return
-            yield from items_taken
+            yield from found

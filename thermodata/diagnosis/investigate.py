@@ -30,6 +30,7 @@ from thermodata.diagnosis.logging_faults import (
     wrong_gains,
     wrong_parameters,
 )
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.null import best_of_chance
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.present import present
@@ -37,7 +38,7 @@ from thermodata.diagnosis.probability import at_best, limit_of, may_be_borne_out
 from thermodata.diagnosis.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.refinement import Refinement
-from thermodata.diagnosis.rules import Measure, failed_rules
+from thermodata.diagnosis.rules import failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Member, Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots

@@ -8,10 +8,11 @@ from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.measure import FLOOR_SHARE, Measure
 from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import FLOOR_SHARE, Measure, blunt, contradicts, failed_rules, halves, is_plain, rules
+from thermodata.diagnosis.rules import blunt, contradicts, failed_rules, halves, is_plain, rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import Measure, rules, surely
+from thermodata.diagnosis.rules import rules, surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.plugin import Float1D
 from thermodata.schema.candidate import CandidateCourse, LeftOut, Rung

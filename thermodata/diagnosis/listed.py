@@ -12,9 +12,10 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import Confirmation
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.probability import elsewhere, probability
-from thermodata.diagnosis.rules import Measure, explained, failed_rules
+from thermodata.diagnosis.rules import explained, failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
 from thermodata.diagnosis.why import among, why

@@ -18,9 +18,9 @@ from thermodata.diagnosis.evidence import columns, moments, weigh
 from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.known import Known, known
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.probability import is_made_a_claim, may_be_confirmed
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import Measure
 from thermodata.diagnosis.scored import ACTS, Scored
 from thermodata.diagnosis.selection import Selection
 from thermodata.plugin import Bool1D, Float1D, Int1D

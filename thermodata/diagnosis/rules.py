@@ -8,11 +8,11 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.foretold import Foretold, Looked
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.probability import limit_of, may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.scored import Scored
-from thermodata.plugin import Float1D
 from thermodata.schema.places import heat_at
 
 P_LIMIT = 0.01
@@ -32,50 +32,9 @@ WORTH_SHARE = 0.1  # of the response: less is not worth a name,
 # unless what is as probable as a claim asks does so much of the response, by a gain that differs so little between
 # tests: then the known effects take for their own what it does, and the error hardly shows it
 WORTH_SIZE, WORTH_SPREAD = 0.2, 0.2
-FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
-# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75), or, where
-# modes of the model are found that refine it, what they leave under that (FIT 60); what is left where a cause is
-# missing is more (docs/method.md#verdicts)
-GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
 PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
 PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
-# the short-term noise, so many times, is nothing but noise, for there is a slow one, too: up to the share of the
-# response that is left alone anyway; above that a noise that is large by itself
-NOISE_TIMES, LARGE_NOISE_TIMES = 5.0, 2.0
 HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
-
-
-@dataclass(frozen=True, slots=True)
-class Measure:
-    """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
-    chance: the best evidence of chance, shape (draws,). in_parts: whether tests are so few that they are cut into parts
-    in time, of which each is left out in turn."""
-
-    spread: float
-    noise: float
-    chance: Float1D
-    in_parts: bool = False
-
-    @property
-    def tests(self) -> str:
-        """What is left out in turn, in a word."""
-        return "parts" if self.in_parts else "tests"
-
-    @property
-    def noises(self) -> float:
-        """An error that is nothing but noise."""
-        if not np.isfinite(self.noise):
-            return 0.0
-        return max(LARGE_NOISE_TIMES * self.noise, min(NOISE_TIMES * self.noise, FLOOR_SHARE * self.spread))
-
-    @property
-    def floor(self) -> float:
-        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
-        return max(self.noises, FLOOR_SHARE * self.spread)
-
-    def good(self, *, refined: bool) -> float:
-        """An error that a good model has. refined: that it has once its effects are refined."""
-        return max(self.floor, (REFINED_SHARE if refined else GOOD_SHARE) * self.spread)
 
 
 @dataclass(frozen=True, slots=True)

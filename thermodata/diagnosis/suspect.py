@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.judge import Judgement
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.probability import limit_of, probability
-from thermodata.diagnosis.rules import PLAUSIBLE, Measure, failed_rules
+from thermodata.diagnosis.rules import PLAUSIBLE, failed_rules
 from thermodata.diagnosis.scored import Scored
 
 

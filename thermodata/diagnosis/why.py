@@ -8,9 +8,10 @@ from thermodata.diagnosis.confirm import Confirmation
 from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
+from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.probability import sharpness
-from thermodata.diagnosis.rules import Measure, also_missing, blunt, failed_rules, in_words, on_locked, rules
+from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.scored import Scored
 
 # what a claim may break where it is evident, by the name of the rule

@@ -10,7 +10,7 @@ from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.store.tidy.on_change import BY_HAND, DENSER, written_by_hand
 
-_HELD = "held: true, or false? few rows lie far apart beside a log that is much denser: does each stand until the next"
+_HELD = "held: true, or false? its rows lie far apart beside a log that is much denser: does each stand until the next"
 
 
 def asked_whether_held(channels: Sequence[DraftChannel], group: Group, groups: Sequence[Group]) -> list[DraftChannel]:

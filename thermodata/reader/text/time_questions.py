@@ -17,6 +17,7 @@ from thermodata.reader.text.time_header import is_time_header
 from thermodata.reader.text.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
+_MJD_2000 = 51_544
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 
@@ -103,19 +104,20 @@ def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
-_MJD_2000 = 51_544
+def _are_days(values: Array, first: float, last: float) -> bool:
+    """Whether numbers may be days between two counts, in steps below some hours."""
+    days = values.size > 1 and bool(((values > first) & (values < last)).all())
+    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
 
 
 def may_be_excel(values: Array) -> bool:
-    """Whether numbers may be Excel's days of 2000 to 2099, in steps below some hours; or seconds all the same."""
-    days = values.size > 1 and bool(((values > 36_526) & (values < 73_051)).all()) and float(np.ptp(values)) < 400
-    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+    """Whether numbers may be Excel's days of 2000 to 2099; or seconds all the same."""
+    return _are_days(values, 36_526, 73_051) and float(np.ptp(values)) < 400
 
 
 def _may_be_julian(values: Array) -> bool:
-    """Whether numbers may be Julian days of 1983 to 2119, in steps below some hours."""
-    days = values.size > 1 and bool(((values > 2_445_500) & (values < 2_495_000)).all())
-    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+    """Whether numbers may be Julian days of 1983 to 2119."""
+    return _are_days(values, 2_445_500, 2_495_000)
 
 
 def _day(number: float, unit: str) -> str:

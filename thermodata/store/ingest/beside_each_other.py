@@ -87,11 +87,10 @@ def _odd(apart: Float2D) -> tuple[list[int], float] | None:
     if len(usual) < OTHERS:
         return None
     off = apart - np.median(apart[usual], axis=0)
-    first, last = off[odd].T
     size = float(np.abs(off[odd]).min())
     alike = bool(np.ptp(off[odd]) <= BOTH * size) and len(set(np.sign(off[odd]).ravel().tolist())) == 1
     far = size >= max(LEAST_S, APART * float(np.abs(off[usual]).max()))
-    return (sorted(odd.tolist()), float((first + last).mean() / 2)) if alike and far else None
+    return (sorted(odd.tolist()), float(off[odd].mean())) if alike and far else None
 
 
 def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:

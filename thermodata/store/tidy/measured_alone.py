@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -52,13 +53,4 @@ def _accused(column: ColumnInput, flags: Array) -> Array:
 
 
 def _part(column: ColumnInput, mask: Bool1D) -> ColumnInput:
-    return ColumnInput(
-        values=column.values[mask],
-        quantity=column.quantity,
-        flags=None if column.flags is None else column.flags[mask],
-        range=column.range,
-        at=column.at,
-        elsewhere=column.elsewhere,
-        limits=column.limits,
-        held=column.held,
-    )
+    return replace(column, values=column.values[mask], flags=None if column.flags is None else column.flags[mask])

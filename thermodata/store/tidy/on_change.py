@@ -28,8 +28,9 @@ MOST_BY_HAND = 200  # rows
 _MINUTE_NS, _ASKED_NS, _LONG_NS = 60 * 10**9, 300 * 10**9, 1200 * 10**9
 _STEPS = 0.5  # of its rows that change something, unless they lie far apart
 _ROUND = 25  # of the largest value, set ones are multiples of no less than such a part
-_FEW_ROWS, _LARGE = 24, 0.3  # rows, and what they change of the largest, that are asked for where they are not round;
-# more at even times are asked for, too
+# rows, and what they change of the largest, that are asked for where they are not round; more, at even times, are asked
+# for where they are
+_FEW_ROWS, _LARGE = 24, 0.3
 
 Written = Literal["on change", "asked"]
 

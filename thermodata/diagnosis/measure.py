@@ -1,0 +1,51 @@
+"""What claims are measured against: the response, its noise, and what chance finds in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.plugin import Float1D
+
+FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is left alone
+# what lags leave of a distributed machine that lacks nothing is under this share of its response (FIT 75), or, where
+# modes of the model are found that refine it, what they leave under that (FIT 60); what is left where a cause is
+# missing is more (docs/method.md#verdicts)
+GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
+# the short-term noise, so many times, is nothing but noise, for there is a slow one, too: up to the share of the
+# response that is left alone anyway; above that a noise that is large by itself
+NOISE_TIMES, LARGE_NOISE_TIMES = 5.0, 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What claims are measured against. spread: RMS of the response about its offsets. noise: its short-term noise.
+    chance: the best evidence of chance, shape (draws,). in_parts: whether tests are so few that they are cut into parts
+    in time, of which each is left out in turn."""
+
+    spread: float
+    noise: float
+    chance: Float1D
+    in_parts: bool = False
+
+    @property
+    def tests(self) -> str:
+        """What is left out in turn, in a word."""
+        return "parts" if self.in_parts else "tests"
+
+    @property
+    def noises(self) -> float:
+        """An error that is nothing but noise."""
+        if not np.isfinite(self.noise):
+            return 0.0
+        return max(LARGE_NOISE_TIMES * self.noise, min(NOISE_TIMES * self.noise, FLOOR_SHARE * self.spread))
+
+    @property
+    def floor(self) -> float:
+        """An error that is left alone: noise, and what a sum of lags leaves of a distributed machine."""
+        return max(self.noises, FLOOR_SHARE * self.spread)
+
+    def good(self, *, refined: bool) -> float:
+        """An error that a good model has. refined: that it has once its effects are refined."""
+        return max(self.floor, (REFINED_SHARE if refined else GOOD_SHARE) * self.spread)
