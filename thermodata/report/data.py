@@ -65,7 +65,7 @@ class Version:
     @property
     def change(self) -> str:
         """What it has more and less than its parent, in signs; '' where it has the same effects."""
-        return " ".join(f"{sign} {what}" for sign, what in (("+", self.added), ("-", self.removed)) if what)
+        return " ".join(f"{sign} {what}" for sign, what in (("+", self.added), ("−", self.removed)) if what)
 
 
 @dataclass(frozen=True, slots=True)
