@@ -4,7 +4,6 @@ writes them too."""
 from __future__ import annotations
 
 import csv
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -13,11 +12,11 @@ import numpy as np
 from thermodata.errors import SpecError, nearest
 from thermodata.modelling.of_tests import OfTests
 from thermodata.plugin import Float1D, Float2D, Gain
+from thermodata.reader.text import split_unit
 from thermodata.view.dataset import TestData
 
 NAME = "prediction"
 _COLUMNS = ("test", "t_s", "predicted")
-_UNIT = re.compile(r"\s*\[[^\]]*\]\s*$")  # as `predict --out` writes it behind a name
 
 
 class Prediction(OfTests):
@@ -58,7 +57,7 @@ def read_prediction(path: Path) -> Prediction:
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             rows = csv.DictReader(file)
-            names = {_UNIT.sub("", n).strip().lower(): n for n in rows.fieldnames or []}
+            names = {split_unit(n)[0].strip().lower(): n for n in rows.fieldnames or []}
             if "t" in names:
                 names.setdefault("t_s", names["t"])
             for column in _COLUMNS:
