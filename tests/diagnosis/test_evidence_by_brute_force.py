@@ -163,7 +163,8 @@ def test_each_of_many_series_is_weighed_as_one_at_a_time() -> None:
     for k in range(4):
         alone = [s[:, k] for s in series]
         cross = np.stack([x.T @ y for x, y in zip(base.white, alone, strict=True)])
-        other = replace(base, response=tuple(alone), cross=cross)
+        both = tuple(np.column_stack(pair) for pair in zip(base.white, alone, strict=True))
+        other = replace(base, both=both, cross=cross)
         assert found[k] == pytest.approx(weigh(other, cols, moments(other, cols), other.every).total, abs=1e-8)
     assert found[0] > found[1:].max() + 10.0
 

@@ -127,7 +127,7 @@ def moments(known: Known, columns: Columns) -> Moments:
     own, with_known, with_response = [], [], []
     for i, block in enumerate(columns.blocks):
         m, points, c = block.shape
-        both = np.column_stack([known.white[i], known.response[i]])
+        both = known.both[i]
         if not block.any():
             own.append(np.zeros((points, c, c)))
             cross = np.zeros((points, c, both.shape[1]))

@@ -23,13 +23,12 @@ FREE = 1.0  # or of what would make it as large as the response: an effect that 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """The known effects under a noise, test by test. white: columns (m, k). gram: shape (tests, k, k). cross: (tests,
-    k), with the response. energy: (tests,). precision: (k,), of the prior."""
+    """The known effects under a noise, test by test. both: columns and, last, the response, (m, k + 1). gram: shape
+    (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior."""
 
     problem: Problem
     space: Whitened
-    white: tuple[Float2D, ...]
-    response: tuple[Float1D, ...]
+    both: tuple[Float2D, ...]
     gram: FloatND
     cross: Float2D
     energy: Float1D
@@ -45,7 +44,16 @@ class Known:
 
     @property
     def every(self) -> Int1D:
-        return np.arange(len(self.white))
+        return np.arange(len(self.both))
+
+    @property
+    def white(self) -> tuple[Float2D, ...]:
+        """The columns alone, (m, k)."""
+        return tuple(b[:, :-1] for b in self.both)
+
+    @property
+    def response(self) -> tuple[Float1D, ...]:
+        return tuple(b[:, -1] for b in self.both)
 
     @property
     def left_out(self) -> float:
@@ -71,7 +79,18 @@ class Known:
 
 
 def known(problem: Problem, noise: Noise) -> Known:
-    return _with_prior(problem, noise, *_whitened(problem, noise))
+    space = Whitened(problem, noise)
+    both = tuple(space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks))
+    products = np.stack([b.T @ b for b in both])
+    return Known(
+        problem,
+        space,
+        both,
+        products[:, :-1, :-1],
+        products[:, :-1, -1],
+        products[:, -1, -1],
+        _precision(_gains(problem), problem.blocks[0].slack.shape[1], noise.share),
+    )
 
 
 def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
@@ -87,6 +106,7 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
     thin = _thinned(problem, every) if every > 1 else problem
     first, bounds = bounds_of(problem)
     tests = Weighted(thin)
+    gains, slack = _gains(thin), thin.blocks[0].slack.shape[1]
     made: dict[bytes, Products] = {}
 
     def products(x: Float1D) -> Products:
@@ -98,7 +118,7 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
 
     def evidence(x: Float1D, part: Int1D) -> float:
         gram, cross, energy, logdet, rows = products(x)
-        precision = _precision(thin, _of(x).share)[part]
+        precision = _precision(gains, slack, _of(x).share)[part]
         return log_evidence(gram[np.ix_(part, part)], cross[part], energy, logdet, rows, precision)
 
     begin = np.log(astuple(first if start is None else start))
@@ -117,37 +137,21 @@ def _thinned(problem: Problem, every: int) -> Problem:
     return replace(problem.thinned(every), kept=kept)
 
 
-def _whitened(problem: Problem, noise: Noise) -> tuple[Whitened, tuple[Float2D, ...], tuple[Float1D, ...]]:
-    space = Whitened(problem, noise)
-    both = [space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks)]
-    return space, tuple(b[:, :-1] for b in both), tuple(b[:, -1] for b in both)
-
-
-def _with_prior(
-    problem: Problem, noise: Noise, space: Whitened, white: tuple[Float2D, ...], response: tuple[Float1D, ...]
-) -> Known:
-    return Known(
-        problem,
-        space,
-        white,
-        response,
-        np.stack([x.T @ x for x in white]),
-        np.stack([x.T @ y for x, y in zip(white, response, strict=True)]),
-        np.array([y @ y for y in response]),
-        _precision(problem, noise.share),
-    )
-
-
 def solved(factor: Float2D, right: Float2D) -> Float2D:
     """(L L')^-1 times the right side."""
     return halved(factor, halved(factor, right), transposed=True)
 
 
-def _precision(problem: Problem, share: float) -> Float1D:
+def _gains(problem: Problem) -> Float1D:
+    """Prior standard deviation of each known gain, as a multiple of its fit."""
     large = rms(problem.response_blocks)
     own = np.sqrt(np.mean(np.vstack([b.base for b in problem.blocks]) ** 2, axis=0))
-    gains = np.maximum(GAIN, FREE * large / np.maximum(own, 1e-9 * large + 1e-300))
-    return np.concatenate([gains**-2.0, np.full(problem.blocks[0].slack.shape[1], share**-2.0)])
+    return np.asarray(np.maximum(GAIN, FREE * large / np.maximum(own, 1e-9 * large + 1e-300)))
+
+
+def _precision(gains: Float1D, slack: int, share: float) -> Float1D:
+    """Of the prior. slack: how many columns are other time constants. share: their prior standard deviation."""
+    return np.concatenate([gains**-2.0, np.full(slack, share**-2.0)])
 
 
 def rms(parts: Sequence[Float1D]) -> float:
