@@ -13,7 +13,7 @@ PLACES: dict[str, str] = {
     "tcp": "tool centre point: where a displacement counts",
     "stator": "the spindle's standing part: a displacement without the tool",
     "tool": "the tool in the spindle",
-    "spindle": "the spindle as a whole: its speed, power, load",
+    "spindle": "the spindle as a whole: its speed, power, load; a temperature of no part in particular",
     "spindle.bearing": "a bearing of the spindle, where front and rear are not told apart",
     "spindle.bearing.front": "the bearing next to the tool",
     "spindle.bearing.rear": "the bearing at the far end",
