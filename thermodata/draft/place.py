@@ -26,6 +26,9 @@ _PLAIN = (
     "cabinet",
     "outside",
 )
+# whose displacement is none of the tool
+_BODIES = {*_BEAMS, "headstock", "tailstock", "saddle", "table", "workpiece", "fixture", "floor"}
+_BODIES |= {"bearing", "motor", "gearbox", "nut", "screw", "scale", "guide"}
 _HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'
 _TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 _ON_AXIS = ("nut", "screw", "scale", "guide")
@@ -269,7 +272,9 @@ def _state(said: set[str], axis: str | None) -> Place:
 def _displacement(said: set[str], axis: str | None) -> Place:
     if "compensation" in said:
         return Place("cnc.compensation", True)
-    elsewhere = said & {"column", "bed", "table", "headstock", "crossbeam", "floor", "scale", "fixture"}
+    if "stator" in said:
+        return Place("stator", question="at: stator, the spindle's standing part, or tcp?")
+    elsewhere = said & _BODIES
     if elsewhere:
         return Place(None, question=f"at: tcp, or the {min(elsewhere)} itself?")
     return Place("tcp", True)
