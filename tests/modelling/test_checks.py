@@ -92,7 +92,10 @@ def test_a_coarse_sensor_before_a_sharp_function_ripples(world: Dataset, spec: S
 def test_an_implausible_gain_is_named(world: Dataset, spec: Spec) -> None:
     big = tuple(replace(t, values={**t.values, "dZ": t.values["dZ"] * 40}) for t in world.tests)
     fitted = fit_model(spec(*EFFECTS), replace(world, tests=big))
-    assert not _check(fitted, "implausible:feed_screw.gain").passed
+    check = _check(fitted, "implausible:feed_screw.gain")
+    assert not check.passed
+    assert check.value is not None
+    assert f"{check.value:.3g} um/K is larger than anything known for 'feed_screw' (0.5 to 5 um/K)" in check.advice
 
 
 def _one_lag(seed: int, slow: bool) -> TestData:
