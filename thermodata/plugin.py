@@ -174,7 +174,7 @@ class Reader(Protocol):
 @dataclass(frozen=True, slots=True)
 class Need:
     """A driver that an effect needs. places: dotted, `{a}` an axis letter, `{s}spindle` any spindle, `*` any one
-    part; () any place."""
+    part, `spindle.bearing?` the bearing, or the spindle where no bearing has a sensor; () any place."""
 
     role: str
     quantity: str

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.chart import asset, effect_styles
-from thermodata.chart.colour import EFFECTS
+from thermodata.chart.colour import DASHES, EFFECTS
 from thermodata.schema.flag import Flag
 
 # cone vision that lacks one kind wholly: Machado, Oliveira and Fernandes 2009, doi 10.1109/TVCG.2009.113
@@ -97,7 +97,16 @@ def test_every_flag_has_a_colour() -> None:
     assert names <= set(LOOKS["light"])
 
 
-def test_eighteen_effects_are_told_apart_and_keep_their_looks() -> None:
-    styles = effect_styles([f"e{i}" for i in range(18)])
-    assert len(set(styles.values())) == 18
+@pytest.mark.parametrize("count", [7, 19, 48])
+def test_many_lines_are_told_apart_and_keep_their_looks(count: int) -> None:
+    styles = effect_styles([f"e{i}" for i in range(count)])
+    assert len(set(styles.values())) == count
     assert effect_styles(["e0", "e1", "e0"]) == {k: styles[k] for k in ("e0", "e1")}
+
+
+def test_every_dash_is_drawn_on_the_page_and_beside_the_name() -> None:
+    listed = asset("paint.js").partition("T.dash = {")[2].partition("};")[0]
+    drawn = dict(re.findall(r'"?([\w-]+)"?: \[([^\]]*)\]', listed))
+    assert {n: tuple(int(v) for v in px.split(",") if v) for n, px in drawn.items()} == DASHES
+    for name in DASHES:
+        assert name == "solid" or f".tc-{name}" in asset("chart.css"), name

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
-from thermodata.schema.result import Parameter
+from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -22,6 +22,7 @@ class Response:
     unit: str = "um"
     terms: tuple[Any, ...] = ()
     name: str = "dZ"
+    checks: tuple[Check, ...] = ()
 
     def can_predict(self, test: TestData) -> bool:
         return test.test in self.left

@@ -62,6 +62,8 @@ def nothing(verdict: Verdict, *members: Judged) -> Judgement:
 class TestAnswer:
     """What is found is given by hand: what matters is what is opened, and what is said."""
 
+    doubts: tuple[str, ...] = ()
+
     def answered(
         self,
         monkeypatch: pytest.MonkeyPatch,
@@ -134,7 +136,8 @@ class TestAnswer:
             self.opened.append((names, [t.test for t in asked[5]]))
             parameters = {c.id: {f"{c.effect.name}.gain": Parameter(value=2.0, unit="um/K")} for c in asked[3]}
             after = 0.5 if hold(names) else 1.0
-            return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes(hold(names)))
+            doubts = {c.id: self.doubts for c in asked[3]}
+            return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes(hold(names)), implausible=doubts)
 
         refitted: Any = SimpleNamespace(responses=[response])
         monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, ___: Sound(spec, refitted, data, tests))
@@ -184,6 +187,14 @@ class TestAnswer:
         assert found.unknown is None
         alone = self.answered(monkeypatch, spec, claim(FIRST))
         assert "on the locked tests from 1.00 to 0.50 um" in alone.candidates[0].why
+        assert "larger" not in alone.candidates[0].why
+
+    def test_a_claim_whose_gain_is_implausible_is_told_as_one(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        self.doubts = ("-12521 um/kW is larger than anything known",)
+        found = self.answered(monkeypatch, spec, claim(FIRST))
+        assert found.candidates[0].why.endswith("; -12521 um/kW is larger than anything known")
 
     @pytest.mark.parametrize("guide", ["T_g", "T_b", "T_x"])
     def test_another_part_is_named_and_its_sensor_advised_unless_another_claim_or_a_twin_reads_it(

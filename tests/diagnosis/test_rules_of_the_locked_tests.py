@@ -26,7 +26,7 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.turned_locked import turned_locked
 from thermodata.modelling.resolve import term_ids
 from thermodata.schema.model import Model
-from thermodata.schema.result import Parameter
+from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import Dataset
 
 from .hand_made import Parts, PlainEffect, a_test, candidate, problem, scored
@@ -507,7 +507,12 @@ class TestConfirm:
             ids = term_ids(asked.effects)
             values = {f"dZ.{name}.gain": Parameter(value=i, unit="um/K") for i, name in enumerate(ids)}
             terms = tuple(type("Term", (), {"id": name}) for name in ids)
-            return Fitted([Response({}, terms=terms), Response(left[count])], asked, values=values)
+            doubts = [
+                Check(name=f"implausible:{name}.gain", value=9.0, threshold=1.0, passed=False, advice=name)
+                for name in ids
+            ]
+            asked_of = Response(left[count], checks=tuple(doubts[:2]))
+            return Fitted([Response({}, terms=terms), asked_of], asked, values=values)
 
         monkeypatch.setattr(confirming, "fit_model", fit_model)
         data = Dataset(60.0, (*self.OPEN, *self.LOCKED), {})
@@ -535,6 +540,7 @@ class TestConfirm:
             "first:T_a": ["dZ.first.gain"],
             "second:T_a": ["dZ.second.gain"],
         }
+        assert found.implausible == {"first:T_a": ("first",), "second:T_a": ()}, "the first check is of the model's own"
 
     def test_a_fit_that_is_made_is_not_made_again(self, monkeypatch: pytest.MonkeyPatch, spec: Model) -> None:
         wave = np.array([1.0, -1.0, 1.0, -1.0])

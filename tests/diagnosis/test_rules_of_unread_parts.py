@@ -153,7 +153,10 @@ def test_heats_in_words() -> None:
     assert heat_at(["axis.z.nut", "axis.z.guide"], " or ") == "heat at axis.z.nut or axis.z.guide"
     assert heat_at(["hall"], " or ") == "the air of the hall"
     assert heat_at(["enclosure"], " or ") == "the air of the working space"
-    assert heat_at(["hall", "fixture"], " and ") == "heat at fixture and the air of the hall"
+    holder = "heat of what holds the probes or the part (nothing is logged at fixture)"
+    assert heat_at(["fixture"], " or ") == holder
+    assert heat_at(["hall", "fixture"], " and ") == f"{holder} and the air of the hall"
+    assert heat_at(["axis.z.nut", "fixture"], " or ") == f"heat at axis.z.nut or {holder}"
 
 
 def on_axis(evidence: float, *places: str) -> Scored:

@@ -133,6 +133,39 @@ def test_a_speed_without_a_place_is_of_the_spindle_without_a_name() -> None:
     assert [tuple(b.values()) for b in mixed] == [("T", "n_counter")], "nor is it of the counter spindle"
 
 
+WHOLE = {"T_spindle": ChannelInfo("T_spindle", "temperature", "degC", "spindle")}
+SPEED = {"n": ChannelInfo("n", "rotational_speed", "rpm", "spindle")}
+
+
+def test_a_temperature_of_the_spindle_drives_what_asks_for_its_bearing() -> None:
+    for name in ("spindle_bearing", "spindle_bearing_2"):
+        assert bindings(effect(name), WHOLE) == [{"temperature": "T_spindle"}]
+    for name in ("spindle_heating_cooling", "speed_dependent_gain"):
+        assert bindings(effect(name), WHOLE | SPEED) == [{"temperature": "T_spindle", "speed": "n"}]
+    assert family_of(effect("spindle_bearing"), {"temperature": "T_spindle"}, WHOLE) == "spindle"
+
+
+def test_but_not_where_a_bearing_has_a_sensor() -> None:
+    front = {"T_front": CHANNELS["T_front"]}
+    assert bindings(effect("spindle_bearing"), WHOLE | front) == [{"temperature": "T_front"}]
+    assert bindings(effect("spindle_bearing"), front | WHOLE) == [{"temperature": "T_front"}]
+    motor = {"T_motor": CHANNELS["T_motor"]}
+    assert bindings(effect("spindle_bearing"), WHOLE | motor) == [{"temperature": "T_spindle"}]
+    counter = {"T_counter": TWO_SPINDLES["T_counter"]}
+    assert bindings(effect("spindle_bearing"), WHOLE | counter) == [
+        {"temperature": "T_spindle"},
+        {"temperature": "T_counter"},
+    ], "each spindle by itself"
+    assert bindings(effect("spindle_bearing"), SPEED) == [], "a speed is no temperature"
+
+
+def test_and_no_other_part_of_it() -> None:
+    for name in ("spindle_motor", "spindle_gearbox"):
+        assert bindings(effect(name), WHOLE) == []
+    counter = {"T": ChannelInfo("T", "temperature", "degC", "counter_spindle")}
+    assert family_of(effect("spindle_bearing"), {"temperature": "T"}, counter) == "counter_spindle"
+
+
 def test_an_effect_without_drivers_means_the_spindle_without_a_name() -> None:
     bearing = effect("spindle_bearing")
     assert unnamed(bearing, TWO_SPINDLES) == [{"temperature": "T_main"}]
@@ -155,6 +188,10 @@ def test_the_family_names_the_axis() -> None:
         ("spindle.bearing", "spindle.bearing.front", True),
         ("spindle.bearing", "spindle", False),
         ("spindle.bearing", "spindle.bearings", False),
+        ("spindle.bearing?", "spindle.bearing.front", True),
+        ("spindle.bearing?", "spindle", True),
+        ("spindle.bearing?", "spindle.motor", False),
+        ("spindle.bearing?", "headstock", False),
         ("hall.*", "hall", True),
         ("hall.*", "hall.top", True),
         ("axis.{a}.nut", "axis.z.nut", True),

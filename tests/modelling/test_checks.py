@@ -10,6 +10,7 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.result import make_result
 from thermodata.modelling.uncertainty import effective_count, memory
 from thermodata.schema.result import Check
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -92,7 +93,47 @@ def test_a_coarse_sensor_before_a_sharp_function_ripples(world: Dataset, spec: S
 def test_an_implausible_gain_is_named(world: Dataset, spec: Spec) -> None:
     big = tuple(replace(t, values={**t.values, "dZ": t.values["dZ"] * 40}) for t in world.tests)
     fitted = fit_model(spec(*EFFECTS), replace(world, tests=big))
-    assert not _check(fitted, "implausible:feed_screw.gain").passed
+    check = _check(fitted, "implausible:feed_screw.gain")
+    assert not check.passed
+    assert check.value is not None
+    assert f"{check.value:.3g} um/K is larger than anything known for 'feed_screw' (0.5 to 5 um/K)" in check.advice
+
+
+def _with_another(world: Dataset, *without: str) -> Dataset:
+    """A second response, forty times as large, that some tests lack."""
+    far = ChannelInfo("dZ_far", "displacement", "um", "table.d1500", "Z")
+    tests = tuple(
+        t
+        if t.test in without
+        else replace(t, values={**t.values, "dZ_far": t.values["dZ"] * 40}, channels={**t.channels, "dZ_far": far})
+        for t in world.tests
+    )
+    return replace(world, tests=tests, channels={**world.channels, "dZ_far": far})
+
+
+TWO = [{"channel": "dZ"}, {"channel": "dZ_far"}]
+
+
+def test_with_several_responses_a_check_says_whose_it_is(world: Dataset, spec: Spec) -> None:
+    found = fit_model(spec(*EFFECTS, response=TWO), _with_another(world)).checks()
+    names = [c.name for c in found]
+    assert len(set(names)) == len(names)
+    assert {"effective_samples:dZ", "effective_samples:dZ_far", "condition_number:dZ"} <= set(names)
+    assert {c.name for c in found if c.name.startswith("implausible:")} >= {"implausible:dZ_far/feed_screw.gain"}
+    assert "implausible:dZ/feed_screw.gain" not in names
+    alone = fit_model(spec(*EFFECTS), world).checks()
+    assert {"effective_samples", "condition_number"} <= {c.name for c in alone}
+
+
+def test_what_a_test_lacks_for_either_response_is_one_check(world: Dataset, spec: Spec) -> None:
+    data = _with_another(world, "t1", "t2")
+    bare = tuple(
+        replace(t, values={n: v for n, v in t.values.items() if n != "dZ"}) if t.test == "t1" else t for t in data.tests
+    )
+    data = replace(data, tests=bare)
+    result = make_result(fit_model(spec(*EFFECTS, response=TWO), data), data, "m")
+    skipped = {c.name: c.advice for c in result.checks if c.name.startswith("skipped:")}
+    assert skipped == {"skipped:c/t1": "c/t1: no 'dZ'; c/t1: no 'dZ_far'", "skipped:c/t2": "c/t2: no 'dZ_far'"}
 
 
 def _one_lag(seed: int, slow: bool) -> TestData:

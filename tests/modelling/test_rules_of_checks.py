@@ -22,6 +22,7 @@ TAU = Param("tau", "min", 30.0, 10.0, 100.0, "the time constant")
 SECOND = Param("tau2", "min", 60.0, 10.0, 100.0, "the second time constant")
 EXPONENT = Param("p", "1", 1.0, 0.0, 2.0, "the exponent")
 GAIN = Gain("gain", "um/K", (0.5, 10.0), "any", "")
+UM: Any = SimpleNamespace(unit="um", bound=SimpleNamespace(units={"T": "degC", "P": "kW", "n": "rpm"}))
 
 
 @dataclass(frozen=True)
@@ -56,6 +57,7 @@ def term(
     silent: Sequence[str] = (),
     bounds: Mapping[str, tuple[float, float]] | None = None,
     held: bool = False,
+    driver: str = "T",
 ) -> Any:
     """A fitted term as the checks see it."""
     effect = effect or Straight()
@@ -70,7 +72,7 @@ def term(
     return SimpleNamespace(
         id="straight",
         effect=effect,
-        binding={n.role: "T" for n in effect.needs},
+        binding={n.role: driver for n in effect.needs},
         bound=bound,
         groups={"": values},
         params=values.params,
@@ -144,7 +146,7 @@ def by_tool(shared: bool) -> Any:
 @pytest.mark.parametrize(("shared", "tags"), [(True, [""]), (False, ["[A]", "[B]"])])
 def test_what_groups_share_is_said_once_by_the_name_that_its_row_has(shared: bool, tags: list[str]) -> None:
     found = by_tool(shared)
-    said = names(bound_checks.at_bounds(found))
+    said = names(bound_checks.at_bounds(UM, found))
     assert said == [
         f"{what}{tag}" for what in ("at_bound:straight.tau", "not_determined:straight.tau2") for tag in tags
     ]
@@ -162,14 +164,14 @@ def test_what_groups_share_is_said_once_by_the_name_that_its_row_has(shared: boo
 )
 def test_a_parameter_at_its_bound(value: float, at: bool) -> None:
     """Within a thousandth of the bound."""
-    assert names(bound_checks.at_bounds(term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
+    assert names(bound_checks.at_bounds(UM, term(params={"tau": value}))) == (["at_bound:straight.tau"] if at else [])
 
 
 def test_a_bound_that_bodies_reach_beyond_is_told_with_what_to_write() -> None:
     reaching = Straight(params=(replace(TAU, reach=(1.0, 360.0)),))
-    [told] = bound_checks.at_bounds(term(reaching, {"tau": 100.0}))
+    [told] = bound_checks.at_bounds(UM, term(reaching, {"tau": 100.0}))
     assert "in the effect: bounds: {tau: [1, 360]}" in told.advice
-    [plain] = bound_checks.at_bounds(term(params={"tau": 100.0}))
+    [plain] = bound_checks.at_bounds(UM, term(params={"tau": 100.0}))
     assert plain.advice.endswith("or the bound is wrong")
     assert bound_checks._wider(replace(TAU, reach=(1.0, 360.0)), 360.0) == "", "it stands at the end of that"
 
@@ -177,14 +179,14 @@ def test_a_bound_that_bodies_reach_beyond_is_told_with_what_to_write() -> None:
 @pytest.mark.parametrize(("value", "at"), [(0.0019, True), (0.0021, False), (1.9981, True), (1.9979, False)])
 def test_a_parameter_that_may_be_zero_is_at_its_bound_by_its_range(value: float, at: bool) -> None:
     effect = Straight(params=(EXPONENT,))
-    assert names(bound_checks.at_bounds(term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
+    assert names(bound_checks.at_bounds(UM, term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
 
 
 def test_a_bound_is_the_users_where_there_is_one_and_fixed_and_silent_ones_have_none() -> None:
-    assert bound_checks.at_bounds(term(params={"tau": 100.0}, bounds={"tau": (10.0, 200.0)})) == []
-    assert names(bound_checks.at_bounds(term(params={"tau": 200.0}, bounds={"tau": (10.0, 200.0)})))
-    assert bound_checks.at_bounds(term(params={"tau": 100.0}, fixed=["tau"])) == []
-    assert bound_checks.at_bounds(term(params={"tau": 100.0}, silent=["tau"])) == []
+    assert bound_checks.at_bounds(UM, term(params={"tau": 100.0}, bounds={"tau": (10.0, 200.0)})) == []
+    assert names(bound_checks.at_bounds(UM, term(params={"tau": 200.0}, bounds={"tau": (10.0, 200.0)})))
+    assert bound_checks.at_bounds(UM, term(params={"tau": 100.0}, fixed=["tau"])) == []
+    assert bound_checks.at_bounds(UM, term(params={"tau": 100.0}, silent=["tau"])) == []
 
 
 @pytest.mark.parametrize(("tau", "long"), [(600.5, True), (599.5, False)])
@@ -197,8 +199,8 @@ def test_a_time_constant_longer_than_the_longest_test(tau: float, long: bool) ->
 
 @pytest.mark.parametrize(("gain", "named"), [(10.01, True), (-10.01, True), (9.99, False), (-9.99, False)])
 def test_a_gain_larger_than_anything_known(gain: float, named: bool) -> None:
-    assert names(bound_checks._plausible(term(gain=gain))) == (["implausible:straight.gain"] if named else [])
-    assert bound_checks._plausible(term(gain=gain, fixed=["gain"])) == []
+    assert names(bound_checks._plausible(UM, term(gain=gain))) == (["implausible:straight.gain"] if named else [])
+    assert bound_checks._plausible(UM, term(gain=gain, fixed=["gain"])) == []
 
 
 @pytest.mark.parametrize(("quantity", "named", "unit"), [("temperature", True, "um/K"), ("feed", False, "um")])
@@ -206,14 +208,39 @@ def test_a_gain_a_kelvin_is_one_where_a_temperature_drives_it(quantity: str, nam
     """A screw that is driven by its feed grows by 20 um at 10 m/min, which is no 20 um/K."""
     kelvin = replace(GAIN, unit="um/K", magnitude=(0.5, 5.0))
     found = term(Straight(needs=(Need("u", quantity),), gains=(kelvin,)), gain=20.0)
-    assert bool(bound_checks._plausible(found)) == named
-    assert gain_unit(SimpleNamespace(unit="um"), found, "um/K") == unit  # type: ignore[arg-type]
+    assert bool(bound_checks._plausible(UM, found)) == named
+    assert gain_unit(UM, found, "um/K") == unit
+
+
+@pytest.mark.parametrize(
+    ("driver", "gain", "said"),
+    [
+        ("P", -12521.0, "-12521 um/kW is larger than anything known for any effect with a gain in um/kW (5 to 300"),
+        ("P", 300.1, "300 um/kW is larger"),
+        ("P", 299.9, None),
+        ("T", 60.1, "60.1 um/K is larger than anything known for any effect with a gain in um/K (0.1 to 60 um/K)"),
+        ("T", -59.9, None),
+        ("n", 1e6, None),
+    ],
+)
+def test_a_gain_of_no_physics_is_held_against_all_in_its_unit(driver: str, gain: float, said: str | None) -> None:
+    """What nothing has a gain in, as um/rpm, is left alone."""
+    plain = Straight(needs=(Need("u", "*"),), gains=(replace(GAIN, unit="um/u", magnitude=(0.0, float("inf"))),))
+    found = bound_checks._plausible(UM, term(plain, gain=gain, driver=driver))
+    assert names(found) == (["implausible:straight.gain"] if said else [])
+    assert all(c.advice.startswith(said or "") for c in found)
+
+
+@pytest.mark.parametrize(("unit", "named"), [("um", True), ("degC", False), ("urad", False)])
+def test_nothing_is_known_of_a_response_that_is_no_displacement(unit: str, named: bool) -> None:
+    response: Any = SimpleNamespace(unit=unit, bound=UM.bound)
+    assert bool(bound_checks._plausible(response, term(gain=1e4))) is named
 
 
 @pytest.mark.parametrize("largest", [float("inf"), 0.0])
 def test_a_gain_without_a_known_magnitude_is_plausible(largest: float) -> None:
     effect = Straight(gains=(Gain("gain", "um/K", (0.0, largest), "any", ""),))
-    assert bound_checks._plausible(term(effect, gain=1e6)) == []
+    assert bound_checks._plausible(UM, term(effect, gain=1e6)) == []
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from thermodata.calibration.quality_still import Reading
 
-_LEAST_AT = 10  # samples of a test at its extreme
+_LEAST_AT = 10  # readings of a test at its extreme
 _LEAST_TESTS = 2
 
 Limits = tuple[float | None, float | None]  # lower and upper; None where none is known
@@ -34,7 +34,7 @@ def ends_of_ranges(readings: Mapping[tuple[str, str], Reading]) -> dict[tuple[st
 
 
 def _end(extremes: Mapping[str, tuple[float, int]], readings: Mapping[str, Reading]) -> float | None:
-    """The largest extreme of all tests, where enough of them stand on it. extremes: test -> (value, samples there)."""
+    """The largest extreme of all tests, where enough of them stand on it. extremes: test -> (value, readings there)."""
     if not extremes:
         return None
     end = max(value for value, _ in extremes.values())

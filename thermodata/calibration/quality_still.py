@@ -18,8 +18,8 @@ _COARSER = 3.0  # than usual: it was logged otherwise
 @dataclass(frozen=True, slots=True)
 class Reading:
     """How a channel read in a test, as in `RunStats`. moving: differences that it rests on. stood_s: the longest
-    stretch of exactly one value [s]. low, high: its extremes, None where it has no value; low_n, high_n: samples that
-    stand there."""
+    stretch of exactly one value [s]. low, high: its extremes, None where it has no value; low_n, high_n: readings
+    that stand there, each one however often it is logged."""
 
     step: float
     finest: float

@@ -12,13 +12,23 @@ EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
 """Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
 MEASURED, MODEL, RESIDUAL, LANE = "measured", "model", "residual", "lane"
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
-_DASHES = ("solid", "dashed", "dotted")
+DASHES: dict[str, tuple[int, ...]] = {
+    "solid": (),
+    "dashed": (7, 4),
+    "dotted": (2, 3),
+    "dash-dot": (8, 3, 2, 3),
+    "long": (15, 4),
+    "dash-dot-dot": (8, 3, 2, 3, 2, 3),
+    "sparse": (3, 7),
+    "long-dot": (15, 3, 2, 3),
+}
+"""Name -> drawn and left out by turns [px], as in paint.js; beside the name of a line they stand in chart.css."""
 
 
 def effect_styles(names: Iterable[str]) -> dict[str, tuple[str, str]]:
-    """Name -> (colour, dash), in the order of the names: no two of the first eighteen are alike."""
-    each = enumerate(dict.fromkeys(names))
-    return {name: (EFFECTS[i % 6], _DASHES[i // 6 % 3]) for i, name in each}
+    """Name -> (colour, dash), in the order of the names: no two of the first 48 are alike."""
+    each, dashes = enumerate(dict.fromkeys(names)), list(DASHES)
+    return {name: (EFFECTS[i % len(EFFECTS)], dashes[i // len(EFFECTS) % len(dashes)]) for i, name in each}
 
 
 @cache

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,13 +12,14 @@ from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.problem import freed
 from thermodata.diagnosis.scored import ACTS
 from thermodata.errors import ThermodataError
+from thermodata.modelling.bound_checks import IMPLAUSIBLE
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.resolve import term_ids
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
-from thermodata.schema.result import Parameter
+from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -41,7 +42,8 @@ class Confirmation:
     test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
     (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
     decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
-    beside the model as it stands (`ACTS`).
+    beside the model as it stands (`ACTS`). implausible: what is said of gains that are larger than anything known, by
+    candidate.
     """
 
     before: float | None
@@ -54,6 +56,7 @@ class Confirmation:
     shapes: tuple[Shape, ...] = ()
     asked: frozenset[tuple[str, str]] | None = None
     acts: frozenset[tuple[str, str]] = frozenset()
+    implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
@@ -107,18 +110,20 @@ def confirm(
     more = fit_model(extended(spec, candidates), data)
     ours, theirs = base.responses[index], more.responses[index]
     usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
+    found, terms = more.parameters(), _terms(more, base, candidates)
     return Confirmation(
         rmse(ours, usable),
         rmse(theirs, usable),
         rmse(ours, usable, free=True),
         rmse(theirs, usable, free=True),
         _changed(ours, theirs, usable),
-        _parameters(more, base, candidates),
+        {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()},
         tuple(
             (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
         ),
         tuple(_shape(ours, theirs, t) for t in usable),
         acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
+        implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
     )
 
 
@@ -218,15 +223,17 @@ def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestD
     return float(np.sqrt(np.mean(whole**2)))
 
 
-def _parameters(
-    more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]
-) -> dict[str, dict[str, Parameter]]:
-    """Of each candidate, by its id: of the effects that it changed, or that were added in its order."""
+def _terms(more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]) -> dict[str, tuple[str, ...]]:
+    """The effects that each candidate changed, or that were added in its order, by its id."""
     had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
     added = iter(name for name in term_ids(more.spec.effects) if name not in had)
-    terms = {c.id: c.becomes or (next(added),) for c in candidates}
-    found = more.parameters()
-    return {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()}
+    return {c.id: c.becomes or (next(added),) for c in candidates}
+
+
+def _implausible(checks: Sequence[Check], terms: Sequence[str]) -> tuple[str, ...]:
+    """What the checks of a response say of the gains of some effects."""
+    begins = tuple(f"{IMPLAUSIBLE}{name}." for name in terms)
+    return tuple(c.advice for c in checks if c.name.startswith(begins))
 
 
 def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:

@@ -24,6 +24,7 @@ from thermodata.errors import unknown_name
 from thermodata.modelling.bound import OF_TESTS, group_of
 from thermodata.modelling.candidate import gain_by_id, with_gain_by
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.said_conditions import refuse_unsaid
 from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData
@@ -124,8 +125,7 @@ def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData])
     if term not in terms:
         raise unknown_name("effect", term, list(terms), where=f"candidate '{gain_by_id(term, by)}'")
     mine = [t for t in tests if terms[term].bound.covers(t)]
-    if any(group_of(t, by) is None for t in mine):
-        raise unknown_name("condition", by, _conditions(mine), where=f"candidate '{gain_by_id(term, by)}', every test")
+    refuse_unsaid(by, mine, f"candidate '{gain_by_id(term, by)}'")
     return _candidate(terms[term], by, (), mine, tests)
 
 

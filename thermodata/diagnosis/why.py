@@ -51,7 +51,9 @@ def why(
         broken = failed_rules(s, investigation.measure, unit)
         broken += [member.refines] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
-        return f"{numbers}{in_spite_of(s, investigation.measure, unit)}; {of_chance}{elsewhere}{outweighed}{locked}"
+        gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
+        spite = in_spite_of(s, investigation.measure, unit)
+        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:

@@ -15,7 +15,8 @@ from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
 from thermodata.draft.doubted_units import doubted, implausible
 from thermodata.draft.naming import words
-from thermodata.draft.place import Place, place_of
+from thermodata.draft.place import place_of
+from thermodata.draft.place_rules import Place
 from thermodata.draft.quantity import Guess, quantity_of, range_text
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says

@@ -99,6 +99,8 @@ _PLACE_WORDS: dict[str, str] = {
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
     "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors. "
     "stator. statore.",
+    # whose winding warms, and which stands still where the tool turns
+    "stator": "stator. statore. estator. statoru. 定子 ステータ",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
     "screw": "screw gewindetrieb kgt. kugelgewinde sroub srouby 丝杠 丝杆 絲杠 滚珠 bsc. leadscrew gewindespindel vis. "
     "vite. viti.",

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Protocol
 
-from thermodata.effect.places import match
+from thermodata.effect.places import match, part_alone
 from thermodata.plugin import Effect, Need
 
 ANY = "*"
@@ -28,7 +28,8 @@ def bindings(effect: Effect, channels: Mapping[str, Described]) -> list[dict[str
 
     Rules. Needs that list equally many places (two or more) run in parallel: the n-th with the n-th, so that a
     column bends by rear - front or left - right, never by rear - right. Where all needs are optional, exactly one
-    is taken (alternatives). Otherwise an optional need is taken where something fits it. A channel drives one role.
+    is taken (alternatives). Otherwise an optional need is taken where something fits it. A channel drives one role. A
+    whole drives what asks for a part of it (`spindle.bearing?`) only where nothing reads that part itself.
     """
     return [found for found, _ in _all(effect, channels)]
 
@@ -93,15 +94,22 @@ def _extend(
         yield found, variables
         return
     need, rest = needs[0], needs[1:]
-    fitting = [
-        (name, v)
-        for name, info in channels.items()
-        if name not in found.values() and (v := _fits(need, info, variables)) is not None
-    ]
-    for name, v in fitting:
+    free = {name: info for name, info in channels.items() if name not in found.values()}
+    fitting = _fitting(need, free, variables)
+    for name, v in fitting.items():
         yield from _extend(rest, channels, {**found, need.role: name}, v)
     if need.optional and not fitting:
         yield from _extend(rest, channels, found, variables)
+
+
+def _fitting(need: Need, channels: Mapping[str, Described], variables: Mapping[str, str]) -> dict[str, dict[str, str]]:
+    """Channel -> variables, of those that fit a need."""
+    alone = Need(need.role, need.quantity, tuple(map(part_alone, need.places)))
+    fits, parts = (
+        {n: v for n, info in channels.items() if (v := _fits(asked, info, variables)) is not None}
+        for asked in (need, alone)
+    )
+    return {n: v for n, v in fits.items() if n in parts or v not in parts.values()}
 
 
 def _fits(need: Need, info: Described, variables: Mapping[str, str]) -> dict[str, str] | None:

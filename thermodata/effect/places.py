@@ -2,7 +2,8 @@
 
 `spindle.bearing` holds `spindle.bearing.front` (a place holds all that is below it); `*` is any one part;
 `{a}` is any one part too, the same in all needs of an effect (an axis letter), and `{s}spindle` any one that ends so:
-`spindle`, `counter_spindle`, `milling_spindle`.
+`spindle`, `counter_spindle`, `milling_spindle`. `spindle.bearing?` holds `spindle` itself too, a whole whose parts are
+not told apart, and none of its other parts.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import re
 from collections.abc import Mapping
 
 _VARIABLE = re.compile(r"^\{(\w+)\}(\w*)$")
+_OR_WHOLE = "?"
 
 
 def match(pattern: str, place: str | None, known: Mapping[str, str] | None = None) -> dict[str, str] | None:
@@ -21,6 +23,8 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
     wanted, parts = pattern.lower().split("."), place.lower().split(".")
     if wanted[-1] == "*":  # hall.* holds hall itself: one sensor named 'hall'
         wanted = wanted[:-1]
+    elif wanted[-1].endswith(_OR_WHOLE):
+        wanted = wanted[:-1] if len(parts) == len(wanted) - 1 else [*wanted[:-1], wanted[-1].removesuffix(_OR_WHOLE)]
     if len(parts) < len(wanted):
         return None
     for want, part in zip(wanted, parts, strict=False):
@@ -39,6 +43,12 @@ def holds(place: str, other: str | None) -> bool:
     return match(place, other) is not None
 
 
+def part_alone(pattern: str) -> str:
+    """The pattern without the whole that may stand for its part: `spindle.bearing` of `spindle.bearing?`."""
+    return pattern.removesuffix(_OR_WHOLE)
+
+
 def shown(pattern: str) -> str:
-    """A pattern as a person reads it: `{s}spindle` is any spindle."""
-    return pattern.replace("{s}", "")
+    """A pattern as a person reads it: `{s}spindle` is any spindle, `spindle.bearing?` the part or the whole."""
+    part = part_alone(pattern).replace("{s}", "")
+    return part if part_alone(pattern) == pattern else f"{part} or {part.rpartition('.')[0]}"

@@ -22,8 +22,8 @@ displacement d [um]. `F_tau{u}` is a first-order lag with unit gain, `tau dx/dt 
 straight between samples. Temperatures count from the start of the test (dT). *Parameters* are searched between their
 bounds; *gains* are solved linearly. A model file names an effect as `{effect: NAME}`; places are those of
 [places.md](places.md), where `{a}` is one axis letter, the same in all needs of the effect, `{s}spindle` any spindle
-(`spindle`, `counter_spindle`), and `hall.*` is the hall and all that lies below it. How the diagnosis uses them stands
-in [method.md](method.md).
+(`spindle`, `counter_spindle`), `spindle.bearing?` the bearing, or the spindle where no bearing has a sensor, and
+`hall.*` the hall and all that lies below it. How the diagnosis uses them stands in [method.md](method.md).
 
 Two effects more belong to every model and need no plugin: `transfer_function` (identified, or given by its
 coefficients) and `prediction` (another program's model); see [model.md](model.md#the-model).

@@ -120,7 +120,7 @@ class BoundTerm:
             raise unknown_name(
                 "condition",
                 by,
-                [*test.conditions, *OF_TESTS, *OF_RESPONSES],
+                conditions_of(test),
                 where=f"gain_by of effect '{self.id}', test {test.campaign}/{test.test}",
             )
         return value
@@ -142,6 +142,11 @@ def group_of(test: TestData, by: str) -> str | None:
         name = "tool.id"
     value = test.conditions.get(name)
     return f"{value:g}" if isinstance(value, float | int) else None if value is None else str(value)
+
+
+def conditions_of(test: TestData) -> list[str]:
+    """All that a gain can differ by in a test."""
+    return [n for n in (*test.conditions, *OF_TESTS, *OF_RESPONSES) if group_of(test, n) is not None]
 
 
 def each_group_its_own(term: BoundTerm) -> BoundTerm:

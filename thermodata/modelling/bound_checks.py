@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.modelling.fitted_response import FittedTerm, bounds_of
-from thermodata.modelling.parameters import UNDETERMINED, by_kelvin, interval, name_of
+from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, bounds_of
+from thermodata.modelling.parameters import UNDETERMINED, interval, name_of
+from thermodata.modelling.usual_gain import usual_gain
 from thermodata.plugin import Param
 from thermodata.schema.result import Check
 
+IMPLAUSIBLE = "implausible:"  # before the name of a gain, in the name of a check
 AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero
 
 
-def at_bounds(term: FittedTerm) -> list[Check]:
+def at_bounds(response: FittedResponse, term: FittedTerm) -> list[Check]:
     """Parameters and gains of an effect that a bound holds, and gains beyond what the library thinks possible."""
     # what groups share is said once
     of_params = {row.name: row for rows in (_bounds, _undetermined) for row in rows(term)}
-    return [*of_params.values(), *_gain_bounds(term), *_plausible(term)]
+    return [*of_params.values(), *_gain_bounds(term), *_plausible(response, term)]
 
 
 def _bounds(term: FittedTerm) -> list[Check]:
@@ -97,23 +99,22 @@ def _gain_bounds(term: FittedTerm) -> list[Check]:
     return rows
 
 
-def _plausible(term: FittedTerm) -> list[Check]:
+def _plausible(response: FittedResponse, term: FittedTerm) -> list[Check]:
     rows = []
     for gain in term.effect.gains:
-        if gain.unit.endswith("/K") and not by_kelvin(term):
-            continue  # what is known is a size a kelvin, and nothing here is a kelvin
+        usual = usual_gain(response, term, gain)
+        if usual is None or gain.name in term.bound.spec.fixed:
+            continue
         for group, values in term.groups.items():
-            value, top = values.gains[gain.name], gain.magnitude[1]
-            if np.isfinite(top) and top > 0 and abs(value) > top and gain.name not in term.bound.spec.fixed:
-                tag = f"[{group}]" if group else ""
+            value, tag = values.gains[gain.name], f"[{group}]" if group else ""
+            if abs(value) > usual.largest:
                 rows.append(
                     Check(
-                        name=f"implausible:{term.id}.{gain.name}{tag}",
+                        name=f"{IMPLAUSIBLE}{term.id}.{gain.name}{tag}",
                         value=value,
-                        threshold=top,
+                        threshold=usual.largest,
                         passed=False,
-                        advice=f"larger than anything known for '{term.effect.name}' "
-                        f"({top:g} {gain.unit}): it may stand in for another effect",
+                        advice=usual.said(value),
                     )
                 )
     return rows

@@ -53,7 +53,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     ]
     for term in response.terms:
         rows += [
-            *at_bounds(term),
+            *at_bounds(response, term),
             *_long(term, tests),
             *_second_lag(term),
             *_ripple(response, term, tests),

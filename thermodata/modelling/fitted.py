@@ -32,9 +32,18 @@ class FittedModel:
         return next(t for response in self.responses for t in response.terms if t.id == identity)
 
     def checks(self) -> list[Check]:
-        return [check for response in self.responses for check in response.checks]
+        """With several responses each name says whose it is: 'implausible:dZ/lag.gain', 'condition_number:dZ'."""
+        if len(self.responses) == 1:
+            return list(self.responses[0].checks)
+        return [c.model_copy(update={"name": _of(r.name, c.name)}) for r in self.responses for c in r.checks]
 
     def tests(self, data: Dataset, *roles: str) -> list[TestData]:
         """The tests of some roles (all but locked ones and unused ones where none is named), in the data's order."""
         wanted = roles or ("calibration", "verification")
         return [t for t in data.tests if self.roles.role(t.key) in wanted]
+
+
+def _of(response: str, name: str) -> str:
+    """The name of a check with the response that it is of."""
+    kind, _, subject = name.partition(":")
+    return f"{kind}:{response}/{subject}" if subject else f"{kind}:{response}"

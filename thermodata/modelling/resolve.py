@@ -16,6 +16,7 @@ from thermodata.modelling.drivers import names_of
 from thermodata.modelling.make_effect import make_effect, refuse_unknown_effects
 from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
+from thermodata.modelling.said_conditions import refuse_unsaid_of
 from thermodata.plugin import Effect
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.schema.terms import ids_of
@@ -52,6 +53,9 @@ def resolve(
                 spec.weights,
             )
         )
+    asked = [t for t in data.tests if roles.role(t.key) != "none"]
+    for bound in responses:
+        refuse_unsaid_of(bound, asked)
     return roles, tuple(responses)
 
 

@@ -44,9 +44,12 @@ def make_result(
     locked: bool = False,
 ) -> FitResult:
     names = [r.name for r in fitted.responses]
+    lacking: dict[str, list[str]] = {}  # a test may lack something for each of several responses
+    for why in fitted.skipped:
+        lacking.setdefault(why.split(":")[0], []).append(why)
     skipped = [
-        Check(name=f"skipped:{why.split(':')[0]}", value=None, threshold=None, passed=False, advice=why)
-        for why in fitted.skipped
+        Check(name=f"skipped:{test}", value=None, threshold=None, passed=False, advice="; ".join(why))
+        for test, why in lacking.items()
     ]
     return FitResult(
         model=identity,

@@ -110,7 +110,7 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         count,
         tuple(ljung_box(correlation, count, k) for k in LJUNG_BOX if k <= most),
         _states(response, shown, tests, residuals, data.step_s),
-        tuple(c for term in response.terms for c in at_bounds(term)),
+        tuple(c for term in response.terms for c in at_bounds(response, term)),
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.chart.colour import effect_styles, light
+from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
 
@@ -38,11 +38,11 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
     grid, at = figure.add_gridspec(rows, 6), 0
     figure.suptitle(title)
     for one, more in zip(seen, state_rows, strict=True):
-        colours = {n: light()[c] for n, (c, _) in effect_styles(p.name for p in one.paths).items()}
-        _step(figure.add_subplot(grid[at, :3]), one, colours)
-        _bode(figure.add_subplot(grid[at, 3:]), one, colours, phase=False)
+        looks = {n: _look(*style) for n, style in effect_styles(p.name for p in one.paths).items()}
+        _step(figure.add_subplot(grid[at, :3]), one, looks)
+        _bode(figure.add_subplot(grid[at, 3:]), one, looks, phase=False)
         _correlation(figure.add_subplot(grid[at + 1, :3]), one)
-        _bode(figure.add_subplot(grid[at + 1, 3:]), one, colours, phase=True)
+        _bode(figure.add_subplot(grid[at + 1, 3:]), one, looks, phase=True)
         for i, state in enumerate(one.states):
             axes = figure.add_subplot(grid[at + 2 + i // 3, 2 * (i % 3) : 2 * (i % 3) + 2])
             _against(axes, state, one.unit)
@@ -57,11 +57,16 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
         part.unlink(missing_ok=True)
 
 
-def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
+def _look(colour: str, dash: str) -> dict[str, Any]:
+    """Of a line, as matplotlib takes it."""
+    return {"color": light()[colour], "linestyle": (0, DASHES[dash]) if DASHES[dash] else "solid"}
+
+
+def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
     longest = max((p.step[0][-1] for p in seen.paths), default=3600.0)
     for p in seen.paths:
         t, y = p.step
-        axes.plot([*t / 3600.0, longest / 3600.0], [*y, y[-1]], color=colours[p.name], label=f"{p.name} [{p.unit}]")
+        axes.plot([*t / 3600.0, longest / 3600.0], [*y, y[-1]], **looks[p.name], label=f"{p.name} [{p.unit}]")
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     axes.set(
         title=f"Step response of {seen.response}, a unit of each drive",
@@ -72,11 +77,11 @@ def _step(axes: Any, seen: Seen, colours: dict[str, str]) -> None:
         axes.legend(fontsize="small", loc="best")
 
 
-def _bode(axes: Any, seen: Seen, colours: dict[str, str], phase: bool) -> None:
+def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) -> None:
     for p in seen.paths:
         hertz, size, angle = p.bode
         minutes = 1.0 / hertz / 60.0
-        (axes.semilogx if phase else axes.loglog)(minutes, angle if phase else size, color=colours[p.name])
+        (axes.semilogx if phase else axes.loglog)(minutes, angle if phase else size, **looks[p.name])
     low, high = axes.get_xlim()
     axes.invert_xaxis()
     shown = {name: at for name, at in PERIODS_MIN.items() if low <= at <= high}

@@ -13,7 +13,7 @@ PLACES: dict[str, str] = {
     "tcp": "tool centre point: where a displacement counts",
     "stator": "the spindle's standing part: a displacement without the tool",
     "tool": "the tool in the spindle",
-    "spindle": "the spindle as a whole: its speed, power, load",
+    "spindle": "the spindle as a whole: its speed, power, load; a temperature of no part in particular",
     "spindle.bearing": "a bearing of the spindle, where front and rear are not told apart",
     "spindle.bearing.front": "the bearing next to the tool",
     "spindle.bearing.rear": "the bearing at the far end",
@@ -157,12 +157,14 @@ def is_around(place: str | None) -> bool:
 
 
 AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}
+# where a campaign may know no such place: what it is, and that nothing is logged there
+_SAID = {"fixture": "heat of what holds the probes or the part (nothing is logged at fixture)", **AIRS}
 
 
 def heat_at(places: Sequence[str], link: str) -> str:
     """'heat at axis.z.nut or axis.z.guide', 'the air of the hall'. link: ' or ', ' and '."""
-    bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p not in AIRS]) else []
-    return link.join([*bodies, *(air for place, air in AIRS.items() if place in places)])
+    bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p not in _SAID]) else []
+    return link.join([*bodies, *(said for place, said in _SAID.items() if place in places)])
 
 
 def is_known(place: str) -> bool:

@@ -21,6 +21,8 @@ _PLACES = """
 
 `at:` is a dotted place. A place holds all that lies below it: an effect that asks for `spindle.bearing` takes
 `spindle.bearing.front`. `*` is an axis letter: x, y, z of a linear axis, a, b, c of a rotary one. Case does not count.
+A temperature at `spindle` itself is of no part in particular: effects of the bearing take it where no temperature sits
+at a bearing of that spindle, and those of its motor or its gearbox never do.
 
 A machine with several spindles names all but the first: `counter_spindle`, `milling_spindle`, or any word that ends
 in `_spindle`, each with the parts of a spindle (`counter_spindle.bearing.front`). An effect of the spindle is asked of

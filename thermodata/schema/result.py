@@ -61,7 +61,7 @@ class Score(Result):
 class Check(Result):
     """One thing that a fit says of itself.
 
-    name: what was checked
+    name: what was checked, and of what; of several responses with whose it is: implausible:dZ/lag.gain
     value: found
     threshold: limit
     passed: whether it holds

@@ -10,7 +10,7 @@ Each rule is a function whose name is the sentence; `faults` returns what does n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import product
 
@@ -19,13 +19,10 @@ import numpy as np
 from thermodata.effect.law import with_parameters
 from thermodata.effect.law_run import evaluate
 from thermodata.errors import PluginError
-from thermodata.plugin import Drivers, Effect, Float1D, Need
+from thermodata.plugin import Drivers, Effect, Float1D
 from thermodata.schema.quantity import QUANTITIES
+from thermodata.testing.effect_drivers import FINER, STEP_S, on_finer_grid, shortened, start, variants
 
-STEP_S = 60.0
-_BINARY = frozenset({"state"})
-_TOP = {"rotational_speed": 9000.0, "feed": 15.0, "power": 8.0, "position": 500.0, "temperature": 15.0}
-FINER = 6  # samples of the finer grid in one of the coarse one: 10 s
 # of a column's rms: what switches is a ramp of one sample on either grid
 GRID_TOLERANCE = 0.1
 # quantities, and the part of a gain's unit by which it is linear in them
@@ -110,9 +107,9 @@ def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
 
 
 def it_gives_one_column_a_gain(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         for n in (len(drivers.t_s), 2, 1):
-            columns = effect.basis(_cut(drivers, n), _start(effect))
+            columns = effect.basis(shortened(drivers, n), start(effect))
             if not isinstance(columns, np.ndarray) or columns.shape != (n, len(effect.gains)):
                 yield f"{n} samples gave shape {np.shape(columns)}, not {(n, len(effect.gains))}"
             elif columns.dtype != np.float64:
@@ -120,7 +117,7 @@ def it_gives_one_column_a_gain(effect: Effect) -> Iterator[str]:
 
 
 def it_is_finite_at_every_bound(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         for corner in product(*((p.lower, p.upper) for p in effect.params)):
             p = {q.name: value for q, value in zip(effect.params, corner, strict=True)}
             if not np.isfinite(effect.basis(drivers, p)).all():
@@ -130,36 +127,36 @@ def it_is_finite_at_every_bound(effect: Effect) -> Iterator[str]:
 def it_is_zero_at_rest(effect: Effect) -> Iterator[str]:
     if not effect.needs:
         return
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         rest = replace(drivers, values={r: np.zeros_like(v) for r, v in drivers.values.items()})
-        if np.any(effect.basis(rest, _start(effect)) != 0):
+        if np.any(effect.basis(rest, start(effect)) != 0):
             yield "with all drivers at rest it still contributes"
 
 
 def it_answers_to_its_drivers(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
-        columns = effect.basis(drivers, _start(effect))
+    for drivers in variants(effect):
+        columns = effect.basis(drivers, start(effect))
         for gain, column in zip(effect.gains, columns.T, strict=True):
             if not np.any(column):
                 yield f"the column of '{gain.name}' is zero whatever drives it"
 
 
 def it_does_not_look_ahead(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         cut = len(drivers.t_s) // 2
         late = {r: np.concatenate([v[:cut], v[cut:] * 0.3 + 1.0]) for r, v in drivers.values.items()}
-        before = effect.basis(drivers, _start(effect))[:cut]
-        after = effect.basis(replace(drivers, values=late), _start(effect))[:cut]
+        before = effect.basis(drivers, start(effect))[:cut]
+        after = effect.basis(replace(drivers, values=late), start(effect))[:cut]
         if not np.allclose(before, after, rtol=1e-9, atol=1e-9):
             yield "what comes later changes what came before"
 
 
 def it_says_the_same_twice(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         kept = {r: v.copy() for r, v in drivers.values.items()}
-        first = np.array(effect.basis(drivers, _start(effect)))
-        effect.basis(_cut(drivers, len(drivers.t_s) // 2), _start(effect))
-        if not np.array_equal(first, effect.basis(drivers, _start(effect))):
+        first = np.array(effect.basis(drivers, start(effect)))
+        effect.basis(shortened(drivers, len(drivers.t_s) // 2), start(effect))
+        if not np.array_equal(first, effect.basis(drivers, start(effect))):
             yield "a second call with the same drivers gives something else"
         if any(not np.array_equal(kept[r], v) for r, v in drivers.values.items()):
             yield "it changes its drivers"
@@ -167,9 +164,9 @@ def it_says_the_same_twice(effect: Effect) -> Iterator[str]:
 
 def every_parameter_changes_something(effect: Effect) -> Iterator[str]:
     silent = {p.name for p in effect.params}
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         for p in effect.params:
-            low, high = (effect.basis(drivers, {**_start(effect), p.name: end}) for end in (p.lower, p.upper))
+            low, high = (effect.basis(drivers, {**start(effect), p.name: end}) for end in (p.lower, p.upper))
             if not np.allclose(low, high):
                 silent.discard(p.name)
     if silent:
@@ -181,7 +178,7 @@ def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
     if law is None:
         return
     units = {q.name: q.unit for q in effect.params}
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         for ends in ("start", "lower", "upper"):
             p = {q.name: float(getattr(q, ends)) for q in effect.params}
             columns = effect.basis(drivers, p)
@@ -196,8 +193,8 @@ def its_law_is_its_basis(effect: Effect) -> Iterator[str]:
 
 
 def it_says_the_same_on_any_grid(effect: Effect) -> Iterator[str]:
-    for coarse in _variants(effect):
-        fine = _on_finer_grid(coarse)
+    for coarse in variants(effect):
+        fine = on_finer_grid(coarse)
         for gain, slow, fast in zip(effect.gains, *_columns_at_start(effect, coarse, fine), strict=True):
             there = fast[::FINER]
             size = float(np.sqrt(np.mean(slow**2)))
@@ -206,44 +203,32 @@ def it_says_the_same_on_any_grid(effect: Effect) -> Iterator[str]:
 
 
 def _columns_at_start(effect: Effect, *many: Drivers) -> list[Iterator[Float1D]]:
-    return [iter(effect.basis(drivers, _start(effect)).T) for drivers in many]
+    return [iter(effect.basis(drivers, start(effect)).T) for drivers in many]
 
 
 def a_gap_that_was_filled_right_changes_nothing(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         n = len(drivers.t_s)
         seen = np.ones(n, bool)
         seen[n // 3 : n // 2] = False
-        whole = effect.basis(drivers, _start(effect))
-        holed = effect.basis(replace(drivers, valid=dict.fromkeys(drivers.values, seen)), _start(effect))
+        whole = effect.basis(drivers, start(effect))
+        holed = effect.basis(replace(drivers, valid=dict.fromkeys(drivers.values, seen)), start(effect))
         if not np.allclose(whole, holed, rtol=1e-9, atol=1e-12):
             yield "it looks at which samples are valid: filling them is done before, and what is filled does not count"
 
 
 def its_gains_have_the_units_of_what_drives_them(effect: Effect) -> Iterator[str]:
-    for drivers in _variants(effect):
+    for drivers in variants(effect):
         for quantities, mark in _PER_UNIT:
             roles = [n.role for n in effect.needs if n.quantity in quantities and n.role in drivers.values]
             others = [n for n in effect.needs if n.role in drivers.values and n.role not in roles]
             more = {r: v * (2.0 if r in roles else 1.0) for r, v in drivers.values.items()}
-            once, twice = (effect.basis(d, _start(effect)) for d in (drivers, replace(drivers, values=more)))
+            once, twice = (effect.basis(d, start(effect)) for d in (drivers, replace(drivers, values=more)))
             for gain, before, after in zip(effect.gains, once.T, twice.T, strict=True):
                 if roles and mark in gain.unit and not np.allclose(after, 2.0 * before, rtol=1e-6, atol=1e-9):
                     yield f"'{gain.name}' is in {gain.unit}, and its column does not double with {', '.join(roles)}"
                 if roles and not others and gain.unit == "um" and mark == "/K":
                     yield f"'{gain.name}' is in um, and nothing but a temperature drives it: it is um/K"
-
-
-def _on_finer_grid(drivers: Drivers) -> Drivers:
-    """The same course, straight between samples; what switches does so at the sample."""
-    n = len(drivers.t_s)
-    rows = np.arange((n - 1) * FINER + 1) / FINER
-    t = drivers.t_s[0] + rows * STEP_S
-    values = {
-        role: v[np.floor(rows + 1e-9).astype(int)] if len(np.unique(v)) <= 2 else np.interp(rows, np.arange(n), v)
-        for role, v in drivers.values.items()
-    }
-    return Drivers(t, values, {r: np.ones(len(t), bool) for r in values}, drivers.conditions)
 
 
 def _most(values: Float1D) -> float:
@@ -268,38 +253,3 @@ RULES: tuple[Rule, ...] = (
     a_gap_that_was_filled_right_changes_nothing,
     its_gains_have_the_units_of_what_drives_them,
 )
-
-
-def _variants(effect: Effect) -> Iterator[Drivers]:
-    """Drivers that move, for each way to satisfy the needs (where all are optional: one at a time)."""
-    if effect.needs and all(n.optional for n in effect.needs):
-        for need in effect.needs:
-            yield _drivers((need,))
-    else:
-        yield _drivers(effect.needs)
-
-
-def _drivers(needs: tuple[Need, ...], n: int = 720) -> Drivers:
-    t = np.arange(n, dtype=np.float64) * np.float64(STEP_S)
-    values: dict[str, Float1D] = {}
-    for i, need in enumerate(needs):
-        top = _TOP.get(need.quantity, 1.0)
-        switched = np.repeat(np.arange(n // 90 + 1) % (2 + i) > 0, 90)[:n].astype(np.float64)
-        wave = np.sin(2 * np.pi * t / (86400.0 / (2 + i))) ** 2
-        values[need.role] = top * (
-            switched if need.quantity in _BINARY or "speed" in need.quantity else 0.5 * wave + 0.5 * switched * wave
-        )
-    return Drivers(t, values, {r: np.ones(n, bool) for r in values}, {})
-
-
-def _cut(drivers: Drivers, n: int) -> Drivers:
-    return Drivers(
-        drivers.t_s[:n],
-        {r: v[:n] for r, v in drivers.values.items()},
-        {r: v[:n] for r, v in drivers.valid.items()},
-        drivers.conditions,
-    )
-
-
-def _start(effect: Effect) -> Mapping[str, float]:
-    return {p.name: p.start for p in effect.params}

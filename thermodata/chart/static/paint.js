@@ -16,7 +16,10 @@
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", T.looks);
   new MutationObserver(T.looks).observe(document.documentElement, {attributes: true, attributeFilter: ["data-theme"]});
 
-  T.dash = {solid: [], dashed: [7, 4], dotted: [2, 3]};
+  T.dash = {
+    solid: [], dashed: [7, 4], dotted: [2, 3], "dash-dot": [8, 3, 2, 3],
+    long: [15, 4], "dash-dot-dot": [8, 3, 2, 3, 2, 3], sparse: [3, 7], "long-dot": [15, 3, 2, 3],
+  };
 
   T.hatched = function (ctx, x, y, w, h, colour, ratio, alpha) {
     if (w <= 0 || h <= 0) return;

@@ -15,7 +15,7 @@ from thermodata.calibration.quality_dead import dead_throughout
 from thermodata.calibration.quality_foreign import foreign_part
 from thermodata.calibration.quality_range import Limits, ends_of_ranges
 from thermodata.calibration.quality_still import Reading, read_elsewhere
-from thermodata.calibration.quality_value import run_stats
+from thermodata.calibration.quality_value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.places import is_at_tool
@@ -149,7 +149,7 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
         (float(t_s[a + n - 1] - t_s[a]) for a, n in zip(stats.starts.tolist(), stats.lengths.tolist(), strict=True)),
         default=0.0,
     )
-    new = Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x))
+    new = Reading(stats.step, stats.finest, stats.chance, stats.alternates, moving, stood, *_extremes(x, stats))
     if known is None:
         return new
     low, low_n = _further(min, (known.low, known.low_n), (new.low, new.low_n))
@@ -164,13 +164,16 @@ def _more(known: Reading | None, column: Column, t_s: Float1D) -> Reading:
     )
 
 
-def _extremes(x: Float1D) -> tuple[float | None, int, float | None, int]:
-    """Lowest value of x and how many samples stand there, and the same of the highest."""
+def _extremes(x: Float1D, stats: RunStats) -> tuple[float | None, int, float | None, int]:
+    """Lowest value of x and how many readings stand there, and the same of the highest. A reading is one, however often
+    it is logged."""
     known = x[np.isfinite(x)]
     if not len(known):
         return None, 0, None, 0
+    every, _ = refreshed(stats.lengths, len(x))
     low, high = float(known.min()), float(known.max())
-    return low, int(np.count_nonzero(known == low)), high, int(np.count_nonzero(known == high))
+    low_n, high_n = (int(np.count_nonzero(known == end)) // every for end in (low, high))
+    return low, low_n, high, high_n
 
 
 def _further(

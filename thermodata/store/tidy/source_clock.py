@@ -13,8 +13,9 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.zone import local_to_utc_ns
 from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.make_timeline import make_timeline
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
-from thermodata.store.tidy.timeline import Timeline, make_timeline
+from thermodata.store.tidy.timeline import Timeline
 from thermodata.store.tidy.times_of_day import began, first_of
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact

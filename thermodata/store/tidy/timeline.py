@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from itertools import accumulate, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +11,8 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.raw.columns import RawFiles
-from thermodata.store.raw.order import Order, by_time, find_order, in_order
-from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of, pieces
+from thermodata.store.raw.order import Order, in_order
+from thermodata.store.raw.repeats import pieces
 from thermodata.store.raw.streams import RawStream
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
@@ -73,7 +72,7 @@ class Timeline:
         low, high, order = self._window(start, stop)
         if order is None and not self._marked_in(low, high).size:
             return whole_clock
-        t = self._file_times(low, high)
+        t = self.file_times(low, high)
         late = np.zeros(high - low, dtype=bool)
         for a, b in [] if self.order.trusted else self._islands_in(low, high):
             part = t[a - low : b - low]
@@ -97,11 +96,11 @@ class Timeline:
         marked, stretches = self.order.marked, []
         groups = np.split(marked, np.flatnonzero(np.diff(marked) > 1) + 1) if marked.size else []
         for rows in groups[:_MOST_STRETCHES]:
-            t = self._file_times(int(rows[0]), int(rows[-1]) + 1)
+            t = self.file_times(int(rows[0]), int(rows[-1]) + 1)
             stretches.append((int(t.min()), int(t.max()), len(rows), "; ".join(self.order.notes)))
         unsorted = [] if self.order.trusted else self.order.islands.tolist()
         for a, b in unsorted[: _MOST_STRETCHES - len(stretches)]:
-            t = self._file_times(a, b)
+            t = self.file_times(a, b)
             late = int(np.count_nonzero(t < np.maximum.accumulate(t)))
             stretches.append((int(t.min()), int(t.max()), late, "rows out of order, sorted"))
         return sorted(stretches)
@@ -164,7 +163,7 @@ class Timeline:
             if a < b:
                 yield self.raws[k][0], low + a, low + b
 
-    def _file_times(self, start: int, stop: int) -> Int1D:
+    def file_times(self, start: int, stop: int) -> Int1D:
         """Times in file order, corrected and with what resets add."""
         shifts = {id(raw): shift for raw, shift in self.raws}
         parts = [
@@ -179,7 +178,7 @@ class Timeline:
         if self.store is None:
             raise AssertionError("a timeline without files has its times")
         low, high, order = self._window(start, stop)
-        t = self._file_times(low, high)
+        t = self.file_times(low, high)
         return (t if order is None else t[order])[start - low : stop - low]
 
     def _window(self, start: int, stop: int) -> tuple[int, int, Int1D | None]:
@@ -190,7 +189,7 @@ class Timeline:
             return start, stop, None
         low, high = min(start, int(some[0, 0])), max(stop, int(some[-1, 1]))
         order = np.arange(high - low)
-        t = self._file_times(low, high)
+        t = self.file_times(low, high)
         for a, b in some.tolist():
             order[a - low : b - low] = a - low + np.argsort(t[a - low : b - low], kind="stable")
         return low, high, order
@@ -211,76 +210,6 @@ def given_timeline(t_ns: Int1D) -> Timeline:
     return Timeline(len(t_ns), order=in_order(len(t_ns)), _times=t_ns)
 
 
-def make_timeline(
-    store: Path,
-    raws: Sequence[tuple[RawStream, int]],
-    correct: Callable[[Int1D], Int1D],
-    *,
-    suspect: bool,
-    resets_allowed: bool,
-    notes: Sequence[str] = (),
-) -> Timeline:
-    """Puts the rows of the files of one stream in order.
-
-    raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line.
-    Rows that step back by a second at most are sorted in and flagged. What stands in the files twice is left out
-    (`repeats`); `clock_faults` says what is done about strays and clocks that were set. What follows a long step back
-    is lost with a reason where resets are not allowed.
-    """
-    n = sum(raw.rows for raw, _ in raws)
-    line = Timeline(n, store, tuple(raws), correct, in_order(n), suspect, (), tuple(notes))
-    if _known_ordered(raws):
-        return line
-    if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
-        order = by_time(line._file_times, n)
-    else:
-        begins = [0, *accumulate(raw.rows for raw, _ in raws)]
-        held = all(s.held for raw, _ in raws for s in raw.signals)
-        twice = find_repeats(line._file_times, _keys(line), n, begins, held=held)
-        line.cut, n = twice.cut, n - int((twice.cut[:, 1] - twice.cut[:, 0]).sum())
-        line.notes += twice.notes()
-        order = find_order(line._file_times, n, resets_allowed=resets_allowed, sound=twice.left())
-    if order.keep < n:
-        line.losses = (_lost(line, order.keep, n),)
-    line.notes += order.notes
-    line.order, line.rows = order, order.keep
-    return line
-
-
-def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
-    return all(raw.ordered for raw, _ in raws) and all(
-        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
-    )
-
-
-def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
-    """What tells the values of rows apart; a signal that a file lacks is one without a value."""
-    text = {s.name: s.dtype == "str" for raw, _ in line.raws for s in raw.signals}
-
-    def columns(start: int, stop: int) -> Iterator[Array]:
-        for names in batches(list(text), stop - start):
-            found = line.columns(names, start, stop)
-            for name in names:
-                yield found[name] if name in found else np.full(stop - start, None if text[name] else np.nan)
-
-    def keys(start: int, stop: int) -> Hashes:
-        return keys_of(columns(start, stop), stop - start)
-
-    return keys
-
-
-def _lost(line: Timeline, keep: int, n: int) -> Loss:
-    at, before = int(line._file_times(keep, keep + 1)[0]), int(line._file_times(keep - 1, keep)[0])
-    return Loss(
-        where=f"{line.raws[0][0].source_path} row {keep}",
-        from_ns=at,
-        to_ns=int(line._file_times(n - 1, n)[0]),
-        fraction=(n - keep) / n,
-        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
-        "or set clock: {resets: allow}",
-    )
-
-
 def _joined(parts: list[Array | int], *, zero: bool) -> Array:
     arrays = [p for p in parts if not isinstance(p, int)]
     if len(parts) == 1:
@@ -296,6 +225,3 @@ def _joined(parts: list[Array | int], *, zero: bool) -> Array:
         return np.zeros(n, kind) if zero else np.full(n, np.nan)
 
     return np.concatenate([(missing(p) if isinstance(p, int) else p).astype(kind, copy=False) for p in parts])
-
-
-__all__ = ["Timeline", "given_timeline", "make_timeline"]

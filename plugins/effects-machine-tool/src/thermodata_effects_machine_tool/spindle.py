@@ -32,7 +32,7 @@ class SpindleBearing(Lagged):
     equation = "d = k F_tau{dT}"
     telltale = "heating and cooling with the spindle, slower than the bearing itself; told apart by a stop while warm"
     source = "[straka2021], [horejs2022] transfer functions; bounds: docs/model.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.bearing?",)),)
     params = (tau(45, 1, 360),)
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
@@ -55,7 +55,7 @@ class SpindleBearing2:
     equation = "d = k_fast F_tau_fast{dT} + k_slow F_tau_slow{dT}"
     telltale = "two slopes in one cooling; told apart by a long cooling"
     source = "[straka2021], [horejs2022] functions of second order; bounds: docs/model.md#bounds-of-the-effects"
-    needs = (Need("temperature", "temperature", ("{s}spindle.bearing",)),)
+    needs = (Need("temperature", "temperature", ("{s}spindle.bearing?",)),)
     params = (
         tau(15, 1, 60, "tau_fast", "time constant of the shaft and bearings"),
         tau(150, 60, 360, "tau_slow", "time constant of the housing"),
@@ -183,7 +183,7 @@ class SpindleHeatingCooling:
     telltale = "a lobe in cooling only; told apart by a stop while warm"
     source = "[horejs2010] separate functions for heating and cooling; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
-        Need("temperature", "temperature", ("{s}spindle.bearing",)),
+        Need("temperature", "temperature", ("{s}spindle.bearing?",)),
         Need("speed", "rotational_speed", ("{s}spindle",)),
     )
     params = (
@@ -228,7 +228,7 @@ class SpeedDependentGain:
     telltale = "the same temperature acts otherwise at another speed; told apart by one temperature at two speeds"
     source = "[horejs2022] spindle SP3; bounds: docs/model.md#bounds-of-the-effects"
     needs = (
-        Need("temperature", "temperature", ("{s}spindle.bearing",)),
+        Need("temperature", "temperature", ("{s}spindle.bearing?",)),
         Need("speed", "rotational_speed", ("{s}spindle",)),
     )
     params = (tau(45, 1, 360),)

@@ -1,0 +1,85 @@
+"""The rows of the files of one stream, put in time order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate, pairwise
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.plugin import Array, Int1D, Loss
+from thermodata.store.raw.order import by_time, find_order, in_order
+from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.timeline import Timeline
+
+
+def make_timeline(
+    store: Path,
+    raws: Sequence[tuple[RawStream, int]],
+    correct: Callable[[Int1D], Int1D],
+    *,
+    suspect: bool,
+    resets_allowed: bool,
+    notes: Sequence[str] = (),
+) -> Timeline:
+    """Puts the rows of the files of one stream in order.
+
+    raws: (raw, what is added to its times) in file order. correct: recorded times -> the test's time line.
+    Rows that step back by a second at most are sorted in and flagged. What stands in the files twice is left out
+    (`repeats`); `clock_faults` says what is done about strays and clocks that were set. What follows a long step back
+    is lost with a reason where resets are not allowed.
+    """
+    n = sum(raw.rows for raw, _ in raws)
+    line = Timeline(n, store, tuple(raws), correct, in_order(n), suspect, (), tuple(notes))
+    if _known_ordered(raws):
+        return line
+    if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
+        order = by_time(line.file_times, n)
+    else:
+        begins = [0, *accumulate(raw.rows for raw, _ in raws)]
+        held = all(s.held for raw, _ in raws for s in raw.signals)
+        twice = find_repeats(line.file_times, _keys(line), n, begins, held=held)
+        line.cut, n = twice.cut, n - int((twice.cut[:, 1] - twice.cut[:, 0]).sum())
+        line.notes += twice.notes()
+        order = find_order(line.file_times, n, resets_allowed=resets_allowed, sound=twice.left())
+    if order.keep < n:
+        line.losses = (_lost(line, order.keep, n),)
+    line.notes += order.notes
+    line.order, line.rows = order, order.keep
+    return line
+
+
+def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
+    return all(raw.ordered for raw, _ in raws) and all(
+        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
+    )
+
+
+def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
+    """What tells the values of rows apart; a signal that a file lacks is one without a value."""
+    text = {s.name: s.dtype == "str" for raw, _ in line.raws for s in raw.signals}
+
+    def columns(start: int, stop: int) -> Iterator[Array]:
+        for names in batches(list(text), stop - start):
+            found = line.columns(names, start, stop)
+            for name in names:
+                yield found[name] if name in found else np.full(stop - start, None if text[name] else np.nan)
+
+    def keys(start: int, stop: int) -> Hashes:
+        return keys_of(columns(start, stop), stop - start)
+
+    return keys
+
+
+def _lost(line: Timeline, keep: int, n: int) -> Loss:
+    at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
+    return Loss(
+        where=f"{line.raws[0][0].source_path} row {keep}",
+        from_ns=at,
+        to_ns=int(line.file_times(n - 1, n)[0]),
+        fraction=(n - keep) / n,
+        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
+        "or set clock: {resets: allow}",
+    )
