@@ -19,7 +19,7 @@ from thermodata.store.tidy.series import Member
 from thermodata.store.tidy.source_clock import Clock, Span
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
-TIDY_VERSION = "14"
+TIDY_VERSION = "15"
 
 
 def member_key(
@@ -54,6 +54,9 @@ def member_key(
         if source in plan.sources:
             source_plan = plan.sources[source]
             clock = clocks[source]
+            own = {r.path for r in source_plan.streams.get(stream, [])}
+            if otherwise := sorted((k, repr(v)) for k, v in source_plan.parts.items() if k[0] in own):
+                parts.append(repr(otherwise))
             parts += [
                 source,
                 stream,

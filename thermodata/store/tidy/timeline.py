@@ -15,6 +15,7 @@ from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, by_time, find_order, in_order
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of, pieces
 from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.in_parts import InPart, Parts, joined_parts
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096
@@ -24,7 +25,7 @@ _MOST_STRETCHES = 50
 @dataclass(slots=True)
 class Timeline:
     """rows: how many. raws: (raw, what is added to its times [ns]) in file order. cut: (first, past-the-last) rows of
-    them that are left out, shape (k, 2).
+    them that are left out, shape (k, 2). parts: what files have under other names, or in other units (`in_parts`).
 
     Row numbers count in time order. Not shared between threads.
     """
@@ -38,6 +39,7 @@ class Timeline:
     losses: tuple[Loss, ...] = ()
     notes: tuple[str, ...] = ()
     cut: Int1D = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    parts: Parts = field(default_factory=dict)
     _files: RawFiles = field(default_factory=RawFiles)
     _times: Int1D | None = None
 
@@ -119,12 +121,13 @@ class Timeline:
             there = [n for n in names.values() if n is not None]
             read = dict(zip(there, self._read(raw, there, a, b), strict=True)) if there else {}
             for signal, name in names.items():
-                parts[signal].append(b - a if name is None else read[name])
+                own = self.part(raw, signal)
+                parts[signal].append(b - a if name is None else read[name] if flags else own.read(read[name]))
         arrays = {}
         for signal, some in parts.items():
             if all(isinstance(p, int) for p in some):
                 continue
-            joined = _joined(some, zero=flags)
+            joined = joined_parts(some, zero=flags)
             arrays[signal] = (joined if order is None else joined[order])[start - low : stop - low]
         return arrays
 
@@ -137,14 +140,18 @@ class Timeline:
 
     def flagged(self, signals: Iterable[str]) -> bool:
         """Whether a reader flagged any row of these signals."""
-        wanted = set(signals)
-        return any(not wanted.isdisjoint(raw.flagged) for raw, _ in self.raws)
+        wanted = list(signals)
+        return any(self.part(raw, signal).name in raw.flagged for raw, _ in self.raws for signal in wanted)
 
-    @staticmethod
-    def _name(raw: RawStream, signal: str, flags: bool) -> str | None:
-        column = raw.columns.get(signal)
+    def part(self, raw: RawStream, signal: str) -> InPart:
+        """A signal as one of the files has it."""
+        return self.parts.get((raw.path, signal)) or InPart(signal)
+
+    def _name(self, raw: RawStream, signal: str, flags: bool) -> str | None:
+        name = self.part(raw, signal).name
+        column = raw.columns.get(name)
         if flags:
-            return f"{column}__flag" if signal in raw.flagged else None
+            return f"{column}__flag" if name in raw.flagged else None
         return column
 
     def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
@@ -279,23 +286,6 @@ def _lost(line: Timeline, keep: int, n: int) -> Loss:
         reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
         "or set clock: {resets: allow}",
     )
-
-
-def _joined(parts: list[Array | int], *, zero: bool) -> Array:
-    arrays = [p for p in parts if not isinstance(p, int)]
-    if len(parts) == 1:
-        return arrays[0]
-    text = any(a.dtype == object for a in arrays)
-    kind = np.dtype(object) if text else np.result_type(*arrays)
-    if any(isinstance(p, int) for p in parts) and not text and not zero:
-        kind = np.result_type(kind, np.float64)
-
-    def missing(n: int) -> Array:
-        if text:
-            return np.full(n, None, dtype=object)
-        return np.zeros(n, kind) if zero else np.full(n, np.nan)
-
-    return np.concatenate([(missing(p) if isinstance(p, int) else p).astype(kind, copy=False) for p in parts])
 
 
 __all__ = ["Timeline", "given_timeline", "make_timeline"]
