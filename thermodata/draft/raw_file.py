@@ -91,14 +91,21 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> list[RawFile]:
+def described_files(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> list[RawFile]:
     """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
-    encoding: what somebody declared for texts that are no UTF-8.
+    encoding: what somebody declared for texts that are no UTF-8; table: what is known of its layout.
 
     ThermodataError where it cannot be read at all.
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
-    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
+    unread = RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters)
+    whole = _asking(who, full, unread)
     names, besides = _sheets(whole.recording)
     if not names:
         return [whole]
