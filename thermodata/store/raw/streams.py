@@ -149,7 +149,7 @@ class RawStream:
         return raw
 
     def losses_json(self) -> str:
-        return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain) if self.losses else "[]"
+        return json.dumps([_as_row(loss) for loss in self.losses], default=_plain) if self.losses else "[]"
 
 
 _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
@@ -159,6 +159,13 @@ _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
 def _stream_of(*row: Any) -> RawStream:
     """An ingest meets each row twice: among all that the store holds, and as what a test was made of."""
     return RawStream._from(dict(zip((*_OF_ROW, "columns", "losses"), row, strict=True)))
+
+
+def _as_row(loss: Loss) -> dict[str, Any]:
+    row = dataclasses.asdict(loss)
+    return (
+        row if loss.signal is not None else {k: v for k, v in row.items() if k != "signal"}
+    )  # as older stores have it
 
 
 def _plain(value: Any) -> Any:
