@@ -13,7 +13,7 @@ from thermodata.draft.letters_of_files import common, letters_of
 from thermodata.draft.sample import Sample, sample_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
-from thermodata.reader.explain import kind_of
+from thermodata.reader.explain import kind_of, why_no_table
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
@@ -202,7 +202,8 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
     if not path.stat().st_size:
         return None, "an empty file"
     if not found:
-        return None, f"no reader claims it ({kind_of(path)}): thermodata sniff says why"
+        why = why_no_table(path)
+        return None, f"no reader claims it ({kind_of(path)}): {why or 'thermodata sniff says why'}"
     said = " and ".join(f"{name} ({why})" for name, why in found.items())
     return None, f"two readers claim it: {said}; declare one as the reader of a source"
 
