@@ -20,7 +20,7 @@ from thermodata.draft.quantity import Guess
 from thermodata.draft.same_probe import own_name
 from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
-from thermodata.draft.values import Values, joined
+from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
@@ -89,18 +89,18 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
     they call it beside its name."""
     values, signal = None, one.signal
-    units: Counter[str | None] = Counter()
+    units = Counter((one.of(f) or signal).unit for f in one.files)
+    usual = units.most_common(1)[0][0]
     called_so: Counter[str] = Counter()
     seen: dict[str, Values | None] = {}
     for f in one.files:
         own = one.of(f) or signal
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
-        values = joined(values, seen[str(f.path)])
-        units[own.unit] += 1
+        values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
         called_so[own.properties.get("description", "")] += 1
     note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

@@ -27,7 +27,7 @@ from thermodata.schema.quantity import is_unit, normal_unit
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
 _OF_ROWS = re.compile(r"__index_level_\d+__|Unnamed: 0")  # what pandas calls its numbers of rows
-_NUMBERED = re.compile(r"column \d+(?:#\d+)?")
+NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
     "rotational_speed": "rpm",
@@ -96,7 +96,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
     if _OF_ROWS.fullmatch(name):
         return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
-    if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
+    if NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in bare.split("/"))

@@ -11,7 +11,7 @@ from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.file_copies import other_versions
-from thermodata.draft.group import files_of, tests_of
+from thermodata.draft.group import counted_on, files_of, tests_of
 from thermodata.draft.hints import hinted
 from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
@@ -50,7 +50,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes: list[str] = []
+    notes = counted_on(groups)
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = asked_whether_held(beside_each_other(made), g, groups)

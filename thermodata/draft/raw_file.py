@@ -13,7 +13,7 @@ from thermodata.draft.letters_of_files import common, letters_of
 from thermodata.draft.sample import Sample, sample_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
-from thermodata.reader.explain import kind_of
+from thermodata.reader.explain import kind_of, why_no_table
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
@@ -91,14 +91,21 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> list[RawFile]:
+def described_files(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> list[RawFile]:
     """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
-    encoding: what somebody declared for texts that are no UTF-8.
+    encoding: what somebody declared for texts that are no UTF-8; table: what is known of its layout.
 
     ThermodataError where it cannot be read at all.
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
-    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
+    unread = RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters)
+    whole = _asking(who, full, unread)
     names, besides = _sheets(whole.recording)
     if not names:
         return [whole]
@@ -195,7 +202,8 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
     if not path.stat().st_size:
         return None, "an empty file"
     if not found:
-        return None, f"no reader claims it ({kind_of(path)}): thermodata sniff says why"
+        why = why_no_table(path)
+        return None, f"no reader claims it ({kind_of(path)}): {why or 'thermodata sniff says why'}"
     said = " and ".join(f"{name} ({why})" for name, why in found.items())
     return None, f"two readers claim it: {said}; declare one as the reader of a source"
 

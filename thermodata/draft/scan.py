@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.file_copies import copies_in, unfinished_in
+from thermodata.draft.lent_names import with_lent_names
 from thermodata.draft.raw_file import RawFile, claimant, described_files, sample_of_file
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
@@ -108,7 +109,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     for found_out in (ignored, failed):
         found_out.sort(key=lambda item: position[item[0]])
     return Scan(
-        tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
+        with_lent_names(folder, sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
         tuple(

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from thermodata.calibration.quality_limit import impossible, sentinels
 from thermodata.calibration.quality_value import run_stats
+from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
+from thermodata.schema.quantity import linear_conversion
 
 _FEW = 8
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
@@ -86,6 +88,18 @@ def _readings(x: Float1D) -> Float1D:
         if others.size and largest > _FAR * float(others.max()):
             marks |= there
     return x[~marks] if not marks.all() else x
+
+
+def in_unit(values: Values | None, written: str | None, unit: str | None) -> Values | None:
+    """A sample in another unit; as it is where either is none, or they have nothing in common."""
+    if values is None or written is None or unit is None or written == unit:
+        return values
+    try:
+        factor, offset = linear_conversion(written, unit)
+    except UsageError:
+        return values
+    low, high, median, first = (x * factor + offset for x in (values.low, values.high, values.median, values.first))
+    return replace(values, low=low, high=high, median=median, step=values.step * factor, whole=False, first=first)
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:

@@ -53,6 +53,8 @@ class TableLayout(Strict):
     header_rows: rows with names, above the data
     units_row: the row that holds the units, counted from 1
     skip_rows: rows above the header
+    names: of all columns, the time among them, for files without a header: [time, T_bed, "dZ [um]"]; a file with a
+        header has its own
     time: its time column, or a list where columns have times of their own
     delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
@@ -66,7 +68,10 @@ class TableLayout(Strict):
     time: TimeColumn | list[TimeColumn] | None = None
     delimiter: str | None = None
     decimal: Literal[".", ",", "unknown"] | None = None
-    # left out where it is not declared: raw data is kept by what its source declares
+    # left out where they are not declared: raw data is kept by what its source declares
+    names: Annotated[list[str], Field(min_length=1)] | None = Field(
+        default=None, exclude_if=lambda names: names is None
+    )
     series: Literal["none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
         default=None, exclude_if=lambda series: series is None
     )

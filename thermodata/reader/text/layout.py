@@ -12,7 +12,7 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.first_data import first_data, width_of
-from thermodata.reader.text.header import numbered_rows, unique
+from thermodata.reader.text.header import numbered_rows, split_unit, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
@@ -104,6 +104,9 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     heads, units, over = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
+    if said.get("names") is not None and not any(heads):
+        heads = _declared_names(said["names"], width, where)
+        units = [split_unit(name)[1] for name in heads]
     names = unique(heads)
     described, listed = descriptions([texts_of(r) for r in rows[skip:first]], heads)
     units = [u or v for u, v in zip(units, listed, strict=True)]
@@ -117,6 +120,19 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
         lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
     groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost), tuple(over), tuple(described))
+
+
+def _declared_names(names: Sequence[str], width: int, where: str) -> list[str]:
+    """What the columns of a file without a header are called."""
+    if len(names) != width:
+        raise FormatError(
+            "a file without a header has other columns than are declared",
+            where=where,
+            expected=f"{len(names)} columns: {', '.join(names)}",
+            got=f"{width} columns",
+            hint="a source of its own for it, with table: {names: [...]} that names each of its columns",
+        )
+    return list(names)
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

@@ -46,7 +46,8 @@ class RowReader:
 
     def __init__(self, table: Table, source: Source, size: int) -> None:
         self.table = table
-        self.losses = Losses(table.name, max(size, 1))
+        qualities = {quality: name for name, (quality, _) in table.quality.items()}
+        self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
         self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]

@@ -233,7 +233,7 @@ class Table:
             return texts, None, np.zeros(len(cells), bool)
         if odd:
             reason = f"{len(odd)} cells are no numbers, such as '{odd[0]}'"
-            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason))
+            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason, name))
         return numbers, unit, over
 
 
