@@ -389,7 +389,7 @@ class TestAnswer:
             ("twin", False, True),
             ("first", False, False),
         ]
-        assert "a refinement, not a missing cause: it is another mode" in found.candidates[1].why
+        assert "a refinement, not claimed as missing: it is another mode" in found.candidates[1].why
         alone = self.answered(monkeypatch, spec, nothing("refine", mode))
         assert (alone.verdict, alone.candidates[0].refinement) == ("refine", True)
         assert alone.unknown is None

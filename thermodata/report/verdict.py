@@ -21,6 +21,7 @@ _UNNAMED = ("lag", "control_compensation")  # which say no more than the channel
 _MOST_TWINS = 2
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
+NO_MORE = "the open tests show no missing cause apart from what the model has in part"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
 FAR = 2.0
@@ -118,14 +119,18 @@ def _verdict(found: Diagnosis) -> str:
         return "; ".join(
             filter(
                 None,
-                ["the open tests show no missing cause", f"{beside}, {_left_out(refined, found.rmse_um)}", open_still],
+                [
+                    NO_MORE,
+                    f"{beside}, {_left_out(refined, found.rmse_um)}",
+                    open_still,
+                ],
             )
         )
     if found.verdict == "none":
         return "; ".join(filter(None, [f"the open tests show no missing effect: {left_over(found)}", open_still]))
     return {
         "effect": "missing: an effect that the data point to",
-        "refine": "the open tests show no missing cause, but an effect that is there acts otherwise than modelled",
+        "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
 
