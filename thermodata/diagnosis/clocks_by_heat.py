@@ -14,11 +14,13 @@ from dataclasses import dataclass, field, replace
 from thermodata.diagnosis.clock_sides import Key, Part, either, in_order, in_words, own_shifts, part_of, sides
 from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.heat_balance import LEAST_TELLING, UNMOVED_S, Disagreement, Pair, pair_of
+from thermodata.effect.places import holds
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 from thermodata.view.dataset import ChannelInfo, TestData
 
 # share of the squared rises of the response that commands foretell at the right time at least, and beyond the other one
 DECIDES = 0.15
+AROUND = ("hall", "floor", "outside")
 LEAST_OFF = 2  # tests that tell a shift in a part of them
 
 
@@ -33,12 +35,16 @@ class Late:
     of: Disagreement
     part: Part | None = None
 
+    @property
+    def tests(self) -> Sequence[Key]:
+        """In which it is; test '': in all."""
+        return [self.of.key] if self.part is None else self.part.off
+
     def moves(self) -> list[ClockMoved]:
         """What puts it right; nothing where nobody can tell what would."""
         if self.source is None:
             return []
-        tests = [(self.of.campaign, self.of.test)] if self.part is None else self.part.off
-        return [ClockMoved(source=self.source, campaign=c, test=t, moved_s=self.shift_s) for c, t in tests]
+        return [ClockMoved(source=self.source, campaign=c, test=t, moved_s=self.shift_s) for c, t in self.tests]
 
 
 def late_logs(logs: Logs, right: Collection[str] = ()) -> list[Late]:
@@ -169,7 +175,8 @@ class Logs:
         if of.warmed == home:
             return by
         drives = _of(_commands(self.channels), of.by)
-        own = pair_of(self.tests, [self.response], drives, self.step_s, warmed=home or "", by=of.by)
+        air = sorted(n for n, c in self.channels.items() if is_around(c) and c.source not in ("", of.by))
+        own = pair_of(self.tests, [self.response], drives, self.step_s, warmed=home or "", by=of.by, air=air)
         where_it_is, moved = 0.0, 0.0
         if own is not None:
             near = (0.0, of.shift_s)
@@ -202,13 +209,21 @@ def _pairs(
 ) -> tuple[Pair, ...]:
     """failed: temperatures that say nothing, as they stood in the open tests: the pairs are the same with locked ones,
     where what is flagged says nothing of itself."""
-    warm = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and n not in failed and c.source}
+    every = {n: c.source for n, c in channels.items() if c.quantity == "temperature" and n not in failed and c.source}
+    around = {n: s for n, s in every.items() if is_around(channels[n])}
+    warm = {n: s for n, s in every.items() if n not in around}
     commands, pairs = _commands(channels), []
     for by in sorted(set(commands.values())):
+        air = sorted(n for n, s in around.items() if s != by)
         for warmed in sorted(set(warm.values()) - {by}):
             names, drives = _of(warm, warmed), _of(commands, by)
-            pairs.append(pair_of(tests, names, drives, step_s, warmed=warmed, by=by))
+            pairs.append(pair_of(tests, names, drives, step_s, warmed=warmed, by=by, air=air))
     return tuple(p for p in pairs if p is not None)
+
+
+def is_around(info: ChannelInfo) -> bool:
+    """Whether it is a temperature of the hall, its floor, or the weather: no drive of the machine warms these."""
+    return info.quantity == "temperature" and any(holds(place, info.at) for place in AROUND)
 
 
 def _commands(channels: Mapping[str, ChannelInfo]) -> dict[str, str]:
