@@ -1,15 +1,17 @@
 """How two logs of a test begin and end beside each other, as ingest knows it.
 
-Logs that stand elsewhere in some tests than in most were dated by a clock that was not right: by how much is exact, and
-the one that the response is not in is moved. Logs that begin and end together have clocks that agree.
+Logs that stand elsewhere in some tests than in most were dated by a clock that was not right, or were switched on late
+and last as long as ever: by how much is exact, and where heat bears it out the one that the response is not in is
+moved. Logs that begin and end together have clocks that agree.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from thermodata.diagnosis.heat_balance import UNMOVED_S
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 
 if TYPE_CHECKING:
@@ -56,21 +58,30 @@ class Ends:
         """Whether the clocks of some sources agree in one of the tests, so that no heat can say that they don't."""
         return any(self.together.get(key, frozenset()).issuperset(sources) for key in tests)
 
-    def moves(self, home: str | None) -> list[ClockMoved]:
-        found = {(m.source, m.campaign, m.test): m for o in self.odd if (m := o.move(home)) is not None}
+    def is_met(self, clocks: Sequence[ClockMoved]) -> bool:
+        """Whether clocks were moved in single tests nearly as some ends say, and not by them."""
+        said = [one for home in {s for o in self.odd for s in (o.late, o.early)} for one in self.moves(home)]
+        return any(meets(some, clocks) and not any(m in some for m in clocks) for some in said)
+
+    def moves(self, home: str | None) -> list[list[ClockMoved]]:
+        """What makes logs agree with that of the response: in some tests one source, by one shift, and so on."""
+        found: dict[tuple[str, str], list[ClockMoved]] = {}
+        for odd in self.odd:
+            if (one := odd.move(home)) is not None:
+                found.setdefault((one.source, odd.said), []).append(one)
         return list(found.values())
 
-    def artefacts(self, home: str | None) -> list[Artefact]:
-        """A pair of logs that agrees once another one is moved is not told beside it."""
-        moved = {(m.campaign, m.test, m.source): m.moved_s for m in self.moves(home)}
+    def artefacts(self, home: str | None, moved: Sequence[ClockMoved]) -> list[Artefact]:
+        """moved: what was. A pair of logs that agrees once another one is moved is not told beside it."""
+        by_s = {(m.campaign, m.test, m.source): m.moved_s for m in moved}
         found = []
         for odd in self.odd:
             move = odd.move(home)
-            late, early = (moved.get((*odd.key, source), 0.0) for source in (odd.late, odd.early))
+            late, early = (by_s.get((*odd.key, source), 0.0) for source in (odd.late, odd.early))
             if move is None and abs(odd.shift_s + late - early) < abs(odd.shift_s) / 2:
                 continue
             then = "Nothing was moved for it here"
-            if move is not None:
+            if move is not None and move in moved:
                 then = f"The choice is made with '{move.source}' moved by {move.moved_s / 60:+.3g} min there"
             found.append(
                 Artefact(
@@ -86,6 +97,15 @@ class Ends:
 
 
 UNKNOWN = Ends()
+
+
+def meets(some: Sequence[ClockMoved], clocks: Sequence[ClockMoved]) -> bool:
+    """Whether one of the clocks was moved in one of these tests as these say, to within what heat tells a shift by."""
+    return any(
+        (a.source, a.campaign, a.test) == (b.source, b.campaign, b.test) and abs(a.moved_s - b.moved_s) <= UNMOVED_S
+        for a in some
+        for b in clocks
+    )
 
 
 def ends_of_logs(store: Store, model: Loaded) -> Ends:

@@ -17,7 +17,7 @@ from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.declared_clocks import Declared
-from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends
+from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, meets
 from thermodata.diagnosis.problem import TARGET_ROWS
 from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
@@ -62,7 +62,9 @@ def sound(
     found = _fitted_to(fitted, data, tests)
     if not tests:
         return found
-    found = _clocks_right(_with_ends_right(found, index, ends), index, ends)
+    asked, found = found, _clocks_right(_with_ends_right(found, index, ends), index, ends)
+    if ends.is_met(found.put_right.clocks):  # heat tells of one test what the ends of the logs tell of all of them
+        found = _clocks_right(_with_ends_right(asked, index, ends, met=found.put_right.clocks), index, ends)
     turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library)
     if not turned:
         return found
@@ -81,11 +83,15 @@ def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) ->
     return Sound(spec, fit_model(spec, data, uncertainty=False) if tests else fitted, data, tuple(tests))
 
 
-def _with_ends_right(found: Sound, index: int, ends: Ends) -> Sound:
-    """By how logs begin and end beside each other, which is exact."""
-    home = found.data.channels[found.fitted.responses[index].name].source
-    found = replace(found, faults=tuple(ends.artefacts(home)))
-    clocks = ends.moves(home)
+def _with_ends_right(found: Sound, index: int, ends: Ends, met: Sequence[ClockMoved] = ()) -> Sound:
+    """By how logs begin and end beside each other, which is exact, where heat bears it out. met: what heat alone moved,
+    a test each."""
+    response, data = found.fitted.responses[index].name, found.data
+    home, clocks = data.channels[response].source, list[ClockMoved]()
+    if alike := ends.moves(home):
+        logs = compared(found.tests, data.channels, response, data.step_s)
+        clocks = [move for some in alike if meets(some, met) or logs.bears_out(some) for move in some]
+    found = replace(found, faults=tuple(ends.artefacts(home, clocks)))
     return _moved(found, clocks) if clocks else found
 
 
