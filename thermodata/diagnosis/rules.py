@@ -105,8 +105,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             SPREAD_LIMIT,
             "most",
             strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
-            "everywhere",
+            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit {SPREAD_LIMIT:.0%}): a "
+            "cause acts alike everywhere",
         ),
         Rule(
             "others",

@@ -40,7 +40,8 @@ def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: s
         return None
     sure, limit = probability(head), limit_of(head)
     stopped = (
-        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit {limit:.0%})"
+        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit "
+        f"{limit:.0%})"
         if sure < limit
         else "alone it keeps the rules of a claim, but not beside what else was chosen"
     )
