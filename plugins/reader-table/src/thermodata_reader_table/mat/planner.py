@@ -32,15 +32,15 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
     plan = Plan(where, wanted, tree.complete is False, notes=list(tree.notes), losses=list(tree.losses))
     variables = dict(tree.variables)
     sheet = said.get("sheet")
-    if isinstance(sheet, str):
+    if sheet is not None:
         if sheet not in variables:
-            close = nearest(sheet, list(variables))
+            close = nearest(str(sheet), list(variables))
             raise UsageError(
                 f"no variable '{sheet}'",
                 where=where,
-                got=sheet,
+                got=str(sheet),
                 expected=", ".join(list(variables)[:30]),
-                hint=f"did you mean '{close}'?" if close else None,
+                hint=f"did you mean '{close}'?" if close else "'sheet' of a MAT file is the name of a variable",
             )
         variables = {sheet: variables[sheet]}
     if not variables and not plan.losses:
