@@ -11,13 +11,13 @@ from typing import Any
 
 from thermodata.draft.letters_of_files import common, letters_of
 from thermodata.draft.sample import Sample, sample_of
+from thermodata.draft.sheets import sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.explain import kind_of
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
-from thermodata.reader.series import SERIES
 from thermodata.reader.text.begin import EITHER, NOT_TAKEN
 
 _MOST_QUESTIONS = 4
@@ -87,19 +87,23 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     who, _ = claimant(folder / path)
     if who is None:
         return None
-    file = described_files(who, folder / path, path)[0]
+    file = sheet_by_sheet(who, folder / path, described_file(who, folder / path, path))[0]
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> list[RawFile]:
-    """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
-    encoding: what somebody declared for texts that are no UTF-8.
+def described_file(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> RawFile:
+    """A file as its reader describes it, with what it leaves open. encoding: what somebody declared for texts that are
+    no UTF-8.
 
     ThermodataError where it cannot be read at all.
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
-    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
-    names, besides = _sheets(whole.recording)
+    return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
+
+
+def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:
+    """A workbook whose sheets, or a recording whose groups, are alike, as that many files; any other as it is."""
+    names, besides = sheets_of(whole.recording)
     if not names:
         return [whole]
     found = []
@@ -164,27 +168,6 @@ def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
             merged(out[key], value) if isinstance(out.get(key), Mapping) and isinstance(value, Mapping) else value
         )
     return out
-
-
-def _sheets(recording: Recording) -> tuple[list[str], list[str]]:
-    """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
-    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them, or where
-    streams are the series of one table."""
-    streams = list(dict.fromkeys(s.stream for s in recording.signals))
-    if any(SERIES in s.properties for s in recording.signals):
-        return [], []
-    if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
-        return [], []
-    own = {n: {s.name.removeprefix(f"{n}/") for s in recording.signals if s.stream == n} for n in streams}
-
-    def like(one: str) -> list[str]:
-        return [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
-
-    alike = max((like(n) for n in streams), key=len)
-    others = [n for n in streams if n not in alike]
-    # an overview or notes beside the tests; half of the sheets of another kind are two loggers of the same tests
-    enough = len(alike) >= 2 and (not others or len(alike) >= max(3, 2 * len(others)))
-    return (alike, others) if enough else ([], [])
 
 
 def claimant(path: Path) -> tuple[Reader | None, str]:

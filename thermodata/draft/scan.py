@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.file_copies import copies_in, unfinished_in
-from thermodata.draft.raw_file import RawFile, claimant, described_files, sample_of_file
+from thermodata.draft.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.sample import SMALL, Watch, short
+from thermodata.draft.sheets import of_one_time
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Recording
 from thermodata.reader.counted import counted
@@ -81,19 +82,24 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 ignored.append((str(path), why))
                 continue
             try:
-                found = described_files(who, full, path, encoding)
+                whole = described_file(who, full, path, encoding)
+                found = sheet_by_sheet(who, full, whole)
             except _UNREAD as error:
                 failed.append((str(path), who.name))
                 ignored.append(
                     (str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}")
                 )
                 continue
+            if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
+                own = Watch()
+                found = [replace(made, sample=sample_of_file(full, made)) for made in found]
+                if of_one_time([f.start_ns for f in found], [f.sample for f in found]):
+                    found = [replace(whole, sample=sample_of_file(full, whole))]
+                spent += own.spent_s
+            elif of_one_time([f.start_ns for f in found], [f.sample for f in found]):
+                found = [whole]
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
-                if made.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
-                    own = Watch()
-                    made = replace(made, sample=sample_of_file(full, made))
-                    spent += own.spent_s
                 key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
                 logs[key] = shapes[_shape(path)] = made
             if str(path) in logs and not logs[str(path)].signals:
