@@ -8,6 +8,7 @@ from typing import Any
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.time_groups import one_time
 from thermodata_reader_table.mat.date_vectors import take_date_vectors
+from thermodata_reader_table.mat.described_by import settle_lists
 from thermodata_reader_table.mat.matrices import sort_matrices
 from thermodata_reader_table.mat.signal_structs import as_record
 from thermodata_reader_table.mat.stream_plan import MOST_SIGNALS, Plan, Scope
@@ -55,11 +56,12 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
 
 
 def _scope(plan: Plan, fields: Mapping[str, Node], path: str, above: Scope | None) -> None:
-    scope = Scope(path, above)
+    scope = Scope(path, above, frozenset(fields))
     inner: list[tuple[str, Struct]] = []
     for name, node in fields.items():
         sort_variable(plan, scope, name, node, inner)
     take_date_vectors(plan, scope)
+    settle_lists(plan, scope)
     sort_matrices(plan, scope)
     assign_columns(plan, scope)
     for where, struct in inner:
