@@ -99,9 +99,9 @@ def _ambiguous(one: OneSignal) -> bool:
 
 def _are_one(one: OneSignal, other: OneSignal) -> bool:
     said = guess_of(one.signal).quantity
-    paths = {(f.path, f.sheet) for f in one.files}
+    paths = {(f.path, f.part) for f in one.files}
     return (
         said is not None
         and said == guess_of(other.signal).quantity
-        and not any((f.path, f.sheet) in paths for f in other.files)
+        and not any((f.path, f.part) in paths for f in other.files)
     )

@@ -137,7 +137,7 @@ def _claimed_table(folder: Path, found: Scan) -> str | None:
     """A table of tests that a reader takes for a log, because it has a column of dates; what holds long logs is none,
     though a sheet beside them lists the tests."""
     most = most_rows(len(found.logs))
-    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None and f.sample.rows <= most]
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.part is None and f.sample.rows <= most]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
@@ -192,7 +192,10 @@ def _test(
             continue
         conditions[key] = value
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
+    window = next((f.block.window for f in files if f.block is not None), None)
+    if window is not None and len(files) > 1:
+        doubts.append("window: it is counted in one log, and meant since the start of the first of several")
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:

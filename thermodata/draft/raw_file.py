@@ -36,13 +36,21 @@ class Asked:
     times: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Rows of a table that are one of the tests in it. window: from and to, since the first row of the table [s]."""
+
+    test: str
+    window: tuple[float, float]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RawFile:
-    """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
+    """A file that one reader claims, or a part of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
-    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
-    its sheets are none; letters: the encoding of a text that is no ASCII; delivered: what its reader gives, where
-    columns of it are left out of `recording`."""
+    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; block: of a table whose
+    rows name their tests; besides: why others of its sheets are none; letters: the encoding of a text that is no ASCII;
+    delivered: what its reader gives, where columns of it are left out of `recording`."""
 
     path: PurePosixPath
     reader: str
@@ -53,6 +61,7 @@ class RawFile:
     asked: tuple[Asked, ...] = ()
     table: Mapping[str, Any] | None = None
     sheet: str | None = None
+    block: Part | None = None
     besides: tuple[str, ...] = ()
     letters: str | None = None
     delivered: Recording | None = None
@@ -61,6 +70,11 @@ class RawFile:
     def source(self) -> Source:
         """What the reader is told, so that it reads the file at all."""
         return Source(encoding=common((self.letters,)), table=self.table)
+
+    @property
+    def part(self) -> str | None:
+        """The sheet or block that it is of its file; None where it is all of it."""
+        return self.sheet or (self.block.test if self.block is not None else None)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -91,14 +105,20 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_file(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> RawFile:
+def described_file(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> RawFile:
     """A file as its reader describes it, with what it leaves open. encoding: what somebody declared for texts that are
-    no UTF-8.
+    no UTF-8; table: answers to what it leaves open.
 
     ThermodataError where it cannot be read at all.
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
-    return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
+    return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters))
 
 
 def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:

@@ -11,12 +11,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.draft.blocks import by_tests, with_times_anew
 from thermodata.draft.file_copies import copies_in, unfinished_in
 from thermodata.draft.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.draft.sheets import of_one_time
 from thermodata.errors import ThermodataError
-from thermodata.plugin import Recording
+from thermodata.plugin import Reader, Recording
 from thermodata.reader.counted import counted
 from thermodata.reader.stores import within_stores
 from thermodata.schema.lines import is_text
@@ -65,7 +66,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             continue
         try:
             like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
-            if like is not None and like.sheet is None:
+            if like is not None and like.part is None:
                 logs[str(path)] = RawFile(
                     path,
                     like.reader,
@@ -84,15 +85,18 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             try:
                 whole = described_file(who, full, path, encoding)
                 found = sheet_by_sheet(who, full, whole)
+                found = found if len(found) > 1 or found[0].sheet else by_tests(who, full, whole)
             except _UNREAD as error:
-                failed.append((str(path), who.name))
-                ignored.append(
-                    (str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}")
-                )
-                continue
+                anew = _with_times_anew(who, full, path, encoding)
+                if anew is None:
+                    failed.append((str(path), who.name))
+                    said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
+                    ignored.append((str(path), said))
+                    continue
+                whole, found = anew[0], anew
             if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
                 own = Watch()
-                found = [replace(made, sample=sample_of_file(full, made)) for made in found]
+                found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
                 if of_one_time([f.start_ns for f in found], [f.sample for f in found]):
                     found = [replace(whole, sample=sample_of_file(full, whole))]
                 spent += own.spent_s
@@ -100,7 +104,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 found = [whole]
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
-                key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
+                key = str(path) if made.part is None else f"{path}/{made.part}"
                 logs[key] = shapes[_shape(path)] = made
             if str(path) in logs and not logs[str(path)].signals:
                 del logs[str(path)]
@@ -122,6 +126,13 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         ),  # a log is no list of tests
         tuple(failed),
     )
+
+
+def _with_times_anew(who: Reader, full: Path, path: PurePosixPath, encoding: str | None) -> list[RawFile] | None:
+    try:
+        return with_times_anew(who, full, path, encoding)
+    except _UNREAD:
+        return None
 
 
 def _try(error: Exception) -> str:
