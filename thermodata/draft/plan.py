@@ -180,10 +180,10 @@ def _test(
     version: RawFile | None,
 ) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
-    kind = kind_of(test, files)
+    listed = table.rows.get(test, {}) if table else {}
+    kind = kind_of(test, files, listed)
     asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
     conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
-    listed = table.rows.get(test, {}) if table else {}
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
     for key, value in listed.items():
