@@ -27,6 +27,7 @@ from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
+from thermodata.draft.speeds_told import with_told_speeds
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.twin_probes import each_its_own
 from thermodata.draft.warm import warm_starts
@@ -53,6 +54,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     notes: list[str] = []
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
+        made = with_told_speeds(made, g)
         made = asked_whether_held(beside_each_other(made), g, groups)
         channels += made
         notes += left
