@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.draft.raw_file import described_file
+from thermodata.draft.raw_file import described_files
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.reader.text.begin import EITHER
 
@@ -94,5 +94,5 @@ class Quoting:
 def test_a_file_that_speaks_as_a_note_on_its_start_is_asked_once(tmp_path: Path) -> None:
     """It held up a draft for ever."""
     (tmp_path / "log.txt").write_text("x")
-    found = described_file(Quoting(), tmp_path / "log.txt", PurePosixPath("log.txt"))
+    [found] = described_files(Quoting(), tmp_path / "log.txt", PurePosixPath("log.txt"))
     assert len(found.asked) == 1

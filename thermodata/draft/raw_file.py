@@ -101,7 +101,7 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     who, _ = claimant(folder / path)
     if who is None:
         return None
-    file = sheet_by_sheet(who, folder / path, described_file(who, folder / path, path))[0]
+    file = described_files(who, folder / path, path)[0]
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
@@ -119,6 +119,17 @@ def described_file(
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
     return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters))
+
+
+def described_files(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> list[RawFile]:
+    """The same; a workbook whose sheets are alike sheet by sheet."""
+    return sheet_by_sheet(who, full, described_file(who, full, path, encoding, table))
 
 
 def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:
