@@ -86,6 +86,16 @@ def test_other_columns_part_nothing(tmp_path: Path, say: Say, column: str, said:
     table(tmp_path / "all.csv", column, said)
     campaign = drafted(tmp_path, say)
     assert [(t.id, t.window) for t in campaign.tests] == [("all", None)]
+    asked = "may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert asked is (said == ("A", "B", "A"))
+
+
+def test_a_table_of_which_some_is_lost_is_asked(tmp_path: Path, say: Say) -> None:
+    table(tmp_path / "all.csv", "test", ("A", "B"))
+    text = (tmp_path / "all.csv").read_text(encoding="utf-8").replace("2026-03-03 08:30:00,", "2026-03-, 08:3")
+    (tmp_path / "all.csv").write_text(text, encoding="utf-8")
+    assert [t.window for t in drafted(tmp_path, say).tests] == [None]
+    assert "may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
 
 
 def test_sensors_below_each_other_are_no_tests(tmp_path: Path, say: Say) -> None:
@@ -102,3 +112,27 @@ def test_a_second_log_makes_the_windows_a_question(tmp_path: Path, say: Say) -> 
     drafted(tmp_path, say)
     text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
     assert text.count("# ? window: it is counted in one log") == 2
+
+
+def test_two_tests_of_other_rates_that_begin_anew_are_tests_too(tmp_path: Path, say: Say) -> None:
+    lines = ["test,time_s,T_front", *(f"A,{60 * i},{20 + i / 100:.2f}" for i in range(61))]
+    lines += [f"B,{20 * i},{30 + i / 100:.2f}" for i in range(181)]
+    (tmp_path / "all.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    assert [(t.id, t.window) for t in drafted(tmp_path, say).tests] == [("A", (0.0, 3660.0)), ("B", (3660.0, 7280.0))]
+    path = tmp_path / "campaign.yaml"
+    text = path.read_text(encoding="utf-8")
+    assert text.count("add clock: {resets: allow}") == 1
+    path.write_text(text.replace("files: all.csv", "files: all.csv, clock: {resets: allow}"), encoding="utf-8")
+    assert [(row["test"], row["first"], row["n"]) for row in counted(tmp_path, say)] == [
+        ("A", 20.0, 61),
+        ("B", 30.0, 181),
+    ]
+
+
+def test_tests_that_stand_in_another_order_than_their_dates_are_asked(tmp_path: Path, say: Say) -> None:
+    table(tmp_path / "all.csv", "test", ("A", "B"))
+    head, *lines = (tmp_path / "all.csv").read_text(encoding="utf-8").splitlines()
+    turned = "\n".join((head, *lines[ROWS:], *lines[:ROWS]))
+    (tmp_path / "all.csv").write_text(turned + "\n", encoding="utf-8")
+    assert [(t.id, t.window) for t in drafted(tmp_path, say).tests] == [("all", None)]
+    assert "? 'test' may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.draft.sample import Sample
-from thermodata.draft.sheets import of_one_time
+from thermodata.draft.sheets import recordings_in
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said
@@ -68,20 +68,36 @@ def ran(first_s: int, last_s: int, rows: int) -> Sample:
 
 
 @pytest.mark.parametrize(
-    ("spans", "one"),
+    ("spans", "recordings"),
     [
-        (((0, 3600), (0, 3600)), True),
-        (((0, 3600), (1000, 4600)), True),
-        (((0, 3600), (3500, 7100)), False),  # they overlap by little: clocks are not that good
-        (((0, 3600), (3600, 7200)), False),
-        (((0, 3600), (5, 3600), (90_000, 93_600)), False),  # a copied date makes no recording of all
+        (((0, 3600), (0, 3600)), 1),
+        (((0, 3600), (1000, 4600)), 1),
+        (((0, 3600), (3500, 7100)), 0),  # they overlap by little: clocks are not that good
+        (((0, 3600), (3600, 7200)), 0),
+        (((0, 3600), (5, 3600), (90_000, 93_600)), 0),  # a copied date makes no recording of all
+        (((0, 3600), (5, 3600), (90_000, 93_600), (90_000, 93_600)), 2),
     ],
 )
-def test_each_must_have_run_while_another_did(spans: tuple[tuple[int, int], ...], one: bool) -> None:
+def test_each_must_have_run_while_another_did(spans: tuple[tuple[int, int], ...], recordings: int) -> None:
     samples = [ran(a, b, 100) for a, b in spans]
-    assert of_one_time([a * S for a, _ in spans], samples) is one
+    assert recordings_in([a * S for a, _ in spans], samples) == recordings
+
+
+def test_two_days_of_two_rates_are_asked(tmp_path: Path, say: Say) -> None:
+    late = BEGAN + timedelta(days=1)
+    days = {
+        "Slow1": (BEGAN, 10.0, 20.0),
+        "Fast1": (BEGAN, 1.0, 20.0),
+        "Slow2": (late, 10.0, 20.0),
+        "Fast2": (late, 1.0, 20.0),
+    }
+    one_file(tmp_path / "all.tdms", days)
+    assert say("init", tmp_path).code == 0
+    assert (
+        "? it holds 2 recordings of several loggers or rates: a test each?" in (tmp_path / "campaign.yaml").read_text()
+    )
 
 
 @pytest.mark.parametrize(("rows", "last", "one"), [(300, 3600, True), (101, 3600, False), (300, 3500, False)])
 def test_without_dates_equal_ends_at_other_rates_tell(rows: int, last: int, one: bool) -> None:
-    assert of_one_time([None, None], [ran(0, 3600, 100), ran(0, last, rows)]) is one
+    assert bool(recordings_in([None, None], [ran(0, 3600, 100), ran(0, last, rows)])) is one

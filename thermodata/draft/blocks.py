@@ -5,10 +5,12 @@ Each block is drafted as a test: the part of the file that its `window` cuts out
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path, PurePosixPath
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from thermodata.draft.raw_file import Asked, Part, RawFile, described_file
 from thermodata.draft.sample import Watch, sample_of
 from thermodata.plugin import Array, Block, Head, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.guard import guarded
-from thermodata.reader.series import NEVER
+from thermodata.reader.series import NEVER, SERIES
 
 
 def _split(text: str) -> list[str]:
@@ -35,6 +37,8 @@ _BESIDE = frozenset(_split("id name nr no num number nummer label code bezeichnu
 _MOST, _FEWEST = 200, 5  # tests of a file, and rows of each
 _SWITCH = {"0", "1"}
 _PATIENCE_S = 10.0
+_NOTHING: Mapping[str, Any] = MappingProxyType({})
+_NO_SERIES = "its rows name tests: or sensors? then series: [the column] in place of none, and no windows"
 _ANEW = (
     "its rows name tests, and times begin anew with each: add clock: {resets: allow}, by which they follow each other"
 )
@@ -67,37 +71,53 @@ class _Kept:
         return iter(self._rows)
 
 
-def with_times_anew(who: Reader, full: Path, path: PurePosixPath, encoding: str | None) -> list[RawFile] | None:
-    """A file that its reader refuses, for its times begin anew with each of several words, which may be sensors: where
-    the words are tests, a part for each, and the question whether they are. None for any other.
+def not_as_series(
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None
+) -> list[RawFile] | None:
+    """A file whose words its reader takes for series (whole), or cannot tell from them and refuses (None): where they
+    are tests, a part for each, and the question whether they are. whole, with what is asked of it, for any other.
 
     ThermodataError where it cannot be read at all.
     """
-    file = described_file(who, full, path, encoding, {"series": NEVER})
-    found = by_tests(who, full, replace(file, asked=(*file.asked, Asked(_ANEW, {"series": NEVER}))), anew=True)
-    return found if len(found) > 1 else None
+    plain = described_file(who, full, path, encoding, {"series": NEVER})
+    found = by_tests(who, full, plain, {"series": NEVER})
+    if len(found) > 1 or whole is None:
+        return found if len(found) > 1 else None
+    return [replace(whole, asked=(*whole.asked, *(a for a in found[0].asked if a not in plain.asked)))]
 
 
-def by_tests(who: Reader, full: Path, file: RawFile, *, anew: bool = False) -> list[RawFile]:
+def is_of_series(file: RawFile) -> bool:
+    """Whether its reader took its rows apart by words."""
+    return any(SERIES in s.properties for s in file.signals)
+
+
+def by_tests(who: Reader, full: Path, file: RawFile, declare: Mapping[str, Any] = _NOTHING) -> list[RawFile]:
     """A file whose rows name their test, as a part with a sample for each; any other as it is, and with a question
-    where it was too long to be looked through. anew: whether the times of each test begin anew."""
+    where its words or times are in another order, where times without a date begin anew with each test, and where not
+    all of it could be looked through. declare: by which it is read so."""
     named = [s for s in file.signals if _is_called_test(s)]
     if len(named) != 1 or len({s.stream for s in file.signals}) != 1:
         return [file]
-    read = _read(who, full, file)
-    if read is None:
-        asked = f"'{named[0].name}' may name tests, one below the other: then write each with its window: [from, to]"
-        return [replace(file, asked=(*file.asked, Asked(asked, {})))]
+    read, whole = _read(who, full, file)
+    asked = f"'{named[0].name}' may name tests, one below the other: then write each with its window: [from, to]"
+    open_still = replace(file, asked=(*file.asked, Asked(asked, {})))
     if not read:
         return [file]
     t_ns = np.concatenate([b.t_ns for b in read])
     runs = _runs(np.concatenate([b.values[named[0].name] for b in read]))
-    if not _each_once(runs):
+    if not whole:
+        return [open_still]
+    if len({r.word for r in runs}) < 2 or {r.word for r in runs} == _SWITCH:
         return [file]
+    if not _each_once(runs):
+        return [open_still]
+    anew = file.recording.clock == "relative" and bool((np.diff(t_ns) < 0).any())
     if anew:
         t_ns = _behind_each_other(t_ns, runs)
     if (np.diff(t_ns) < 0).any():
-        return [file]
+        return [open_still]
+    if anew or declare:
+        file = replace(file, asked=(*file.asked, Asked(_ANEW if anew else _NO_SERIES, declare)))
     left = replace(file.recording, signals=tuple(s for s in file.signals if s is not named[0]))
     delivered = file.delivered or file.recording
     found = []
@@ -118,16 +138,17 @@ def _is_called_test(signal: Signal) -> bool:
     return bool(called) and said == called | beside and signal.dtype != "bool"
 
 
-def _read(who: Reader, full: Path, file: RawFile) -> list[Block] | None:
-    """All rows of a file; None where there is no time for them, [] where something of it is lost."""
-    watch, found = Watch(), list[Block]()
+def _read(who: Reader, full: Path, file: RawFile) -> tuple[list[Block], bool]:
+    """(rows of a file, whether these are all: nothing of it is lost, and there was time for it)."""
+    watch, found, whole = Watch(), list[Block](), True
     for item in guarded(who, full, file.source, file.delivered or file.recording):
         if isinstance(item, Loss):
-            return []
+            whole = False
+            continue
         found.append(item)
         if watch.spent_s > _PATIENCE_S:
-            return None
-    return found
+            return found, False
+    return found, whole
 
 
 def _runs(column: Array) -> list[_Run]:
@@ -146,9 +167,9 @@ def _word(value: object) -> str:
 
 def _each_once(runs: Sequence[_Run]) -> bool:
     """Whether each word has one block, of some length."""
-    if not 2 <= len(runs) <= _MOST or len({r.word for r in runs}) != len(runs):
+    if len(runs) > _MOST or len({r.word for r in runs}) != len(runs):
         return False
-    return all(r.last - r.first + 1 >= _FEWEST for r in runs) and {r.word for r in runs} != _SWITCH
+    return all(r.last - r.first + 1 >= _FEWEST for r in runs)
 
 
 def _behind_each_other(t_ns: Array, runs: Sequence[_Run]) -> Array:

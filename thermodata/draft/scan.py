@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
-from thermodata.draft.blocks import by_tests, with_times_anew
+from thermodata.draft.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.file_copies import copies_in, unfinished_in
-from thermodata.draft.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
+from thermodata.draft.raw_file import Asked, RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.sample import SMALL, Watch, short
-from thermodata.draft.sheets import of_one_time
+from thermodata.draft.sheets import recordings_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.counted import counted
@@ -85,23 +85,26 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             try:
                 whole = described_file(who, full, path, encoding)
                 found = sheet_by_sheet(who, full, whole)
-                found = found if len(found) > 1 or found[0].sheet else by_tests(who, full, whole)
+                if len(found) == 1 and is_of_series(whole):
+                    found = _not_as_series(who, full, path, encoding, whole) or found
+                elif len(found) == 1:
+                    found = by_tests(who, full, whole)
             except _UNREAD as error:
-                anew = _with_times_anew(who, full, path, encoding)
-                if anew is None:
+                tests = _not_as_series(who, full, path, encoding, None)
+                if tests is None:
                     failed.append((str(path), who.name))
                     said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
                     ignored.append((str(path), said))
                     continue
-                whole, found = anew[0], anew
+                whole, found = tests[0], tests
             if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
                 own = Watch()
                 found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
-                if of_one_time([f.start_ns for f in found], [f.sample for f in found]):
-                    found = [replace(whole, sample=sample_of_file(full, whole))]
+                if (once := _of_one_time(whole, found)) is not None:
+                    found = [replace(once, sample=sample_of_file(full, once))]
                 spent += own.spent_s
-            elif of_one_time([f.start_ns for f in found], [f.sample for f in found]):
-                found = [whole]
+            elif (once := _of_one_time(whole, found)) is not None:
+                found = [once]
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
                 key = str(path) if made.part is None else f"{path}/{made.part}"
@@ -128,9 +131,25 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     )
 
 
-def _with_times_anew(who: Reader, full: Path, path: PurePosixPath, encoding: str | None) -> list[RawFile] | None:
+def _of_one_time(whole: RawFile, found: Sequence[RawFile]) -> RawFile | None:
+    """The whole file where its sheets or groups ran at once, and are no tests; with a question where they did so more
+    than once. None where they are tests."""
+    if not all(f.sheet for f in found):
+        return None
+    recordings = recordings_in([f.start_ns for f in found], [f.sample for f in found])
+    if recordings < 2:
+        return whole if recordings else None
+    asked = (
+        f"it holds {recordings} recordings of several loggers or rates: a test each? then write each with its window"
+    )
+    return replace(whole, asked=(*whole.asked, Asked(asked, {})))
+
+
+def _not_as_series(
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None
+) -> list[RawFile] | None:
     try:
-        return with_times_anew(who, full, path, encoding)
+        return not_as_series(who, full, path, encoding, whole)
     except _UNREAD:
         return None
 

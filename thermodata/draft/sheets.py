@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from itertools import combinations
 
@@ -45,14 +46,16 @@ def _home(signal: Signal) -> str | None:
     return next((n for n in (signal.stream, group) if signal.name.startswith(f"{n}/")), None)
 
 
-def of_one_time(starts: Sequence[int | None], samples: Sequence[Sample]) -> bool:
-    """Whether each of several sheets or groups ran while another did: loggers or rates of one recording, no tests.
-    starts: of absolute clocks, None of others, where only equal ends at other rates show it."""
-    together: set[int] = set()
+def recordings_in(starts: Sequence[int | None], samples: Sequence[Sample]) -> int:
+    """How many recordings several sheets or groups are of, where each ran while another did: as loggers or rates of a
+    recording, and no tests; 0 where one ran alone. starts: of absolute clocks, None of others, where only equal ends at
+    other rates show it."""
+    home = list(range(len(samples)))
     for one, other in combinations(range(len(samples)), 2):
         if _at_once(starts[one], samples[one], starts[other], samples[other]):
-            together |= {one, other}
-    return len(together) == len(samples)
+            home = [home[one] if h == home[other] else h for h in home]
+    ran = Counter(home)
+    return len(ran) if ran and min(ran.values()) > 1 else 0
 
 
 def _at_once(a_start: int | None, a: Sample, b_start: int | None, b: Sample) -> bool:
