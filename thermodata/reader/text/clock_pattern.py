@@ -14,12 +14,18 @@ CLOCK = (
     rf"(?:(?P<q>{HALF}|{_BEFORE}){BLANK}*)?(?P<H>\d{{1,2}})(?::|[時时시]{BLANK}?)(?P<M>\d{{2}})"
     rf"(?:(?::|[分분]{BLANK}?)(?P<S>\d{{2}})(?:[.,:](?P<f>\d{{1,9}})\d*)?)?[分분秒초]?(?:{BLANK}*(?P<p>{HALF}))?"
 )
+_ALONE = re.compile(rf"{HALF}|{_BEFORE}")
 _CLOCKED = re.compile(r"[:時时시]")
 
 
 def says_the_hour(text: str) -> bool:
     """Whether a text that is a date or a time has a time of day."""
     return _CLOCKED.search(text) is not None
+
+
+def is_half(text: str) -> bool:
+    """Whether a text alone says a half of the day: 'PM', 'p. m.', '午後'."""
+    return _ALONE.fullmatch(text.strip()) is not None
 
 
 def in_24_hours(hour: int, half: str) -> int | None:

@@ -24,6 +24,11 @@ def declared(delimiter: str) -> str:
     return _WORDS.get(delimiter, delimiter)
 
 
+def shown(delimiter: str, blanks: bool) -> str:
+    """A delimiter as messages show it. blanks: any number of them stands for it."""
+    return "blanks" if blanks else {",": "','", "\t": "a tab"}.get(delimiter, f"'{delimiter}'")
+
+
 def fields(line: str, delimiter: str, quoted: bool = True) -> list[str]:
     """The cells of one line; a quote that is never closed is a character like any other."""
     if not quoted or '"' not in line or line.count('"') % 2:
