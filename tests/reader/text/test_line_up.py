@@ -1,4 +1,4 @@
-"""Headers with another number of cells than their rows: put over their columns where the time tells how, else refused."""
+"""Headers with another number of cells than their rows: put over their columns where the time tells, else refused."""
 
 from __future__ import annotations
 
@@ -104,3 +104,19 @@ def test_the_way_out_of_the_refusal_names_the_columns() -> None:
 @pytest.mark.parametrize("head", ["time;T_front;dZ;", "time;T_front;dZ;;"])
 def test_empty_names_at_the_end_are_none(head: str) -> None:
     assert table(head, "{s};{T};0.0").layout.names == ("time", "T_front", "dZ")
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ('"time_s" "T_front" "dZ"', '"{n}" {s} {T} 0.0'),  # as R writes it
+        ('"time" "T_front" "dZ"', '"{n}" "{day} {at}" {T} 0.0'),
+        ("Timestamp T_front dZ", '"{day} {at}" {T} 0.0'),
+        ('time_s "T front" dZ', "{s} {T} 0.0"),
+    ],
+)
+def test_quotes_keep_blanks_within_a_cell(head: str, row: str) -> None:
+    found = table(head, row)
+    assert [name.replace(" ", "_") for name, _ in columns(found) if name != "column 1"] == ["T_front", "dZ"]
+    rows = found.grid(".")
+    assert (found.blanks, found.quoted, rows.width) == (True, True, len(found.layout.names))
