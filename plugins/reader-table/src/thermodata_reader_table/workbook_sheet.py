@@ -19,6 +19,7 @@ from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.head_start import ORDERS
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
+from thermodata.reader.text.time_cells import belongs_to_time
 from thermodata.reader.text.time_formats import (
     Stamps,
     find_formats,
@@ -170,7 +171,8 @@ class Table:
             self.notes.append(NOTE)
             order = group.form if group.form in ORDERS else None
             return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
-        joined = [_joined(cells) for cells in zip(*columns, strict=True)]
+        worded = any(belongs_to_time(cells, "column 1") for cells in columns[1:])
+        joined = [_of_words(cells) if worded else _joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
             return self._of_texts(texts, zone, group.form)
@@ -266,3 +268,16 @@ def _joined(cells: tuple[Any, ...]) -> Any:
             return midnight + clock
         return dt.datetime.combine(midnight.date(), clock.time() if isinstance(clock, dt.datetime) else clock)
     return " ".join(str(c).strip() for c in cells)
+
+
+def _of_words(cells: tuple[Any, ...]) -> str:
+    """One text of a row's time cells, words among them: '2026-03-14 01:00:00 PM'; '' where one is empty."""
+    if any(map(is_empty, cells)):
+        return ""
+    clocked = any(isinstance(c, dt.time | dt.timedelta) or ":" in str(c) for c in cells[1:])
+    return " ".join(str(_bare_day(c) if clocked and not k else c).strip() for k, c in enumerate(cells))
+
+
+def _bare_day(day: Any) -> Any:
+    """The date of a moment at midnight, as a workbook keeps a day."""
+    return day.date() if isinstance(day, dt.datetime) else day
