@@ -70,3 +70,13 @@ def test_a_half_of_the_day_in_a_cell_of_its_own_is_part_of_the_time(tmp_path: Pa
     assert data.t_ns["table"].tolist() == [T0 + i * MINUTE for i in range(40) if i != 7]
     assert list(data.values) == [("table", "T1 [degC]")]
     assert [loss.reason for loss in data.losses] == ["1 row without a time"]
+
+
+@pytest.mark.parametrize(("units", "rows"), [(["", "degC", "mm"], 60), (["", "degC", "um"], 30)])
+def test_other_units_below_a_repeated_header_end_the_sheet(tmp_path: Path, units: list[str], rows: int) -> None:
+    head: list[list[Any]] = [["Time", "T1", "dZ"], ["", "degC", "mm"]]
+    parts = [[[f"2026-03-02 {h}:{i:02d}:00", 20.5 + i, 0.1 * i] for i in range(30)] for h in (21, 22)]
+    data = read(tmp_path, [*head, *parts[0], head[0], units, *parts[1]])
+    assert data.t_ns["table"].size == rows
+    told = [loss.reason for loss in data.losses if "other units begin here" in loss.reason]
+    assert [("'dZ' in um, in mm before" in t) for t in told] == [True] * (rows == 30)

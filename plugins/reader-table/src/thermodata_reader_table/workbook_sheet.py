@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.another_header import another_in_sheet
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.date_parts import column_times, declared_parts
 from thermodata.reader.text.days import NOTE, is_once
@@ -73,7 +74,12 @@ class Table:
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
         self.head = rows[: layout.first]
-        self.columns = list(zip(*rows[layout.first :], strict=False))
+        rows = rows[layout.first :]
+        if (other := another_in_sheet(layout, self.head, rows)) is not None:
+            lost = 1 - other[0] / len(rows)
+            self.losses.append(Loss(f"{where} row {layout.first + other[0] + 1}", None, None, lost, other[1]))
+            rows = rows[: other[0]]
+        self.columns = list(zip(*rows, strict=False))
         said = (source.table or {}).get("decimal")
         self.decimal_declared = said is not None
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
