@@ -123,3 +123,11 @@ def test_numbers_beside_a_time_are_no_offset(tmp_path: Path) -> None:
     rows = [f"2026-07-14;08:{m:02d}:00;+{m:04d};{m}.5" for m in range(30)]
     (tmp_path / "a.csv").write_text("\n".join(["Date;Time;Z;T", *rows, ""]))
     assert [name for _, name in load(Reader(), tmp_path / "a.csv", Source()).values] == ["Z", "T"]
+
+
+def test_days_of_ole_automation_are_those_of_a_sheet(tmp_path: Path) -> None:
+    rows = [f"{46086 + m / 1440:.8f};{m}.5".replace(".", ",") for m in range(30)]
+    (tmp_path / "a.csv").write_text("\n".join(["Data/Ora;T", "[OLE];°C", *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert data.recording.clock == "absolute"
+    assert abs(data.t_ns["table"][0] - np.datetime64("2026-03-05", "ns").astype(np.int64)) < 10**6
