@@ -151,10 +151,10 @@ def find_table(
             kinds.append(dtype_of(column, name, unit))
     if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
-    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
-        refuse_units_in_cells(
-            [c for i, name in enumerate(layout.names) if i not in times for c in cells_of[name]], where
-        )
+    words = [i for i, kind in enumerate(kinds) if kind == "str" and i not in times]
+    if strict or not any(kind and i not in times and i not in words for i, kind in enumerate(kinds)):
+        for name in (layout.names[i] for i in words if layout.names[i] not in forced):
+            refuse_units_in_cells(cells_of[name], where, name)
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
     if declared == UNKNOWN:
