@@ -80,3 +80,10 @@ def test_other_units_below_a_repeated_header_end_the_sheet(tmp_path: Path, units
     assert data.t_ns["table"].size == rows
     told = [loss.reason for loss in data.losses if "other units begin here" in loss.reason]
     assert [("'dZ' in um, in mm before" in t) for t in told] == [True] * (rows == 30)
+
+
+def test_hours_and_minutes_beside_a_date_are_its_time_of_day(tmp_path: Path) -> None:
+    rows: list[list[Any]] = [["Date", "Hour", "Minute", "T1 [degC]"]]
+    rows += [[DAY, 21 + i // 60, i % 60, 20.5 + i] for i in range(90)]
+    data = read(tmp_path, rows, (DATE, PLAIN, PLAIN, PLAIN))
+    assert data.t_ns["table"].tolist() == [T0 + i * MINUTE for i in range(90)]

@@ -10,6 +10,7 @@ from typing import Any
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.clock_numbers import columns_of_clock, fraction_question
 from thermodata.reader.text.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
@@ -99,6 +100,7 @@ def time_of(
                 joined_question(columns, names, data, where)
                 or clock_question(columns, names, data, where)
                 or part_question(columns, names, data, where)
+                or _fraction_beside(columns, names, data, where)
             )
         if open_part is not None:
             raise open_part
@@ -112,6 +114,8 @@ def time_of(
         return columns, None, form, notes
     text = unit or units[columns[0]] or unit_of_time(name)
     if text is None:
+        if (fraction := fraction_question(columns[0], names, data, where)) is not None:
+            raise fraction
         text = size_of_clock(name, cells, where)
         notes.append(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
@@ -156,7 +160,9 @@ def find_time(
         first = next((i for i in dates if i in words), dates[0])
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
-        found = (first,) if has_clock or not clocks else (first, clocks[0])
+        found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
+        if not clocks and not _tell_the_hour(filled[first]):
+            found = (first, *columns_of_clock(first, names, data))
         whole = with_parts(found, names, data)
         if whole != found:
             return whole
@@ -181,6 +187,16 @@ def find_time(
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _fraction_beside(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask where a day alone was found, and a column that is called a time holds numbers below 1."""
+    if len(columns) != 1 or not any(is_dated(r[columns[0]]) and not _tell_the_hour([r[columns[0]]]) for r in data):
+        return None
+    times = [i for i, name in enumerate(names) if i not in columns and is_time_header(name)]
+    return next((q for i in times if (q := fraction_question(i, names, data, where)) is not None), None)
 
 
 def _named(header: str) -> bool:

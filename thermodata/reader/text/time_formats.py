@@ -20,6 +20,7 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import time_cells, time_pattern, timestamp
 from thermodata.reader.text.clock_letters import refuse_unread, with_clock
+from thermodata.reader.text.clock_numbers import clock_of_numbers
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.date_parts import PART, declared_parts
 from thermodata.reader.text.local_clock import DayCount
@@ -91,7 +92,8 @@ def find_formats(
     for at, run in enumerate(runs):
         k, name = run[0], names[run[0]]
         cells = columns[k] if len(run) == 1 else time_cells.joined_cells([columns[i] for i in run])
-        behind = time_pattern.part_of_a_second(name) if k else None
+        whole = bool(forms) and forms[-1].text == "minutes"  # whose seconds stand behind them
+        behind = time_pattern.part_of_a_second(name) if k and not whole else None
         if behind is not None:
             forms.append(behind)
             continue
@@ -103,6 +105,8 @@ def find_formats(
             if alone:
                 refuse_unread(text, own, _spread(cells, _MANY), share, f"{where} column '{name}'")
             form = own if alone or share(_spread(cells, _FEW), own) > 0.5 else form
+        if form is None and k and forms[0].role == "date":
+            form = clock_of_numbers(name, cells)
         form = form or _two_parts(clock, cells, further()) or find_format(cells, where, name, further, order)
         form = _zoned(form, cells)
         forms.append(form if len(run) == 1 else time_cells.read_together(form, [columns[i] for i in run]))

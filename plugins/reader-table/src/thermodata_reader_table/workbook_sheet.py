@@ -14,6 +14,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.another_header import another_in_sheet
 from thermodata.reader.text.cell import is_empty
+from thermodata.reader.text.clock_numbers import clock_of_numbers
 from thermodata.reader.text.date_parts import column_times, declared_parts
 from thermodata.reader.text.days import NOTE, is_once
 from thermodata.reader.text.footer import is_footer
@@ -169,9 +170,11 @@ class Table:
             if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
-        if declared_parts(group.form, len(columns)):
+        names = [self.layout.names[i] for i in group.time]
+        numbers = any(clock_of_numbers(n, cells) for n, cells in zip(names[1:], columns[1:], strict=True))
+        if declared_parts(group.form, len(columns)) or numbers:
             parts = [[_part(cell) for cell in cells] for cells in columns]
-            forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
+            forms = find_formats(names, parts, group.form, self.where)
             return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
         if len(columns) == 2 and is_once(columns[0]):
             self.notes.append(NOTE)
@@ -255,6 +258,8 @@ def _part(cell: Any) -> str:
     """The text of a number that is part of a date: a workbook keeps all of them as floats."""
     if cell in ("", None):
         return ""
+    if isinstance(cell, dt.date):
+        return str(_bare_day(cell))
     return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell).strip()
 
 
