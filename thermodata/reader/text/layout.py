@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from thermodata.errors import FormatError, UsageError
+from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.first_data import first_data, width_of
+from thermodata.reader.text.head_interval import with_interval
 from thermodata.reader.text.header import split_unit, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
 from thermodata.reader.text.line_up import Fit, line_up, refuse_misfit
@@ -93,9 +94,8 @@ def find(
     """
     said = {k: v for k, v in (declared or {}).items() if v is not None}
     skip = int(said.get("skip_rows", 0))
-    body = list(rows[skip:])
-    width = width_of(body)
-    body = [r[:width] for r in body]
+    width = width_of(rows[skip:])
+    body = [r[:width] for r in rows[skip:]]
     header = said.get("header_rows")
     if header is None:
         first = first_data(body, width, where)
@@ -124,10 +124,11 @@ def find(
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     lost = lines_between(above, width, skip) if header is None else []
-    if fit is not None and fit.note is not None:
-        lost = [*lost, fit.note]
-    groups, notes = _groups(said.get("time") or {}, names, units, data, where)
-    noted = (*notes, *lost)
+    try:
+        groups, notes = _groups(said.get("time") or {}, names, units, data, where)
+    except QuestionError as question:
+        raise with_interval(question, map(texts_of, above)) from None
+    noted = (*notes, *lost, *([fit.note] if fit and fit.note else []))
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
 
 

@@ -17,7 +17,7 @@ from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.spans import are_spans
-from thermodata.reader.text.time_cells import part_question, with_parts
+from thermodata.reader.text.time_cells import part_question, with_parts, zoned_beside
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -157,7 +157,8 @@ def find_time(
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
-        first = next((i for i in dates if i in words), dates[0])
+        of_hours = [i for i in dates if _tell_the_hour(filled[i])]
+        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, filled)
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
