@@ -28,6 +28,7 @@ HEAD = "Zeit;T_vorn;dZ\n"
         (HEAD + ";[°F];[µm]", "'T_vorn' in °F, in °C before, 'dZ' in µm, in mm before"),
         (HEAD + "UTC;°C;V", "'dZ' in V, in mm before"),
         (HEAD + ";;V", "'dZ' in V, in mm before"),
+        (HEAD + ";°F", "'T_vorn' in °F, in °C before"),
     ],
 )
 def test_other_units_under_a_repeated_header_end_the_reading(tmp_path: Path, again: str, said: str) -> None:

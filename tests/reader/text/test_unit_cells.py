@@ -31,7 +31,7 @@ def test_a_column_of_such_cells_is_refused_beside_plain_ones(tmp_path: Path, row
     assert data.values["table", column].dtype == object
 
 
-@pytest.mark.parametrize("word", ["spindle on", "S1 6000 rpm", "12 pieces left"])
+@pytest.mark.parametrize("word", ["spindle on", "S1 6000 rpm", "12 pieces left", "10 sec"])
 def test_words_are_read(tmp_path: Path, word: str) -> None:
     data = read(tmp_path, "2026-03-02 08:{m:02d}:00,21.{m}," + word)
     assert data.values["table", "Speed"].tolist() == [word] * 30

@@ -62,6 +62,7 @@ def other_units(layout: Layout, cells: Sequence[str]) -> str:
     same."""
     if any(cells[len(layout.names) :]) or not any(cells) or any(is_number(c) or is_stamp(c) for c in cells):
         return ""
+    cells = [*cells, *[""] * (len(layout.names) - len(cells))]  # a line that is cut off
     if not of_units(cells, layout.time):
         return ""
     said = enumerate(zip(as_units(cells), layout.units, strict=False))

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from thermodata.errors import FormatError
 from thermodata.reader.text.cell import Cell
 from thermodata.reader.text.header import looks_like_unit
+from thermodata.reader.time_units import known_unit
 
 _WITH_UNIT = re.compile(r"^[+-]?\d[\d.,]*\s?(?P<unit>[^\d\s].{0,7})$")
 
@@ -17,6 +18,8 @@ def refuse_units_in_cells(cells: Sequence[Cell], where: str, name: str = "") -> 
     are of, '' for all."""
     full = [str(c).strip() for c in cells if c not in ("", None)]
     shown = [c for c in full if (m := _WITH_UNIT.match(c)) and looks_like_unit(m["unit"])]
+    if name:  # '10 sec' among others is a length of time
+        shown = [c for c in shown if known_unit(c.lstrip("+-0123456789., ")) is None]
     if 2 * len(shown) > len(full):
         as_text = f"; or options: {{text: ['{name}']}} in the source, where they are words" if name else ""
         raise FormatError(
