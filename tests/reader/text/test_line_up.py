@@ -120,3 +120,18 @@ def test_quotes_keep_blanks_within_a_cell(head: str, row: str) -> None:
     assert [name.replace(" ", "_") for name, _ in columns(found) if name != "column 1"] == ["T_front", "dZ"]
     rows = found.grid(".")
     assert (found.blanks, found.quoted, rows.width) == (True, True, len(found.layout.names))
+
+
+@pytest.mark.parametrize(
+    "head", ["spindle S4000 in hall 3", "# spindle run S4000 in hall 3\n# measured by Novak on Monday"]
+)
+def test_a_sentence_above_rows_without_a_header_names_nothing(head: str) -> None:
+    found = table(head, "{s} {T} 0.0", time={"column": 1, "unit": "s"})
+    assert found.layout.names == ("column 1", "column 2", "column 3")
+
+
+def test_a_sentence_above_the_names_names_nothing() -> None:
+    assert columns(table("spindle S4000 in hall 3\ntime[s] T_front dZ[um]", "{s} {T} 0.0")) == [
+        ("T_front", None),
+        ("dZ", "um"),
+    ]

@@ -110,7 +110,7 @@ def find(
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     below = rows[first : first + 200]
-    above, fit = line_up(rows[skip:first], below, width, row_of_units)
+    above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
     if between is not None and header is None:
         refuse_misfit(above, below, width, row_of_units, skip, between, where)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)

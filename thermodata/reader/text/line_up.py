@@ -12,6 +12,7 @@ from itertools import pairwise
 from thermodata.errors import FormatError
 from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_empty, is_number, mostly, number_of
 from thermodata.reader.text.clock_pattern import says_the_hour
+from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.header_rows import place_of_names, says_time, texts_of
 from thermodata.reader.text.time_cells import belongs_to_time, names_part_of_time
 from thermodata.reader.text.time_header import is_time_header
@@ -37,17 +38,22 @@ class Fit:
 
 
 def line_up(
-    above: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
+    above: Sequence[Sequence[Cell]],
+    rows: Sequence[Sequence[Cell]],
+    width: int,
+    units_row: int | None,
+    blanks: bool = False,
 ) -> tuple[list[list[Cell]], Fit | None]:
     """The rows above the data with their cells over their columns, and how they were put there; None where they stand
-    so, or nothing tells where they belong. rows: of data; width: their cells."""
+    so, or nothing tells where they belong. rows: of data; width: their cells; blanks: part them, so that a sentence is
+    no row of names."""
     marked = [len(r) == width + 1 and _MARK.fullmatch(str(r[0]).strip()) is not None for r in above]
     bare = [list(r[1:]) if mark else list(r) for r, mark in zip(above, marked, strict=True)]
     place = place_of_names(bare, width, units_row)
     whole = Fit(width + 1, tuple((i + 1,) for i in range(width))) if any(marked) else None
-    if place is None:
+    names = [] if place is None else texts_of(bare[place])
+    if place is None or not any(names):
         return bare, whole
-    names = texts_of(bare[place])
     columns = width - _empty_at_the_end(rows, width)
     if marked[place] or _filled(names) in (width, columns) or not rows:
         return bare, whole
@@ -55,6 +61,8 @@ def line_up(
     if fit is None and _MARK.fullmatch(names[0]):
         fit = _fit(names[1 : _filled(names)], rows, columns, width)
         fit = fit and Fit(fit.cells + 1, tuple(tuple(i + 1 for i in at) for at in fit.of), fit.note)
+    if fit is None and blanks and _is_sentence(names, width):
+        return line_up([[] if i == place else r for i, r in enumerate(bare)], rows, width, units_row, blanks)
     if fit is None:
         return bare, whole
     fit = Fit(len(names), fit.of, fit.note)
@@ -170,6 +178,11 @@ def _counts_from_zero(rows: Sequence[Sequence[Cell]], column: int) -> bool:
     values = [number_of(c) or 0.0 for c in cells]
     step = values[1]
     return values[0] == 0 and step > 0 and all(abs(b - a - step) < 1e-6 * step for a, b in pairwise(values))
+
+
+def _is_sentence(names: Sequence[str], width: int) -> bool:
+    """Whether more words than there are columns name neither a time nor a unit."""
+    return _filled(names) > width and not any(says_time(n) or is_time_header(n) or split_unit(n)[1] for n in names)
 
 
 def _filled(names: Sequence[str]) -> int:
