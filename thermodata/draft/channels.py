@@ -55,6 +55,9 @@ def channels_of(
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
         said, note = _said(one)
+        if said.quantity is None and signal.unit is None and _counts_rows(one):
+            notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
+            continue
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
@@ -76,6 +79,13 @@ def channels_of(
         note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     return made, notes
+
+
+def _counts_rows(one: OneSignal) -> bool:
+    """Whether a signal numbers the rows of each file that has it."""
+    own = [(f, one.of(f) or one.signal) for f in one.files]
+    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    return bool(seen) and all(v is not None and v.counts_rows for v in seen)
 
 
 def _moved_probe(said: Guess, name: str) -> Guess:
