@@ -51,12 +51,6 @@ class Values:
         return self.distinct == 2 and (self.low, self.high) == (0.0, 1.0)
 
     @property
-    def counts_rows(self) -> bool:
-        """It numbers the rows from 0 or 1 on, none left out."""
-        steady = self.whole and self.moves == 1.0 and self.step == 1.0
-        return steady and self.first == self.low in (0.0, 1.0) and self.high - self.low == self.n - 1 > _FEW
-
-    @property
     def slow(self) -> bool:
         """It creeps: from row to row it changes by little of its range, as a temperature does."""
         return self.n >= 20 and self.distinct > _FEW and self.step <= 0.1 * max(self.high - self.low, 1e-12)
