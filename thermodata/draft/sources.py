@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.draft.naming import plain, words
+from thermodata.draft.naming import parts_of, plain, words
 from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
@@ -100,7 +100,7 @@ def _with_their_tests(clusters: Sequence[list[RawFile]], jumps: Sequence[RawFile
     """Jump tests with the one kind of tests that has their signals under another head: 'Fast/Z' beside 'Slow/Z'."""
 
     def own(cluster: Sequence[RawFile]) -> set[str]:
-        return {split_unit(s.name)[0].rsplit("/", 1)[-1] for f in cluster for s in f.signals}
+        return {parts_of(split_unit(s.name)[0])[-1] for f in cluster for s in f.signals}
 
     tests = [c for c in clusters if any(f not in jumps for f in c)]
     found = [list(c) for c in tests]
