@@ -68,7 +68,7 @@ def _temperature(said: set[str], axis: str | None) -> Place:
     if "gearbox" in said:
         return Place("spindle.gearbox")
     if "oil" in said:
-        return Place(None, question="at: hydraulics or lubrication?")
+        return Place(None, question="at: hydraulics, lubrication, or coolant, where the oil cuts?")
     beam = next((b for b in _BEAMS if b in said), None)
     if beam is not None and (beam == "column" or "spindle" not in said):
         side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")

@@ -131,7 +131,8 @@ _PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
-    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen. "
+    "cutting~oil schneidol schneidoel bearbeitungsol bearbeitungsoel rezny~olej rezneho~oleje 切削油",
     # of the cut, or of a bearing that runs on oil and air
     "mist": "mist. oil~mist mist~coolant nebel. olnebel oelnebel niebla brouillard nebbia nevoa mlha mgla~olej "
     "mgielka 油雾 喷雾 ミスト",
