@@ -197,6 +197,10 @@ def bare_unit(text: str) -> str:
     return enclosed[1] if enclosed else bare
 
 
+# of feeds and flows, whose minute is one of another language: 'mm/dk' in Turkish, 'l/perc' in Hungarian
+_RATE_A_MINUTE = re.compile(r"(?P<what>μm|um|mm|cm|m|l|in|inch)/(?:dk|dak|perc|мин|分)\.?", re.IGNORECASE)
+
+
 @lru_cache(maxsize=4096)
 def spelled(text: str) -> str | None:
     """Pint's spelling of what labs write, None where it is not one of theirs. Turns count as turns, and 'Grad' is a
@@ -210,6 +214,8 @@ def spelled(text: str) -> str | None:
         return f"turn/{_time(turns['time'])}"
     if feed := _PER_TURN.fullmatch(bare):
         return f"{feed['length'].lower()}/turn"
+    if rate := _RATE_A_MINUTE.fullmatch(bare):
+        return f"{rate['what'].lower().replace('μ', 'u')}/min"
     if torque := _FOOT_POUND.fullmatch(bare):
         if torque["kilo"]:
             return f"kgf*{torque['metric'].lower()}"
