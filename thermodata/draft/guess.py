@@ -73,6 +73,7 @@ _NEEDS_PLACE = (
     "pressure",
     "displacement",
     "rotational_speed",
+    "feed",
 )
 
 

@@ -149,6 +149,8 @@ def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[st
         return by_data, "", f"kind: {asked} ({moved})"
     if by_name == "etve" and moved.turning:
         return "other", "", f"kind: the name says etve, the data that something turns ({moved})"
+    if by_data == "linear_axis" and not by_name and not moved.axes:
+        return by_data, "", f"kind: linear_axis? {moved}"
     if by_data == "other" and not by_name:
         return by_data, "", f"kind: other? {moved}"
     if by_data and by_data != "other":
@@ -174,6 +176,8 @@ def _by_data(moved: Moved) -> str | None:
         return "linear_axis" if len(moved.axes) == 1 else "mixed"
     if moved.rotary:
         return "rotary_axis"
+    if moved.fed:
+        return "linear_axis"
     if not moved.whole:
         return None
     if moved.switched:

@@ -186,7 +186,9 @@ def _on_axis(said: set[str], axis: str | None) -> Place:
 
 
 def _feed(said: set[str], axis: str | None) -> Place:
-    return _on_axis(said, axis) if axis else Place(None)
+    # without more, a control's feed is that along its path
+    of_a_part = Place(None, question="at: which axis? e.g. axis.x; a feed along a path: no 'at'")
+    return _on_axis(said, axis) if axis else of_a_part if "more than a feed" in said else Place(None)
 
 
 def _fluid(said: set[str], axis: str | None) -> Place:

@@ -268,6 +268,12 @@ def says(listed: str, text: str) -> bool:
     return pattern(listed).search(text) is not None
 
 
+def beyond(listed: str, text: str) -> tuple[str, ...]:
+    """The words of a name (as words()) that none of the listed ones touches."""
+    found = [m.span() for m in pattern(listed).finditer(text)]
+    return tuple(m[0] for m in re.finditer(r"\S+", text) if not any(a < m.end() and m.start() < b for a, b in found))
+
+
 @lru_cache(maxsize=20_000)
 def places_in(text: str) -> frozenset[str]:
     """The keys of PLACE_WORDS that a name mentions."""

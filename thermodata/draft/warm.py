@@ -21,8 +21,7 @@ _UNHEATED = ("hall", "floor", "fixture", "workpiece", "column", "bed", "crossbea
 
 
 def warm_starts(tests: Mapping[str, Sequence[RawFile]], named: Mapping[int, Named]) -> dict[str, str]:
-    """test -> what to ask of its start, where a part that the machine heats begins far above the air of the hall and the
-    castings.
+    """test -> what to ask of its start, where a part that the machine heats begins far above air and castings.
 
     tests: test -> its files. named: id of a file -> (stream, signal) -> (quantity, place, channel). Sensors have
     offsets, so the coolest start of all tests counts as at rest; without the air's temperature nothing is said.
@@ -68,8 +67,8 @@ def _above_the_rest(files: Sequence[RawFile], named: Mapping[int, Named]) -> dic
 
 @dataclass(frozen=True, slots=True)
 class _Begin:
-    """Where a file of a channel begins. degrees: before its first row [degC], None where nobody looked at it: what a later
-    part of the test reads first is no beginning of the test."""
+    """Where a file of a channel begins. degrees: before its first row [degC], None where nobody looked at it: what a
+    later part of the test reads first is no beginning of the test."""
 
     at_ns: int
     degrees: float | None
