@@ -46,6 +46,8 @@ def test_a_place_that_is_told_is_not_asked(header: str, quantity: str, place: st
         ("Yağ sıcaklığı [°C]", "at: hydraulics, lubrication, or coolant"),
         ("Temp. lager [°C]", "spindle.bearing.front or .rear?"),
         ("Temp. moer [°C]", "which axis's nut?"),
+        ("Frame [°C]", "at: bed, column or crossbeam, of the frame?"),
+        ("Temp. Maschinengestell [°C]", "at: bed, column or crossbeam, of the frame?"),
         ("T_arm [°C]", "where on the machine?"),
         ("Schalttafel [°C]", "where on the machine?"),  # a switch board, in German
     ],

@@ -87,6 +87,8 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         )
     if "granite" in said:
         return Place("bed", question="at: bed, column, crossbeam or table, of granite?")
+    if "frame" in said:
+        return Place(None, question="at: bed, column or crossbeam, of the frame?")
     if "workspace" in said:
         return Place("enclosure", said <= {"workspace", "enclosure", "hall", "chamber"})
     if "spindle" in said:

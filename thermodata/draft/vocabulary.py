@@ -183,6 +183,8 @@ _PLACE_WORDS: dict[str, str] = {
     "climate chamber": "climate~chamber climatic~chamber klimakammer klimaraum klimatizovana~komora "
     "enceinte~climatique "
     "chambre~climatique camera~climatica camara~climatica",
+    "frame": "frame. frames. machineframe rahmen. maschinenrahmen maschinengestell gestell. ram~stroje ramu~stroje "
+    "bati. telaio. bastidor. rama. 机架",
     "granite": "granite. granit. granito. zula. 花岗岩 大理石 グラナイト",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
