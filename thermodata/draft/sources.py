@@ -42,8 +42,16 @@ class Group:
     @property
     def asks(self) -> tuple[str, ...]:
         """What its files leave open, each once."""
+        return self._said(told=False)
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """What some of its files leave open, and others answer."""
+        return self._said(told=True)
+
+    def _said(self, told: bool) -> tuple[str, ...]:
         first: dict[str, str] = {}
-        for asked in self._asked():
+        for asked in (a for a in self._asked() if a.told is told):
             first.setdefault(repr(asked.declare) if asked.declare else asked.ask, asked.ask)
         return tuple(first.values())
 
