@@ -35,6 +35,11 @@ def test_a_feed_of_a_part_is_asked_for_its_axis(header: str) -> None:
         ("actFeedRate [mm/min]", None),
         ("Path feed act [mm/min]", None),
         ("Bahnvorschub [mm/min]", None),
+        ("/Channel/State/actFeedRateIpo [mm/min]", None),
+        ("Velocidade de avanço [mm/min]", None),
+        ("Velocità di avanzamento [mm/min]", None),
+        ("Posuw roboczy [mm/min]", None),
+        ("İlerleme hızı [mm/min]", None),
         ("Feed X [m/min]", "axis.x"),
     ],
 )

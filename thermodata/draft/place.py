@@ -17,7 +17,9 @@ _HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'
 # a feed that is no axis's own
 _OF_PATH = (
     "path. bahn. drahy. tool. tcp. f. v. rate. rates. speed. act. actual. ist. soll. set. cmd. value. nc. cnc. mcs. "
-    "axes. programmed. override. current. total. resulting. [0-9]+"
+    "axes. programmed. override. current. total. resulting. ipo. nck. channel. chan. [0-9]+ "
+    "velocity. velocidad. velocidade. velocita. vitesse. geschwindigkeit. rychlost. predkosc. snelheid. hastighet. "
+    "sebesseg. hizi. de. di. do. del. d. roboczy. robocza. pracovni. working. machining."
 )
 _TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 
