@@ -6,6 +6,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.draft.guess import guess
+from thermodata.draft.kinds import kind_of
 from thermodata.reader.text import split_unit
 
 
@@ -54,3 +55,26 @@ def test_a_place_that_is_told_is_not_asked(header: str, quantity: str, place: st
 )
 def test_a_place_that_words_leave_open_is_asked(header: str, asked: str) -> None:
     assert any(asked in q for q in guess(*split_unit(header)).questions)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [
+        ("kesme_2", "cutting"),
+        ("kesme_yagi", "other"),  # what the oil does, without a cut
+        ("oleo de corte", "other"),
+        ("tafel_120", "rotary_axis"),
+        ("tafel_Z", "linear_axis"),
+        ("tabla_40", "rotary_axis"),
+        ("voeding_Z", "linear_axis"),
+        ("besleme_1", "linear_axis"),
+        ("gemengd_1", "mixed"),
+        ("karma_2", "mixed"),
+        ("mieszany_3", "mixed"),
+        ("fuso_8000", "spindle"),
+        ("karman_2", "other"),
+        ("schalttafel", "other"),
+    ],
+)
+def test_a_kind_is_told_by_the_name_of_a_test(name: str, kind: str) -> None:
+    assert kind_of(name, []).kind == kind

@@ -27,25 +27,28 @@ _KINDS: tuple[tuple[str, str], ...] = (
         "cutting",
         "^cut. cutting ^fras ^fraes ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado "
         "usinag coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning "
-        "skarande fresning talasli frezeleme resanie",
+        "skarande fresning talasli frezeleme kesme. resanie",
     ),
-    ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
+    (
+        "rotary_axis",
+        "rotary table. ^tafel tabla. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]",
+    ),
     (
         "linear_axis",
         "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. ^avanc ^avanz matning "
-        "aanzet ilerleme 进给 直线 丝杠 screw. kgt.",
+        "aanzet ^voeding besleme. ^posuw ilerleme 进给 直线 丝杠 screw. kgt.",
     ),
     (
         "spindle",
         "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
         "预热 const. "
-        "heat. heating heating. heizen n. husillo broche. mandrino wrzecion",
+        "heat. heating heating. heizen n. husillo broche. mandrino wrzecion fuso. spil.",
     ),
     (
         "mixed",
         "mixed. mix. mixto mixte. misto. gemischt blandad work~day working~day workday arbeitstag pracovni~den "
         "shift. schicht smena. "
-        "kombin combin production produktion 混合 综合",
+        "kombin combin gemengd karma. mieszan production produktion 混合 综合",
     ),
 )
 # a day is a date, unless the data show the loads of a working day
@@ -57,6 +60,7 @@ _FLUIDS = (
     "^enfria "
     "nebenaggregat hilfsaggregat ausiliari. auxiliar auxiliaires. auxiliares. aux. "
     "chiller chillers ^refroid ^raffredd chlodz koelvloei koeling kylvatska kylare skarvatsk sogut fluido~de~corte "
+    "kesme~sivisi kesme~yag kesme~yagi oleo~de~corte snijolie "
     "liquide~de~coupe fluide~de~coupe fluido~da~taglio fluido~di~taglio liquido~de~corte cutting~fluid"
 )
 # what lets other air to the machine: somebody did it on purpose
