@@ -140,7 +140,7 @@ class TestAnswer:
             return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes(hold(names)), implausible=doubts)
 
         refitted: Any = SimpleNamespace(responses=[response])
-        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, ___: Sound(spec, refitted, data, tests))
+        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
         without = replace(found, judgement=nothing("unknown"))
         monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
         monkeypatch.setattr(answering, "confirm", confirm)

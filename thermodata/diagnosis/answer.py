@@ -13,6 +13,7 @@ from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.copies import as_artefacts, copies
 from thermodata.diagnosis.detection import LARGE, Limit
+from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.left_on_locked import contradicted
@@ -56,14 +57,15 @@ def answer(
     seed: int = 0,
     *,
     left_on_locked: Mapping[str, float] | None = None,
+    ends: Ends = UNKNOWN,
 ) -> Answer:
     """Diagnose the response that the model predicts worst; locked tests are opened once, for what is claimed
-    or likely. left_on_locked: response -> their error, where it is known already."""
+    or likely. left_on_locked: response -> their error, where it is known already. ends: how logs begin and end."""
     tests = fitted.tests(data)
     index = worst_response(fitted, tests)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
-    asked_of = sound(fitted, index, data, usable, library)
+    asked_of = sound(fitted, index, data, usable, library, ends)
     refitted, data, usable = asked_of.fitted, asked_of.data, list(asked_of.tests)
     same = copies(fitted.tests(data, "locked"), tests, response.name)
     again = {one.key for one, _ in same}

@@ -98,6 +98,8 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
         values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
         called_so[own.properties.get("description", "")] += 1
+    if signal.dtype == "str" and None in seen.values():
+        values = None  # words in one test that are no switch's
     note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)

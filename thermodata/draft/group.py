@@ -74,8 +74,9 @@ def _allowed(group: Group) -> list[Naming]:
 
 
 def _by_sheet(group: Group) -> Naming | None:
-    """Of a workbook each sheet is a test, called as the sheet is; of several each names its file."""
-    ids = tuple(f.sheet or "" for f in group.files)
+    """Of a workbook each sheet is a test, called as the sheet is, and so is each block of a table whose rows name their
+    test; of several each names its file."""
+    ids = tuple(f.part or "" for f in group.files)
     if not all(ids):
         return None
     files = {str(f.path) for f in group.files}
@@ -225,7 +226,7 @@ def _with_template(group: Group, template: str | None, ids: Sequence[str], every
         paths = [str(f.path) for f in group.files]
         return replace(group, template=_glob(paths, every))
     many = len(group.tests) > 1 or len(ids) == 1
-    if template is not None and any(f.sheet for f in group.files):
+    if template is not None and any(f.part for f in group.files):
         return replace(group, template=template)
     if (
         template is not None

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
 from thermodata.calibration.quality_limit import impossible, sentinels
 from thermodata.calibration.quality_value import run_stats
 from thermodata.errors import UsageError
@@ -13,6 +14,7 @@ from thermodata.plugin import Array, Float1D
 from thermodata.schema.quantity import linear_conversion
 
 _FEW = 8
+_LEAST_COUNTED = 10
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
 
@@ -20,7 +22,8 @@ _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as la
 class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
-    second: the first two of them."""
+    second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
+    and 1."""
 
     n: int
     low: float
@@ -32,6 +35,13 @@ class Values:
     whole: bool
     first: float
     second: float
+    counts: bool = False
+    text: bool = False
+
+    @property
+    def counts_rows(self) -> bool:
+        """1, 2, 3 ... or 0, 1, 2 ...: the number of a row."""
+        return self.counts and self.n >= _LEAST_COUNTED and self.first in (0.0, 1.0)
 
     @property
     def constant(self) -> bool:
@@ -53,7 +63,10 @@ class Values:
 
 
 def values_of(column: Array) -> Values | None:
-    """None for text and for signals without a finite value. column: shape (n,)."""
+    """None for text, but of a switch ('ON', 'aus'), and for signals without a finite value. column: shape (n,)."""
+    if column.dtype.kind in "OUS" and (switched := _switched(column)) is not None:
+        made = values_of(switched)
+        return None if made is None else replace(made, text=True)
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
@@ -73,7 +86,18 @@ def values_of(column: Array) -> Values | None:
         bool((x == np.round(x)).all()),
         float(x[0]),
         float(x[min(1, x.size - 1)]),
+        bool(x.size > 1 and (np.diff(x) == 1).all()),
     )
+
+
+def _switched(column: Array) -> Float1D | None:
+    """The words of a switch as 0 and 1, as ingest counts them; None where others stand among them. shape (n,)."""
+    bare = {word: str(word).strip().lower() for word in set(column.tolist())}
+    said = {word: b for word, b in bare.items() if b}
+    if not said or not TRUE_WORDS.union(FALSE_WORDS).issuperset(said.values()):
+        return None
+    numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
+    return np.array([numbers.get(word, np.nan) for word in column.tolist()])
 
 
 def _readings(x: Float1D) -> Float1D:
@@ -125,4 +149,6 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         one.whole and other.whole,
         one.first,
         one.second,
+        one.counts and other.counts,
+        one.text and other.text,
     )

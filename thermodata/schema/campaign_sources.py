@@ -49,7 +49,8 @@ class TimeColumn(Strict):
 class TableLayout(Strict):
     """`sources.*.table`: how a table lies on its page. What is not said is found in its first rows.
 
-    sheet: of a workbook: counted from 1, or its name; with {test} in it each test is a sheet
+    sheet: of a workbook, or the group of a TDMS or MDF file: counted from 1, or its name; of a MAT file a variable;
+        with {test} in it each test is a sheet; refused where the files have none
     header_rows: rows with names, above the data
     units_row: the row that holds the units, counted from 1
     skip_rows: rows above the header
