@@ -89,7 +89,7 @@ def test_tenths_of_a_degree_are_never_kelvin(unit: str, tmp_path: Path, say: Say
 
 
 def test_a_temperature_without_a_unit_that_is_too_cold_for_kelvin_is_asked() -> None:
-    tenths = Values(500, 230, 240, 235, 1, 0.5, 9, True, 230)
+    tenths = Values(500, 230, 240, 235, 1, 0.5, 9, True, 230, 230)
     assert (guess("T_Lager_vorn", None, values=tenths).unit) is None
     kelvin = replace(tenths, low=293.15, high=296.4, median=295, whole=False)
     assert (guess("T_Lager_vorn", None, values=kelvin).unit) == "K"
@@ -123,7 +123,7 @@ def test_a_speed_in_degrees_or_by_the_hour_is_ingested_in_rpm(
 
 @pytest.mark.parametrize(("unit", "size"), [("K", 1.0), ("mK", 0.001), ("0,1 K", 0.1), ("°K", 1.0)])
 def test_few_kelvin_are_a_difference_in_any_size_of_them(unit: str, size: float) -> None:
-    few = Values(500, 1 / size, 3 / size, 2 / size, 0.1, 0.5, 9, False, 1 / size)
+    few = Values(500, 1 / size, 3 / size, 2 / size, 0.1, 0.5, 9, False, 1 / size, 1 / size)
     assert guess("T_Lager_vorn", unit, values=few).quantity == "temperature_difference"
     much = replace(few, low=293 / size, high=300 / size, median=295 / size)
     assert guess("T_Lager_vorn", unit, values=much).quantity == "temperature"

@@ -40,7 +40,7 @@ def test_a_bearing_that_begins_far_above_the_air_is_asked_about(
     assert len(lines) == asked
     if asked:
         assert "id: warm_3" in lines[0]
-        assert "Front_bearing begins 8.0 K further above the air than in the coolest test" in lines[0]
+        assert "Front_bearing begins 8.0 K further above air and castings than in the coolest test" in lines[0]
     assert all(t.start_state == "balance" for t in load_campaign(tmp_path / "campaign.yaml").tests)  # never made up
 
 
@@ -63,3 +63,44 @@ def test_of_a_test_in_parts_the_first_one_tells(tmp_path: Path, say: Say, third_
 def test_without_the_air_a_warm_day_is_no_warm_start(tmp_path: Path, say: Say) -> None:
     say("init", lab(tmp_path, 8.0, air=False))
     assert "start_state" not in (tmp_path / "campaign.yaml").read_text("utf-8")
+
+
+def begins(folder: Path, tests: dict[str, dict[str, tuple[float, float]]]) -> Path:
+    """Tests of a first reading and a rise by the minute (which ends) for each channel."""
+    n = 120
+    t = np.arange(n) * 60.0
+    for name, channels in tests.items():
+        columns = [numbers(first + rise * 5 * (1 - np.exp(-t / 300)), 2) for first, rise in channels.values()]
+        header = ["t [s]", *(f"{c} [degC]" for c in channels), "Displ. Z [um]"]
+        text(folder / f"{name}.csv", header, [numbers(t, 0), *columns, numbers(t / 300, 2)], mark=",")
+    return folder
+
+
+@pytest.mark.parametrize(("bearing", "asked"), [(20.7, False), (33.0, True)])
+def test_a_part_as_cold_as_the_lowest_air_is_at_rest_where_air_lies_in_layers(
+    tmp_path: Path, say: Say, bearing: float, asked: bool
+) -> None:
+    layered = {"Hall top": (25.0, 0.1), "Hall bottom": (20.6, 0.1), "Front bearing": (20.7, 0.2)}
+    even = {"Hall top": (17.0, 0.1), "Hall bottom": (16.6, 0.1), "Front bearing": (17.5, 0.2)}
+    say("init", begins(tmp_path, {"a": even, "b": layered, "c": layered | {"Front bearing": (bearing, -0.2)}}))
+    written = (tmp_path / "campaign.yaml").read_text("utf-8")
+    assert [x.split("id: ")[1][0] for x in written.splitlines() if "start_state: warm?" in x] == ["c"] * asked
+
+
+@pytest.mark.parametrize(("rise", "asked"), [(3.6, False), (-0.1, True)])
+def test_what_the_test_itself_heats_from_its_first_row_on_is_no_warm_start(
+    tmp_path: Path, say: Say, rise: float, asked: bool
+) -> None:
+    cold = {"Hall air": (20.0, 0.1), "Front bearing": (20.2, 0.2)}
+    say("init", begins(tmp_path, {"a": cold, "b": cold, "c": cold | {"Front bearing": (24.0, rise)}}))
+    assert ("start_state: warm?" in (tmp_path / "campaign.yaml").read_text("utf-8")) == asked
+
+
+@pytest.mark.parametrize(("bearing", "asked"), [(26.0, False), (33.0, True)])
+def test_a_casting_that_lags_behind_the_air_explains_a_part_that_does_so_too(
+    tmp_path: Path, say: Say, bearing: float, asked: bool
+) -> None:
+    cold = {"Hall air": (20.0, 0.1), "Column front": (20.0, 0.1), "Front bearing": (20.2, 0.2)}
+    after = {"Hall air": (20.0, 0.1), "Column front": (25.5, -0.1), "Front bearing": (bearing, -0.1)}
+    say("init", begins(tmp_path, {"a": cold, "b": cold, "c": after}))
+    assert ("start_state: warm?" in (tmp_path / "campaign.yaml").read_text("utf-8")) == asked

@@ -12,7 +12,9 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.report.fit_text import made_worse
+from thermodata.schema.campaign import Campaign
 from thermodata.schema.result import FitResult, Score
+from thermodata.store.ingest.unanswered import unanswered
 from thermodata.view import StoreView
 
 from .conftest import Lab
@@ -75,6 +77,28 @@ def test_a_wrong_place_is_answered_with_the_nearest_and_open_questions_are_liste
     assert "no test has a role" not in said.out
     # places of a lab's own are allowed: what is near to none is left alone
     assert "no place" not in lab.ingest({"T1": {**T1["T1"], "at": "quill.xyzzy"}}).out
+
+
+@pytest.mark.parametrize(
+    ("at", "meant"),
+    [
+        ("frame", "did you mean 'bed' or 'column'?"),
+        ("Frame.top", "did you mean 'bed.top' or 'column.top'?"),
+        ("crossrail.left", "did you mean 'crossbeam.left'?"),
+        ("oil", "did you mean 'hydraulics' or 'lubrication' or 'coolant'?"),
+        ("rams", "did you mean 'ram'?"),
+    ],
+)
+def test_a_place_by_another_word_is_answered_with_ours(at: str, meant: str) -> None:
+    channel = {"source": "daq", "signal": "T", "quantity": "temperature", "unit": "degC", "at": at}
+    campaign = {
+        "schema": "thermodata/campaign/1",
+        "id": "c",
+        "sources": {"daq": {"reader": "table", "files": "*.csv"}},
+        "channels": {"T1": channel},
+    }
+    (said,) = [s for s in unanswered(Campaign.model_validate(campaign)) if "no place" in s]
+    assert said == f"channel 'T1': no place '{at}' is known; {meant}"
 
 
 def test_a_residual_of_an_unknown_test_names_the_nearest(story: Path) -> None:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import called, guess
 from thermodata.draft.jumps import JumpTest
-from thermodata.draft.naming import channel_name, words
+from thermodata.draft.naming import channel_name, parts_of, words
 from thermodata.draft.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
 from thermodata.draft.other_units import unit_question
@@ -90,7 +90,7 @@ def _counts_rows(one: OneSignal) -> bool:
 
 def _moved_probe(said: Guess, name: str) -> Guess:
     """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
-    letter = (axis_of(words(name.rsplit("/", 1)[-1])) or "").upper()
+    letter = (axis_of(words(parts_of(name)[-1])) or "").upper()
     axis = letter if letter in ("X", "Y", "Z") else None
     return Guess("displacement", said.unit, "tcp", axis, False, ("data",), () if axis else ("axis?",))
 
@@ -135,7 +135,7 @@ def _with_series(signal: Signal) -> str:
 def _wished(signal: str, said: Guess) -> str:
     """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
     bare = rate_at_end(split_unit(signal)[0])[0]
-    parts = [p for p in bare.replace("\\", "/").split("/") if p.strip()] or [bare]
+    parts = [p for p in parts_of(bare.replace("\\", "/")) if p.strip()] or [bare]
     last = parts[-1]
     if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
         last = "_".join(parts[-2:])

@@ -14,7 +14,7 @@ from thermodata.draft import units
 from thermodata.draft.amplifier import without_amplifier
 from thermodata.draft.axis import axis_of
 from thermodata.draft.doubted_units import doubted, implausible
-from thermodata.draft.naming import words
+from thermodata.draft.naming import parts_of, words
 from thermodata.draft.place import place_of
 from thermodata.draft.place_rules import Place
 from thermodata.draft.quantity import NO_READING, Guess, quantity_of, range_text
@@ -74,6 +74,7 @@ _NEEDS_PLACE = (
     "pressure",
     "displacement",
     "rotational_speed",
+    "feed",
 )
 
 
@@ -99,10 +100,10 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
         return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
-    if NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
+    if NUMBERED.fullmatch(parts_of(name)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
-    bare = "/".join(without_amplifier(part) for part in bare.split("/"))
+    bare = "/".join(without_amplifier(part) for part in parts_of(bare))
     own, text = words(_last(bare)), words(bare)
     ends = dict.fromkeys((_last(bare), _field(bare), _last(units.without_value(bare))))
     written = (rate or next(filter(None, map(units.from_name, ends)), None)) if not unit else None
@@ -154,7 +155,7 @@ def _small(found: Guess, own: str, values: Values | None) -> Guess:
 
 def _last(name: str) -> str:
     """The last part of a path of names: 'Temp/T06' -> 'T06', '/hall/air.top' -> 'air.top'."""
-    return name.rstrip("/").rsplit("/", 1)[-1] or name
+    return parts_of(name)[-1]
 
 
 def _field(name: str) -> str:

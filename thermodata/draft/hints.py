@@ -46,17 +46,26 @@ def hinted(ask: str, group: Group, groups: Sequence[Group] = ()) -> str:
 def _near_others(group: Group, groups: Sequence[Group]) -> str:
     """Which order of day and month puts the starts of a source, which are read as dmy meanwhile, near those of others
     in the same tests, where only one does."""
+    fits = fitting_others(group, groups, [f for f in group.files if f.asked])
+    return next((f"; {order} fits the dates of '{source}'" for order, source in fits.items() if len(fits) == 1), "")
+
+
+def fitting_others(group: Group, groups: Sequence[Group], files: Sequence[RawFile]) -> dict[str, str]:
+    """Order of day and month -> a source whose dates it fits in the same tests, where only one order does. files: of
+    the group, which are read as dmy meanwhile."""
+    found: dict[str, str] = {}
+    open_files = {id(f) for f in files}
     for other in (g for g in groups if g is not group):
         fits: Counter[str] = Counter()
-        for test, files in group.tests.items():
+        for test, own in group.tests.items():
             there = [f.start_ns for f in other.tests.get(test, ()) if f.start_ns is not None and not f.asked]
-            for start in (f.start_ns for f in files if f.asked and f.start_ns is not None):
+            for start in (f.start_ns for f in own if id(f) in open_files and f.start_ns is not None):
                 for order, ns in (("dmy", start), ("mdy", _swapped(start))):
                     fits[order] += any(abs(ns - at) < _DAY_NS for at in there)
         best = [order for order, many in fits.items() if many]
         if len(best) == 1:
-            return f"; {best[0]} fits the dates of '{other.source}'"
-    return ""
+            found.setdefault(best[0], other.source)
+    return found
 
 
 def _swapped(ns: int) -> int:

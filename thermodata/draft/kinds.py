@@ -28,25 +28,28 @@ _KINDS: tuple[tuple[str, str], ...] = (
         "cutting",
         "^cut. cutting ^fras ^fraes ^frez ^milling zerspan obrabeni obrab. bearbeit 切削 加工 铣 mecaniz fresado "
         "usinag coupe. fraisage lavorazion taglio. fresatura corte. fresagem skrawani obrobk verspan bearbetning "
-        "skarande fresning talasli frezeleme resanie",
+        "skarande fresning talasli frezeleme kesme. resanie",
     ),
-    ("rotary_axis", "rotary table. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]"),
+    (
+        "rotary_axis",
+        "rotary table. ^tafel tabla. tisch. ^stul. drehtisch rundachse otocn 转台 [bc]~axis achse~[bc] osa~[bc]",
+    ),
     (
         "linear_axis",
         "feed. linear axis. ^vorschub ^posuv feedaxis linearachse achse. osa. osy. ^avanc ^avanz matning "
-        "aanzet ilerleme 进给 直线 丝杠 screw. kgt.",
+        "aanzet ^voeding besleme. ^posuw ilerleme 进给 直线 丝杠 screw. kgt.",
     ),
     (
         "spindle",
         "spindle spindel ^vreten sp. speed. rpm. ^otac drehzahl warmup. warm~up aufwarm zahriv 主轴 转速 "
         "预热 const. "
-        "heat. heating heating. heizen n. husillo broche. mandrino wrzecion",
+        "heat. heating heating. heizen n. husillo broche. mandrino wrzecion fuso. spil.",
     ),
     (
         "mixed",
         "mixed. mix. mixto mixte. misto. gemischt blandad work~day working~day workday arbeitstag pracovni~den "
         "shift. schicht smena. "
-        "kombin combin production produktion 混合 综合",
+        "kombin combin gemengd karma. mieszan production produktion 混合 综合",
     ),
 )
 # a day is a date, unless the data show the loads of a working day
@@ -58,6 +61,7 @@ _FLUIDS = (
     "^enfria "
     "nebenaggregat hilfsaggregat ausiliari. auxiliar auxiliaires. auxiliares. aux. "
     "chiller chillers ^refroid ^raffredd chlodz koelvloei koeling kylvatska kylare skarvatsk sogut fluido~de~corte "
+    "kesme~sivisi kesme~yag kesme~yagi oleo~de~corte snijolie "
     "liquide~de~coupe fluide~de~coupe fluido~da~taglio fluido~di~taglio liquido~de~corte cutting~fluid"
 )
 # what lets other air to the machine: somebody did it on purpose
@@ -161,6 +165,8 @@ def _decided(by_name: str | None, by_data: str | None, moved: Moved, by: str) ->
         return by_data, "", f"kind: {asked} ({moved})"
     if by_name == "etve" and moved.turning:
         return "other", "", f"kind: the name says etve, the data that something turns ({moved})"
+    if by_data == "linear_axis" and not by_name and not moved.axes:
+        return by_data, "", f"kind: linear_axis? {moved}"
     if by_data == "other" and not by_name:
         return by_data, "", f"kind: other? {moved}"
     if by_data and by_data != "other":
@@ -186,6 +192,8 @@ def _by_data(moved: Moved) -> str | None:
         return "linear_axis" if len(moved.axes) == 1 else "mixed"
     if moved.rotary:
         return "rotary_axis"
+    if moved.fed:
+        return "linear_axis"
     if not moved.whole:
         return None
     if moved.switched:

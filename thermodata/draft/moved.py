@@ -22,19 +22,21 @@ _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication co
 _BY_ITSELF = ("fan", "pump", "chiller", "coolant", "hydraulics", "lubrication")
 _SWITCHED = 0.8  # of its largest reading: it was off as well as on
 _TURNS_RPM, _SAME = 20.0, 0.02
+_FEEDS_M_MIN = 0.05
 _STAYS, _LEAST_ROWS = 0.02, 3  # of the time in which it turns, and rows: else it passes
 _FEW_ROWS, _OF_FEW = 5, 0.1  # of fewer rows, each tells, where they are as much of the whole
 
 
 @dataclass(slots=True)
 class Moved:
-    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; turning: of what turns beside spindle and
-    table, as a lathe's driven tools, by its place; seen: whether a speed, a feed or
-    a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded: that takes its
-    power; None where that was not logged."""
+    """What a test's recordings show. speeds: plateaus of the spindle [rpm]; fed: whether a feed ran whose axis is not
+    told; turning: of what turns beside spindle and table, as a lathe's driven tools, by its place; seen: whether a
+    speed, a feed or a position was logged at all. with_spindle: the axes feed only while the spindle turns; loaded:
+    that takes its power; None where that was not logged."""
 
     speeds: tuple[float, ...] = ()
     axes: set[str] = field(default_factory=set)
+    fed: bool = False
     rotary: bool = False
     turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
     switched: bool = False
@@ -53,6 +55,8 @@ class Moved:
             said.append(f"{'/'.join(sorted(self.axes)).upper()} moves{cuts}")
         if self.rotary:
             said.append("the table turns")
+        if self.fed and not said:
+            said.append("a feed runs, whose axis is not told")
         said += [f"{at} at {_rpm(speeds)}" for at, speeds in self.turning.items()]
         return ", ".join(said) or ("switches change, nothing moves" if self.switched else "nothing moves")
 
@@ -138,10 +142,11 @@ def _add(found: Moved, quantity: str | None, at: str, largest: float, span: floa
             found.axes |= {at.split(".")[1]} if largest > _TURNS_RPM else set()
         elif largest > _TURNS_RPM and not at.startswith(_BY_ITSELF) and (speeds := _turns(largest, course)):
             found.turning[at or "what has no place"] = speeds
-    elif quantity == "feed" and axis:
-        found.seen = True
-        if largest > 0.05:
-            found.axes.add(axis)
+    elif quantity == "feed":
+        feeds = largest > _FEEDS_M_MIN
+        found.seen |= feeds or axis is not None
+        found.fed |= feeds and axis is None
+        found.axes |= {axis} if feeds and axis is not None else set()
     elif quantity == "position" and axis:
         found.seen = True
         if span > 5:

@@ -35,6 +35,7 @@ _MTCONNECT = re.compile(
     r"(?<![A-Za-z])([XYZABCS])(\d?)(abs|actm|actw|act|com|cmd|current|curr|cur|frt|load|motor|"
     r"mot|ovr|pos|rpm|speed|temperature|temp|torque|velocity|vel|axis|travel|position)(?![a-z])"
 )
+_PART = re.compile(r"(?:\([^()]*\)|\[[^\[\]]*\]|[^/])+")
 # signs of China, kana, and the syllables of Hangul
 _EASTERN = "\u2e80-\u9fff\uac00-\ud7a3"
 
@@ -53,6 +54,12 @@ def words(name: str) -> str:
     bare = re.sub(r"(?<=[^\W\d_])(?=\d)|(?<=\d)(?=[^\W\d_])", " ", bare)
     bare = re.sub(rf"(?<=[A-Za-z])(?=[{_EASTERN}])|(?<=[{_EASTERN}])(?=[A-Za-z])", " ", bare)
     return " ".join(re.split(r"[\W_]+", bare)).strip().lower()
+
+
+def parts_of(name: str) -> list[str]:
+    """A path of names part by part, at least one: 'Temp/T06' -> ['Temp', 'T06']. The stroke within brackets parts
+    none: 'Table speed (dev/dk)' is one name."""
+    return _PART.findall(name) or [name]
 
 
 def plain(name: str) -> str:

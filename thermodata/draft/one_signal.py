@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.draft.guess import guess_of
+from thermodata.draft.naming import parts_of
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.units import converts, quantities_of
 from thermodata.plugin import Signal
@@ -85,7 +86,7 @@ def joined_over_heads(found: Sequence[OneSignal], of_tests: Sequence[RawFile]) -
 
 
 def _last(name: str) -> str:
-    return split_unit(name)[0].rsplit("/", 1)[-1]
+    return parts_of(split_unit(name)[0])[-1]
 
 
 def _heads_agree(one: OneSignal, other: OneSignal) -> bool:

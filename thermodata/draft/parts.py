@@ -16,7 +16,7 @@ from thermodata.draft.table import TestTable
 class DraftSource:
     """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
     to be declared of its layout, with 'unknown' where a question asks for it; encoding: of its texts, where it has
-    to be seen."""
+    to be seen; told: of what of that by which it is known."""
 
     name: str
     reader: str
@@ -25,6 +25,7 @@ class DraftSource:
     table: Mapping[str, Any] = field(default_factory=dict)
     align: Alignment | None = None
     encoding: str | None = None
+    told: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

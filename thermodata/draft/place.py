@@ -8,12 +8,19 @@ from dataclasses import replace
 
 from thermodata.draft.axis import axis_of
 from thermodata.draft.place_rules import RULES, Place
-from thermodata.draft.vocabulary import OF_CONTROL, places_in, says
+from thermodata.draft.vocabulary import OF_CONTROL, QUANTITY_WORDS, beyond, places_in, says
 
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
 _HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'
+# a feed that is no axis's own
+_OF_PATH = (
+    "path. bahn. drahy. tool. tcp. f. v. rate. rates. speed. act. actual. ist. soll. set. cmd. value. nc. cnc. mcs. "
+    "axes. programmed. override. current. total. resulting. ipo. nck. channel. chan. [0-9]+ "
+    "velocity. velocidad. velocidade. velocita. vitesse. geschwindigkeit. rychlost. predkosc. snelheid. hastighet. "
+    "sebesseg. hizi. de. di. do. del. d. roboczy. robocza. pracovni. working. machining."
+)
 _TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 
 
@@ -41,6 +48,8 @@ def place_of(text: str, quantity: str) -> Place:
         said |= {"spindle"}
     if quantity == "state" and says(OF_CONTROL, text):
         said |= {"control"}
+    if quantity == "feed" and beyond(f"{QUANTITY_WORDS['feed']} {_OF_PATH}", text):
+        said |= {"more than a feed"}
     # what turns is the spindle, but for n_B and n_C beside it
     turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
     axis = turning[1] if turning else axis

@@ -68,7 +68,7 @@ def _temperature(said: set[str], axis: str | None) -> Place:
     if "gearbox" in said:
         return Place("spindle.gearbox")
     if "oil" in said:
-        return Place(None, question="at: hydraulics or lubrication?")
+        return Place(None, question="at: hydraulics, lubrication, or coolant, where the oil cuts?")
     beam = next((b for b in _BEAMS if b in said), None)
     if beam is not None and (beam == "column" or "spindle" not in said):
         side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")
@@ -87,6 +87,8 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         )
     if "granite" in said:
         return Place("bed", question="at: bed, column, crossbeam or table, of granite?")
+    if "frame" in said:
+        return Place(None, question="at: bed, column or crossbeam, of the frame?")
     if "workspace" in said:
         return Place("enclosure", said <= {"workspace", "enclosure", "hall", "chamber"})
     if "spindle" in said:
@@ -186,7 +188,9 @@ def _on_axis(said: set[str], axis: str | None) -> Place:
 
 
 def _feed(said: set[str], axis: str | None) -> Place:
-    return _on_axis(said, axis) if axis else Place(None)
+    # without more, a control's feed is that along its path
+    of_a_part = Place(None, question="at: which axis? e.g. axis.x; a feed along a path: no 'at'")
+    return _on_axis(said, axis) if axis else of_a_part if "more than a feed" in said else Place(None)
 
 
 def _fluid(said: set[str], axis: str | None) -> Place:

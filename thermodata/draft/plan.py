@@ -10,6 +10,7 @@ from pathlib import Path
 from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
+from thermodata.draft.date_order import with_orders_told
 from thermodata.draft.file_copies import other_versions
 from thermodata.draft.group import counted_on, files_of, tests_of
 from thermodata.draft.hints import hinted
@@ -43,6 +44,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
         )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
+    found = replace(found, logs=with_orders_told(folder, found.logs))
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
@@ -74,6 +76,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
+            g.told,
         )
         for g in groups
     )

@@ -29,11 +29,12 @@ _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 @dataclass(frozen=True, slots=True)
 class Asked:
     """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes; times: columns
-    that are the time once it is answered."""
+    that are the time once it is answered; told: whether it is answered already, and `ask` says by what."""
 
     ask: str
     declare: Mapping[str, Any]
     times: tuple[str, ...] = ()
+    told: bool = False
 
 
 @dataclass(frozen=True, slots=True)

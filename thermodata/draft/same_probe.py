@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from thermodata.draft.guess import guess_of
 from thermodata.draft.jumps import JumpTest
-from thermodata.draft.naming import words
+from thermodata.draft.naming import parts_of, words
 from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.sources import Group
 from thermodata.reader.text import split_unit
@@ -21,7 +21,7 @@ PROBES = ("displacement", "voltage")
 
 def own_name(signal: str) -> str:
     """What is left of a signal's name without its groups and its unit: 'z 1 tcp' of 'Fast/Z1 tcp [V]'."""
-    return words(split_unit(signal)[0].rsplit("/", 1)[-1]) or signal
+    return words(parts_of(split_unit(signal)[0])[-1]) or signal
 
 
 def with_their_probes(jumps: Sequence[JumpTest], groups: Sequence[Group]) -> dict[str, list[JumpTest]]:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from thermodata.draft.naming import words
+from thermodata.draft.naming import parts_of, words
 from thermodata.draft.parts import DraftChannel
 from thermodata.draft.place import asked_of
 from thermodata.draft.vocabulary import places_in
@@ -22,7 +22,7 @@ def beside_each_other(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
 
 
 def _own(channel: DraftChannel) -> str:
-    return words(split_unit(channel.signal)[0].rsplit("/", 1)[-1])
+    return words(parts_of(split_unit(channel.signal)[0])[-1])
 
 
 def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:

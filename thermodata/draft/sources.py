@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.draft.naming import plain, words
+from thermodata.draft.naming import parts_of, plain, words
 from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
@@ -42,8 +42,16 @@ class Group:
     @property
     def asks(self) -> tuple[str, ...]:
         """What its files leave open, each once."""
+        return self._said(told=False)
+
+    @property
+    def told(self) -> tuple[str, ...]:
+        """What some of its files leave open, and others answer."""
+        return self._said(told=True)
+
+    def _said(self, told: bool) -> tuple[str, ...]:
         first: dict[str, str] = {}
-        for asked in self._asked():
+        for asked in (a for a in self._asked() if a.told is told):
             first.setdefault(repr(asked.declare) if asked.declare else asked.ask, asked.ask)
         return tuple(first.values())
 
@@ -100,7 +108,7 @@ def _with_their_tests(clusters: Sequence[list[RawFile]], jumps: Sequence[RawFile
     """Jump tests with the one kind of tests that has their signals under another head: 'Fast/Z' beside 'Slow/Z'."""
 
     def own(cluster: Sequence[RawFile]) -> set[str]:
-        return {split_unit(s.name)[0].rsplit("/", 1)[-1] for f in cluster for s in f.signals}
+        return {parts_of(split_unit(s.name)[0])[-1] for f in cluster for s in f.signals}
 
     tests = [c for c in clusters if any(f not in jumps for f in c)]
     found = [list(c) for c in tests]

@@ -21,8 +21,9 @@ _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as la
 @dataclass(frozen=True, slots=True)
 class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
-    row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first:
-    the first of them; counts: each is one more than the one before; text: words of a switch, counted as 0 and 1."""
+    row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
+    second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
+    and 1."""
 
     n: int
     low: float
@@ -33,6 +34,7 @@ class Values:
     distinct: int
     whole: bool
     first: float
+    second: float
     counts: bool = False
     text: bool = False
 
@@ -83,6 +85,7 @@ def values_of(column: Array) -> Values | None:
         min(int(few.size), _FEW + 1),
         bool((x == np.round(x)).all()),
         float(x[0]),
+        float(x[min(1, x.size - 1)]),
         bool(x.size > 1 and (np.diff(x) == 1).all()),
     )
 
@@ -121,8 +124,10 @@ def in_unit(values: Values | None, written: str | None, unit: str | None) -> Val
         factor, offset = linear_conversion(written, unit)
     except UsageError:
         return values
-    low, high, median, first = (x * factor + offset for x in (values.low, values.high, values.median, values.first))
-    return replace(values, low=low, high=high, median=median, step=values.step * factor, whole=False, first=first)
+    low, high, median = (x * factor + offset for x in (values.low, values.high, values.median))
+    first, second = (x * factor + offset for x in (values.first, values.second))
+    step = values.step * factor
+    return replace(values, low=low, high=high, median=median, step=step, whole=False, first=first, second=second)
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:
@@ -143,6 +148,7 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         max(levels, one.distinct, other.distinct),
         one.whole and other.whole,
         one.first,
+        one.second,
         one.counts and other.counts,
         one.text and other.text,
     )

@@ -131,7 +131,8 @@ _PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
-    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen.",
+    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen. "
+    "cutting~oil schneidol schneidoel bearbeitungsol bearbeitungsoel rezny~olej rezneho~oleje 切削油",
     # of the cut, or of a bearing that runs on oil and air
     "mist": "mist. oil~mist mist~coolant nebel. olnebel oelnebel niebla brouillard nebbia nevoa mlha mgla~olej "
     "mgielka 油雾 喷雾 ミスト",
@@ -182,6 +183,8 @@ _PLACE_WORDS: dict[str, str] = {
     "climate chamber": "climate~chamber climatic~chamber klimakammer klimaraum klimatizovana~komora "
     "enceinte~climatique "
     "chambre~climatique camera~climatica camara~climatica",
+    "frame": "frame. frames. machineframe rahmen. maschinenrahmen maschinengestell gestell. ram~stroje ramu~stroje "
+    "bati. telaio. bastidor. rama. 机架",
     "granite": "granite. granit. granito. zula. 花岗岩 大理石 グラナイト",
     "window": "window fenster okno. okna. 窗",
     "sun": "sun. sonne. slunce. solar. sunlight",
@@ -265,6 +268,12 @@ def pattern(listed: str) -> re.Pattern[str]:
 def says(listed: str, text: str) -> bool:
     """Whether a name (as words()) holds one of the listed words."""
     return pattern(listed).search(text) is not None
+
+
+def beyond(listed: str, text: str) -> tuple[str, ...]:
+    """The words of a name (as words()) that none of the listed ones touches."""
+    found = [m.span() for m in pattern(listed).finditer(text)]
+    return tuple(m[0] for m in re.finditer(r"\S+", text) if not any(a < m.end() and m.start() < b for a, b in found))
 
 
 @lru_cache(maxsize=20_000)

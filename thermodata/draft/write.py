@@ -70,7 +70,7 @@ def _source(s: DraftSource) -> str:
     if s.table:
         parts["table"] = s.table
     body = flow(parts)
-    comments = []
+    comments = [*s.told]
     asked = "; ".join(s.questions)
     if s.align:
         here, there = s.align.by

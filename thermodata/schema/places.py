@@ -106,19 +106,30 @@ _AT_TOOL = ("tcp", "tool", "stator", "probe")
 _AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
 _CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
-# and what others call them
-_ALSO_CASTINGS = (
-    "crossrail",
-    "cross_rail",
-    "cross_beam",
-    "bridge",
-    "portal",
-    "gantry",
-    "stand",
-    "upright",
-    "frame",
-    "base",
-)
+# and what others call them, with the words for it here
+_ALSO_CASTINGS: dict[str, tuple[str, ...]] = {
+    "crossrail": ("crossbeam",),
+    "cross_rail": ("crossbeam",),
+    "cross_beam": ("crossbeam",),
+    "bridge": ("crossbeam",),
+    "portal": ("crossbeam", "column"),
+    "gantry": ("crossbeam", "column"),
+    "stand": ("column",),
+    "upright": ("column",),
+    "frame": ("bed", "column"),
+    "base": ("bed",),
+}
+# the same of what is no casting
+_ALSO: dict[str, tuple[str, ...]] = {
+    "air": ("hall",),
+    "ambient": ("hall",),
+    "room": ("hall",),
+    "part": ("workpiece",),
+    "quill": ("ram",),
+    "slide": ("saddle", "ram"),
+    "cooler": ("chiller",),
+    "oil": ("hydraulics", "lubrication", "coolant"),
+}
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
 # makes heat or cold of its own for as long as the machine is switched on, whatever it does
@@ -165,6 +176,13 @@ def heat_at(places: Sequence[str], link: str) -> str:
     """'heat at axis.z.nut or axis.z.guide', 'the air of the hall'. link: ' or ', ' and '."""
     bodies = [f"heat at {link.join(some)}"] if (some := [p for p in places if p not in _SAID]) else []
     return link.join([*bodies, *(said for place, said in _SAID.items() if place in places)])
+
+
+def called_here(place: str) -> tuple[str, ...]:
+    """The places of this vocabulary that others call so: 'frame.top' -> ('bed.top', 'column.top'); () where none."""
+    first, dot, rest = place.lower().partition(".")
+    own = (_ALSO_CASTINGS | _ALSO).get(first, ())
+    return tuple(found for one in own if (found := f"{one}{dot}{rest}") in PLACES)
 
 
 def is_known(place: str) -> bool:

@@ -205,6 +205,10 @@ def bare_unit(text: str) -> str:
     return enclosed[1] if enclosed else bare
 
 
+# of feeds and flows, whose minute is one of another language: 'mm/dk' in Turkish, 'l/perc' in Hungarian
+_RATE_A_MINUTE = re.compile(rf"(?P<what>μm|um|mm|cm|m|l|in|inch)/(?:{'|'.join(_MINUTES)})\.?", re.IGNORECASE)
+
+
 @lru_cache(maxsize=4096)
 def spelled(text: str) -> str | None:
     """Pint's spelling of what labs write, None where it is not one of theirs. Turns count as turns, and 'Grad' is a
@@ -218,6 +222,8 @@ def spelled(text: str) -> str | None:
         return f"turn/{_time(turns['time'])}"
     if feed := _PER_TURN.fullmatch(bare):
         return f"{feed['length'].lower()}/turn"
+    if rate := _RATE_A_MINUTE.fullmatch(bare):
+        return f"{rate['what'].lower().replace('μ', 'u')}/min"
     if torque := _FOOT_POUND.fullmatch(bare):
         if torque["kilo"]:
             return f"kgf*{torque['metric'].lower()}"

@@ -30,7 +30,7 @@ WORDS = {
     "support~de~sondes support~palpeur support~palpeurs support~capteur "
     "support~capteurs support~de~palpeur support~de~palpeurs support~de~capteur support~de~capteurs",
     "probe": "palpeur",
-    "coolant": "arrosage lubrifiant~de~coupe liquide~de~coupe fluide~de~coupe",
+    "coolant": "arrosage lubrifiant~de~coupe huile~de~coupe liquide~de~coupe fluide~de~coupe",
     "chiller": "groupe~froid refroidisseur groupe~froid. eau~glacee eau~glycolee eau. ^eau~ gf.",
     "supply": "entree. depart. aller. arrivee.",
     "return": "sortie. retour.",

@@ -41,7 +41,7 @@ WORDS = {
     "tool": "szerszam.",
     "workpiece": "munkadarab",
     "fixture": "keszulek. befogo",
-    "coolant": "hutofolyadek hutoviz~emul hutokeno emulzio huto~kenofolyadek huto~keno",
+    "coolant": "hutofolyadek vagoolaj hutoviz~emul hutokeno emulzio huto~kenofolyadek huto~keno",
     "chiller": "huto. hutogep hutoviz hutoegyseg folyadekhuto",
     "supply": "eloremeno belepo. bemeno",
     "return": "visszatero kilepo. visszafolyo",

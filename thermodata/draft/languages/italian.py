@@ -41,7 +41,7 @@ WORDS = {
     "fixture": "attrezzatura staffaggio supporto~sonda supporto~sonde supporto~tastatore supporto~tastatori "
     "supporto~sensori",
     "probe": "tastatore",
-    "coolant": "refrigerante. lubrorefrigerante emulsione",
+    "coolant": "refrigerante. lubrorefrigerante emulsione olio~da~taglio olio~di~taglio",
     "chiller": "refrigeratore frigo. gruppo~frigo acqua",
     "supply": "mandata ingresso",
     "return": "ritorno. uscita.",

@@ -35,7 +35,7 @@ WORDS = {
     "fixture": "dispositivo~de~fixacao suporte~sonda suporte~sondas suporte~apalpador suporte~apalpadores "
     "suporte~de~sonda suporte~de~sondas suporte~de~apalpador suporte~de~apalpadores",
     "probe": "apalpador",
-    "coolant": "fluido~de~corte refrigeracao liquido~de~corte",
+    "coolant": "fluido~de~corte refrigeracao liquido~de~corte oleo~de~corte oleo~corte",
     "chiller": "resfriador unidade~de~refrigeracao agua~gelada",
     "supply": "alimentacao",
     "return": "saida.",
@@ -43,7 +43,8 @@ WORDS = {
     "oil": "oleo",
     "lubrication": "lubrificacao",
     "cabinet": "painel~eletr quadro~eletr armario~el painel~eletrico quadro~eletrico",
-    "hall": "galpao oficina. ambiente. ar~ambiente ar~inferior ar~superior",
+    "hall": "galpao oficina. ambiente. ar~ambiente ar~inferior ar~superior "
+    "t~ar temp~ar temp~do~ar temperatura~ar temperatura~do~ar",
     "pneumatics": "ar~comprimido",
     "outside": "externa. externo. fora.",
     "floor": "piso. chao.",

@@ -45,7 +45,7 @@ WORDS = {
     "soporte~palpadores soporte~sensores "
     "soporte~de~sonda soporte~de~sondas soporte~de~palpador soporte~de~palpadores soporte~de~sensores",
     "probe": "palpador",
-    "coolant": "refrigerante. taladrina",
+    "coolant": "refrigerante. taladrina aceite~de~corte",
     "chiller": "enfriador agua~refriger~ agua~de~refriger~ agua. enfriadora",
     "supply": "impulsion entrada. ida.",
     "return": "salida. retorno.",

@@ -40,7 +40,7 @@ WORDS = {
     "tool": "verktyg",
     "workpiece": "arbetsstycke detalj. ^detaljt",
     "fixture": "fixtur givarhallare",
-    "coolant": "kylvatska skarvatska skarvatske",
+    "coolant": "kylvatska skarvatska skarvatske skarolja",
     "chiller": "kylare. kylaggregat kylvatten",
     "supply": "framledning inlopp tillopp",
     "return": "returledning utlopp retur.",

@@ -38,7 +38,7 @@ WORDS = {
     "tool": "takim. takimi.",
     "workpiece": "is~parcasi parca.",
     "fixture": "fikstur baglama prob~tutucu sensor~tutucu",
-    "coolant": "sogutma~sivisi kesme~sivisi bor~yag",
+    "coolant": "sogutma~sivisi kesme~sivisi bor~yag kesme~yag kesme~yagi",
     "chiller": "sogutucu. chiller sogutma~suyu",
     "supply": "giris. besleme. giden. gidis.",
     "return": "cikis. donus.",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from thermodata.errors import nearest
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.campaign_channels import Channel
-from thermodata.schema.places import PLACES, is_known
+from thermodata.schema.places import PLACES, called_here, is_known
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
 _SHOWN = 6
@@ -22,8 +22,10 @@ def unanswered(campaign: Campaign) -> list[str]:
     for name, channel in campaign.channels.items():
         if channel.at and not is_known(channel.at):
             near = nearest(channel.at, [p for p in PLACES if "*" not in p])
-            if near is not None:
-                said.append(f"channel '{name}': no place '{channel.at}' is known; did you mean '{near}'?")
+            meant = called_here(channel.at) or ((near,) if near is not None else ())
+            if meant:
+                choices = " or ".join(f"'{m}'" for m in meant)
+                said.append(f"channel '{name}': no place '{channel.at}' is known; did you mean {choices}?")
     nowhere = [n for n, c in campaign.channels.items() if c.at is None and c.quantity in _PLACED]
     if nowhere:
         said.append(

@@ -1,0 +1,69 @@
+"""Dates that may be either way round are told by other files of their source, or by another source beside it; where
+these do not agree, or nothing tells, they are asked."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.make import draft_files
+from thermodata.draft.parts import DraftSource
+
+ORDERS = {"dmy": "%d/%m/%Y", "mdy": "%m/%d/%Y"}
+
+
+def log(path: Path, first: datetime, form: str, column: str = "T_bearing [degC],Z [um]") -> None:
+    values = [",".join(f"{20 + k / 50 + i:.2f}" for i in range(column.count(",") + 1)) for k in range(120)]
+    rows = [f"{first + timedelta(minutes=k):{form} %H:%M:%S},{v}" for k, v in enumerate(values)]
+    path.write_text("\n".join([f"time,{column}", *rows, ""]), "utf-8")
+
+
+def drafted(folder: Path) -> dict[str, DraftSource]:
+    return {s.name: s for s in draft_files(folder).draft.sources}
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
+def test_a_file_whose_day_leaves_no_choice_tells_that_of_the_others(tmp_path: Path, order: str) -> None:
+    for name, day in (("a", 3), ("b", 4), ("c", 18)):
+        log(tmp_path / f"{name}.csv", datetime(2025, 11, day, 8), ORDERS[order])
+    made = draft_files(tmp_path)
+    (source,) = made.draft.sources
+    assert source.table == {"time": {"format": order}}
+    assert source.told == (f"dates {order}: c.csv can only be",)
+    assert not any("dmy or mdy" in q for q in source.questions)
+    (line,) = [x for x in made.campaign.read_text("utf-8").splitlines() if "files:" in x]
+    assert line.endswith(f"dates {order}: c.csv can only be")
+
+
+def test_files_that_can_only_be_one_and_only_the_other_leave_the_rest_open(tmp_path: Path) -> None:
+    log(tmp_path / "a.csv", datetime(2025, 11, 3, 8), ORDERS["dmy"])
+    log(tmp_path / "b.csv", datetime(2025, 11, 18, 8), ORDERS["dmy"])
+    log(tmp_path / "c.csv", datetime(2025, 11, 19, 8), ORDERS["mdy"])
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown"}}
+    assert any("dmy or mdy" in q for q in source.questions)
+
+
+def test_where_nothing_tells_it_is_asked(tmp_path: Path) -> None:
+    for name, day in (("a", 3), ("b", 4)):
+        log(tmp_path / f"{name}.csv", datetime(2025, 11, day, 8), ORDERS["dmy"])
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown"}}
+    assert source.told == ()
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
+@pytest.mark.parametrize("agrees", [True, False])
+def test_a_source_with_other_dates_tells_it_where_one_order_fits(tmp_path: Path, order: str, agrees: bool) -> None:
+    for name, day in (("a", 3), ("b", 4)):
+        first = datetime(2025, 11, day, 8)
+        log(tmp_path / f"{name}_nc.csv", first, ORDERS[order])
+        later = timedelta(hours=-1 if agrees else 24 * 400)
+        log(tmp_path / f"{name}_daq.csv", first + later, "%Y-%m-%d", "Column [degC],Hall [degC]")
+    found = drafted(tmp_path)
+    (source,) = [s for s in found.values() if s.table]
+    assert source.table == {"time": {"format": order if agrees else "unknown"}}
+    (beside,) = [s.name for s in found.values() if not s.table]
+    assert source.told == ((f"dates {order}: it fits the dates of '{beside}'",) if agrees else ())
