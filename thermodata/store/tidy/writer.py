@@ -99,6 +99,7 @@ def write_member(
             part.add(t_ns, channels)
             if part.name == "test":
                 _count(result, channels)
+        result.notes += flagged.never_measured()
         result.events += overruled(rules, flagged.events + _passed(series, line, rows.start, rows.stop, here, verdict))
         result.files += [replace(part.finish(), held=held) for part in parts]
         result.files[-1].levels = sampler.levels()
