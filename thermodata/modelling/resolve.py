@@ -127,6 +127,7 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
         raise SpecError(
             f"several displacements are {wanted}",
             where=f"response, campaign {campaign}",
+            expected="one of them",
             got=", ".join(f"{n} (at {moving[n].at})" for n in hits),
             hint=f"name one: response: {{channel: {hits[0]}}}",
         )
