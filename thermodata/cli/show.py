@@ -13,7 +13,7 @@ from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
-from thermodata.report.words import duration, number
+from thermodata.report.words import duration, number, probability_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -193,7 +193,7 @@ def _residual(seen: Seen) -> str:
     lines = [f"residual of the calibration tests: {seen.count} samples; autocorrelation {remembered or '-'}"]
     for one in seen.ljung_box:
         white = "white" if one.p_value > 0.05 else "not white"
-        lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, p {one.p_value:.2g}: {white}")
+        lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, {probability_text(one.p_value)}: {white}")
     if seen.states:
         rows = [
             {"state": s.state, "r": f"{s.correlation:+.2f}", "slope": f"{number(s.slope)} {_per(seen.unit, s.unit)}"}
