@@ -122,13 +122,14 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """A part of the file that could not be read."""
+    """A part of the file that could not be read. signal: the only one that it concerns."""
 
     where: str
     from_ns: int | None = None
     to_ns: int | None = None
     fraction: float | None = None
     reason: str = ""
+    signal: str | None = None
 
 
 @runtime_checkable

@@ -13,7 +13,7 @@ from thermodata.diagnosis.judge import equivalents
 from thermodata.diagnosis.kin import Kin
 from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.probability import at_best, probability, sharpness
-from thermodata.diagnosis.rules import acting_size, blunt, explained, failed_rules
+from thermodata.diagnosis.rules import acting_size, apart, blunt, explained, failed_rules
 
 from .hand_made import measure, scored
 
@@ -346,3 +346,11 @@ def test_what_it_explains_is_told_as_the_share_that_the_rule_asks() -> None:
     little = scored(before=0.3, after=0.1, evidence=DULL)
     assert "of the response's 4 um (limit 10%)" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
     assert "it explains 0.28 um where it acts, 7.1% of" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "text"),
+    [(0.149, 0.15, "14.9%"), (0.14, 0.15, "14%"), (0.1496, 0.15, "14.96%"), (0.6496, 0.65, "64.96%")],
+)
+def test_what_misses_a_limit_never_reads_as_the_limit(value: float, limit: float, text: str) -> None:
+    assert apart(value, limit) == text

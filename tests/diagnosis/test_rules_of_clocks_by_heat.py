@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from thermodata.diagnosis import clocks_by_heat
 from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.clocks_by_heat import as_artefact, compared, late_in_one, late_logs
 from thermodata.diagnosis.commanded import is_command
@@ -14,6 +15,7 @@ from thermodata.diagnosis.heat_balance import Disagreement, Pair
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit import fit_model
+from thermodata.schema.diagnosis import ClockMoved
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -239,6 +241,49 @@ def test_of_one_test_a_clock_that_is_known_there_is_not_moved(told: bool, source
     said = as_artefact(found, "other")
     assert (said.campaign, said.test) == ("c", "t2")
     assert "as they do in the other tests" in said.why
+
+
+@pytest.mark.parametrize("place", ["hall", "hall.top", "floor", "outside", None])
+def test_what_follows_the_air_tells_no_clock(place: str | None) -> None:
+    """In one test bearing and nut rise as commands an hour earlier would warm them, and as the air around does."""
+
+    def with_air(test: TestData) -> TestData:
+        rises = {f"A_{n}": np.gradient(test.values[n], STEP_S) * 600 for n in ("T_front", "T_nut")}
+        return replace(
+            test, values={**test.values, **rises}, valid={**test.valid, **dict.fromkeys(rises, test.valid["n"])}
+        )
+
+    air = {n: ChannelInfo(n, "temperature", "degC", at=place, source="log") for n in ("A_T_front", "A_T_nut")}
+    tests = [with_air(t) for t in logged({"log": -60}, only=(2,))]
+    found = late_in_one(compared(tests, {**CHANNELS, **air}, "dZ", STEP_S), {})
+    assert [f.of.test for f in found] == ([] if place else ["t2"])
+
+
+@pytest.mark.parametrize(
+    ("source", "minutes", "late", "borne_out"),
+    [
+        ("nc", 26, {"nc": 26.0}, True),
+        ("log", 26, {"log": 26.0}, False),  # the response is in daq: between daq and log nothing was commanded
+        ("nc", 26, {}, False),  # switched on late, by a clock that was right
+        ("nc", 26, {"nc": -26.0}, False),
+        ("nc", 90, {"nc": 90.0}, False),  # no such shift is asked
+    ],
+)
+def test_heat_bears_out_that_a_log_stands_elsewhere(
+    source: str, minutes: float, late: dict[str, float], borne_out: bool
+) -> None:
+    logs = compared(logged(late, only=(2,)), CHANNELS, "dZ", STEP_S)
+    assert logs.bears_out([ClockMoved(source=source, campaign="c", test="t2", moved_s=-60 * minutes)]) is borne_out
+    assert not logs.bears_out([ClockMoved(source=source, campaign="c", test="t9", moved_s=-60 * minutes)])
+
+
+@pytest.mark.parametrize(("moved", "borne_out"), [(0.401, True), (0.399, False)])
+def test_a_third_of_what_is_left_goes_where_a_log_was_moved(
+    moved: float, borne_out: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(clocks_by_heat, "either", lambda *_: (0.1, moved))
+    logs = compared(logged(), CHANNELS, "dZ", STEP_S)
+    assert logs.bears_out([ClockMoved(source="nc", campaign="c", test="t2", moved_s=-1560.0)]) is borne_out
 
 
 def without_a_word(tests: list[TestData]) -> list[TestData]:

@@ -140,7 +140,7 @@ class TestAnswer:
             return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes(hold(names)), implausible=doubts)
 
         refitted: Any = SimpleNamespace(responses=[response])
-        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, ___: Sound(spec, refitted, data, tests))
+        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
         without = replace(found, judgement=nothing("unknown"))
         monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
         monkeypatch.setattr(answering, "confirm", confirm)
@@ -389,7 +389,7 @@ class TestAnswer:
             ("twin", False, True),
             ("first", False, False),
         ]
-        assert "a refinement, not a missing cause: it is another mode" in found.candidates[1].why
+        assert "a refinement, not claimed as missing: it is another mode" in found.candidates[1].why
         alone = self.answered(monkeypatch, spec, nothing("refine", mode))
         assert (alone.verdict, alone.candidates[0].refinement) == ("refine", True)
         assert alone.unknown is None

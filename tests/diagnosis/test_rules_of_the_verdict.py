@@ -92,6 +92,14 @@ FEW: dict[str, Any] = {"before": 3.0, "after": 1.2, "evidence": 200.0}  # 83 % p
         ({**FEW, "spread": 0.6, "after": 1.8}, True),  # its gain differs
         ({**FEW, "size": [1.0] + 9 * [0.0]}, True),  # it acts in one test
         ({**FEW, "gained": 3 * [50.0] + 7 * [-50.0]}, False),  # the tests go against it
+        (
+            {**FEW, "evidence": 50.0, "gained": [50.0, -50.0] + 8 * [0.0], "size": [1.0, 1.0] + 8 * [0.0]},
+            True,
+        ),  # one of two does
+        (
+            {**FEW, "evidence": 50.0, "gained": [50.0, -50.0, -50.0] + 7 * [0.0], "size": 3 * [1.0] + 7 * [0.0]},
+            False,
+        ),  # two of three
         ({**FEW, "spread": 0.6, "after": 1.8, "size": [1.0] + 9 * [0.0]}, False),  # two rules
         ({**FEW, "evidence": 20.0, "size": [1.0] + 9 * [0.0]}, False),  # it is improbable
     ],
@@ -111,6 +119,12 @@ def test_what_one_rule_of_size_or_likeness_forbids_may_be_outweighed_by_the_lock
             lambda s: "it is kin",
         )
         assert as_a_mode.likely == ()
+
+
+def test_what_one_rule_forbids_is_asked_where_nothing_seems_to_be_missing_too() -> None:
+    one = scored("d", **{**FEW, "size": [1.0] + 9 * [0.0]})
+    found = verdict(dropped=[one], first=[scored(before=3.0, after=2.9)], floor=1.25)
+    assert (found.verdict, names(found.likely)) == ("none", ["d"])
 
 
 def test_the_likeliest_of_what_was_dropped_is_asked_alone() -> None:

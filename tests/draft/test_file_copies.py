@@ -85,3 +85,12 @@ def test_another_version_of_a_log_is_asked(tmp_path: Path, name: str, first: str
     doubts = {t.id: t.doubts for t in draft_files(tmp_path).draft.tests}
     assert ("another version of V1.csv? it has the same minutes" in doubts[name[:-4]]) is asked
     assert not doubts["V1"]
+
+
+def test_a_draft_says_why_a_table_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "run1.csv").write_text(LOG)
+    rows = [f"2026-03-02 08:{k:02d}:00,{20 + k / 10} °C,{30 + k / 10} °C" for k in range(50)]
+    (tmp_path / "dashboard.csv").write_text("\n".join(["Time,Spindle front,Hall", *rows]), encoding="utf-8")
+    draft_files(tmp_path)
+    (said,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "dashboard.csv" in x]
+    assert "cells that hold their units beside their numbers" in said

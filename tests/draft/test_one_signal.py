@@ -41,6 +41,14 @@ def test_degrees_of_both_kinds_are_one_channel(tmp_path: Path, say: Say) -> None
     assert [float(v) for v in found] == pytest.approx([30, 30, 30], abs=0.1)
 
 
+def test_values_are_looked_at_in_the_unit_of_their_own_file(tmp_path: Path) -> None:
+    t = np.arange(100) * 10.0
+    for k, (unit, size) in enumerate((("mm", 0.001), ("mm", 0.001), ("um", 1.0)), 1):
+        text(tmp_path / f"run_{k}.csv", ["t [s]", f"dZ [{unit}]"], [numbers(t, 0), numbers(t * size / 50, 4)], mark=",")
+    (probe,) = draft_files(tmp_path).draft.channels
+    assert probe.said.questions[0] == "unit: the files disagree: mm (2), um (1); each file's own is taken"
+
+
 @pytest.mark.parametrize("header", ["Spindle (%)", "Rear brg (C)"])
 def test_another_quantity_or_place_is_another_channel(tmp_path: Path, header: str) -> None:
     logs(tmp_path, ["Spindle (A)", header, "Spindle (A)"], [(1, 0)] * 3)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from thermodata.draft.make import draft_files
 
@@ -33,3 +34,36 @@ def test_numbers_of_files_that_ran_at_once_are_none_of_parts(tmp_path: Path) -> 
     for name in ("V1_Weg", "V2_Weg_1", "V2_Weg_2", "V3_Weg"):
         write(tmp_path, f"{name}.asc", f"0{6 + int(name[1])}.04.2026 08:00:00", 600)
     assert len(draft_files(tmp_path).draft.tests) == 4
+
+
+def seconds(folder: Path, name: str, begin_s: float, rows: int = 120) -> None:
+    """A log without a date, 10 s from row to row."""
+    values = [f"{begin_s + 10 * i:.1f},{20 + (begin_s + 10 * i) / 900:.3f}" for i in range(rows)]
+    (folder / name).write_text("\n".join(["t [s],T_bed [degC]", *values, ""]))
+
+
+def test_times_that_go_on_where_the_file_before_ended_make_one_test(tmp_path: Path) -> None:
+    for k in range(3):
+        seconds(tmp_path, f"V1_{k + 9}.csv", 1200.1 * k)
+    draft = draft_files(tmp_path).draft
+    assert [t.id for t in draft.tests] == ["V1"]
+    assert draft.sources[0].files == "{test}_*.csv"
+    assert (
+        "log: 1 test in parts, e.g. V1 in 3 files: the times of each go on where those of the one before ended"
+        in draft.notes
+    )
+
+
+@pytest.mark.parametrize(("pause_s", "tests"), [(290.0, 1), (310.0, 2)])
+def test_parts_follow_each_other_within_a_quarter_of_their_length(tmp_path: Path, pause_s: float, tests: int) -> None:
+    seconds(tmp_path, "V1_1.csv", 0.0, 121)
+    seconds(tmp_path, "V1_2.csv", 1200.0 + pause_s)
+    assert len(draft_files(tmp_path).draft.tests) == tests
+
+
+def test_files_that_each_count_from_their_own_start_stay_tests(tmp_path: Path) -> None:
+    for name, begin_s in (("V1_1", 0.0), ("V1_2", 1200.0), ("V2_1", 0.0), ("V2_2", 0.0)):
+        seconds(tmp_path, f"{name}.csv", begin_s)
+    draft = draft_files(tmp_path).draft
+    assert len(draft.tests) == 4
+    assert not any("in parts" in n for n in draft.notes)

@@ -43,15 +43,62 @@ def test_the_same_unit_in_other_words_is_no_contradiction(lab: Lab, spelling: st
     assert lab.values("P1")[1][0] == 2.5
 
 
-def test_files_of_one_source_in_two_units_are_not_joined(lab: Lab) -> None:
-    for name, unit, day in (("a", "kW", "02"), ("b", "W", "03")):
-        body = "".join(f"{t};2.5;20.25\n" for t in TIMES).replace("2026-03-02", f"2026-03-{day}")
-        lab.write(f"raw/{name}.csv", f"time;P;T1\n;{unit};degC\n{body}")
+def two_parts(lab: Lab, units: tuple[str, str], values: tuple[str, str], heads: bool) -> None:
+    """Two files of one test, whose power is in units of their own: in the names, or in a row below them."""
+    for name, unit, value, hour in zip("ab", units, values, ("08", "09"), strict=True):
+        body = "".join(f"{t};{value};20.25\n" for t in TIMES).replace(" 08:", f" {hour}:")
+        lab.write(f"raw/{name}.csv", (f"time;P [{unit}];T1 [degC]\n" if heads else f"time;P;T1\n;{unit};degC\n") + body)
+
+
+@pytest.mark.parametrize("heads", [True, False], ids=["in names", "in a row"])
+@pytest.mark.parametrize("written", ["P", "P [kW]"])
+def test_parts_of_one_test_in_two_units_are_each_read_in_their_own(lab: Lab, heads: bool, written: str) -> None:
+    two_parts(lab, ("kW", "W"), ("2.5", "2600"), heads)
+    said = lab.ingest({"P1": {**POWER, "signal": written if heads else "P"}})
+    assert said.code == 0, said.out + said.err
+    assert "'P1': in kW in raw/a.csv, W in raw/b.csv: each file's own is taken" in said.out + said.err
+    np.testing.assert_allclose(lab.values("P1")[1], [2.5] * 40 + [2.6] * 40)
+    traced = lab("trace", "odd", "one", "P1", "--at", "3700 s")
+    assert "raw/b.csv" in traced.out
+    assert ": 2600" in traced.out  # as it stands in its file
+
+
+def test_temperatures_of_parts_keep_their_zero(lab: Lab) -> None:
+    for name, unit, value, hour in (("a", "degC", "20", "08"), ("b", "degF", "86", "09")):
+        body = "".join(f"{t};{value}\n" for t in TIMES).replace(" 08:", f" {hour}:")
+        lab.write(f"raw/{name}.csv", f"time;T1 [{unit}]\n{body}")
+    assert lab.ingest({"T1": {"signal": "T1", "quantity": "temperature"}}).code == 0
+    np.testing.assert_allclose(lab.values("T1")[1], [20.0] * 40 + [30.0] * 40)
+    assert lab.ingest({"dT": {"signal": "T1", "quantity": "temperature_difference"}}).code == 0
+    np.testing.assert_allclose(lab.values("dT")[1], [20.0] * 40 + [86.0 / 1.8] * 40)
+
+
+@pytest.mark.parametrize("heads", [True, False], ids=["in names", "in a row"])
+def test_parts_whose_units_have_nothing_in_common_are_not_joined(lab: Lab, heads: bool) -> None:
+    two_parts(lab, ("kW", "bar"), ("2.5", "2.5"), heads)
     said = lab.ingest({"P1": POWER})
     assert said.code == 3
     assert "'kW' in raw/a.csv" in said.out + said.err
-    assert "'W' in raw/b.csv" in said.out + said.err
+    assert "'bar' in raw/b.csv" in said.out + said.err
     assert np.isnan(lab.values("P1")[1]).all()
+
+
+def test_a_declared_unit_has_to_be_that_of_every_part(lab: Lab) -> None:
+    two_parts(lab, ("kW", "W"), ("2.5", "2600"), heads=True)
+    said = lab.ingest({"P1": {**POWER, "unit": "kW"}})
+    assert said.code == 3
+    assert "the file says 'W', the campaign file says 'kW'; try: leave out unit" in said.out + said.err
+    two_parts(lab, ("kW", "W"), ("2500", "2600"), heads=True)
+    assert lab.ingest({"P1": {**POWER, "unit": "W", "instead_of": "kW"}}).code == 0
+    np.testing.assert_allclose(lab.values("P1")[1], [2.5] * 40 + [2.6] * 40)
+
+
+def test_two_signals_of_one_file_that_differ_in_their_unit_are_two(lab: Lab) -> None:
+    lab.write("raw/a.csv", "time;P [kW];P [bar]\n" + "".join(f"{t};2.5;3\n" for t in TIMES))
+    said = lab.ingest({"P1": POWER})
+    assert said.code == 3
+    assert "signal 'P' is ambiguous" in said.out + said.err
+    assert lab.ingest({"P1": {**POWER, "signal": "P [kW]"}}).code == 0
 
 
 @pytest.mark.parametrize(

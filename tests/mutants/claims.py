@@ -376,7 +376,7 @@ MUTANTS = [
     diagnosis("opened.py", "(_key(j) in unsound and silent)", "False", "locked tests that rest outweigh a rule"),
     diagnosis("judge.py", "if may_be_confirmed(j.scored)", "if True", "the lock is opened for everything"),
     diagnosis("judge.py", "alone = len(broken) == 1 and", "alone = broken and", "what breaks two rules is asked"),
-    diagnosis("judge.py", "broken[0] in OUTWEIGHED and", "", "what the tests go against is asked"),
+    diagnosis("judge.py", "broken[0] in (*OUTWEIGHED, *few) and", "", "what the tests go against is asked"),
     diagnosis("judge.py", "key=lambda s: -probability(s)):", "key=probability):", "the least probable is asked"),
     diagnosis("judge.py", " and refines(one) is None:", ":", "another mode is asked of the locked tests"),
     diagnosis("judge.py", 'another = one.kin != "same" and', "another =", "a mode of one effect opens the lock"),

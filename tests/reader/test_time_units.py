@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.errors import FormatError
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, to_ns
 from thermodata.reader.zone import NAT
 
 T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
@@ -32,3 +33,16 @@ def test_a_fraction_keeps_its_digits_and_what_is_no_number_is_no_time() -> None:
     values = np.array([0.002, 1234567.891, np.nan, np.inf, 1e300])
     assert to_ns(values, SECONDS["s"]).tolist() == [2_000_000, 1_234_567_891_000_000, NAT, NAT, NAT]
     assert to_ns(values, SECONDS["ms"])[:2].tolist() == [2_000, 1_234_567_891_000]
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [("[OLE]", "excel"), ("OADate", "excel"), (" Unix ", "unix"), ("[min]", "min"), ("excel", "excel")],
+)
+def test_units_of_time_in_other_words(text: str, unit: str) -> None:
+    assert check_unit(text, "here") == unit
+
+
+def test_a_unit_that_is_none_of_time_is_refused() -> None:
+    with pytest.raises(FormatError, match="unknown unit of time 'olle'"):
+        check_unit("olle", "here")

@@ -97,8 +97,8 @@ def test_all_claims_of_one_answer_are_told() -> None:
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (
-        "the open tests show no missing cause; what the model has can be refined by mode (T), error on left-out tests "
-        "4.00 -> 1.00 um"
+        "the open tests show no missing cause apart from what the model has in part; what the model has can be refined "
+        "by mode (T), error on left-out tests 4.00 -> 1.00 um"
     )
     assert "refined by mode (T) and bearing (T), " in verdict_sentence(found("refine", [second, bearing]))
     assert "missing: mode" not in verdict_sentence(found("refine", [second, bearing]))
@@ -165,7 +165,9 @@ def test_where_parts_of_tests_are_left_out_that_is_said(tests: Sequence[str], sa
     parts = [
         LeftOut(campaign="c", test=t, from_s=0, to_s=1, acts=True, rmse_um_before=2, rmse_um_after=1) for t in tests
     ]
-    assert in_parts(found("none", [one("sun", left_out=parts)])) == said
+    text = in_parts(found("none", [one("sun", left_out=parts)]))
+    assert text.startswith(said)
+    assert ("each with a level of its own" in text) is bool(said)
     assert in_parts(found("none", [one("sun")])) == ""
 
 
@@ -242,7 +244,7 @@ def test_none_is_said_with_what_an_earlier_claim_left_on_the_locked_tests(locked
 def test_every_verdict_has_words_without_any_candidate() -> None:
     said = {v: verdict_sentence(found(v, [])) for v in ("effect", "refine", "none", "unknown", "not_testable")}
     assert len(set(said.values())) == len(said)
-    assert said["refine"].startswith("the open tests show no missing cause")
+    assert said["refine"].startswith("the open tests show no missing cause apart from what the model has in part")
 
 
 def test_what_a_candidate_could_take_away_is_no_promise() -> None:
@@ -259,6 +261,15 @@ def test_evidence_is_told_of_all_claims_and_refinements_else_of_the_first() -> N
     assert told(found("unknown", [mode, rest, one("last")])) == [rest, mode]
     assert told(found("refine", [rest, mode])) == [mode, rest], "what the verdict names comes first"
     assert told(found("none", [])) == []
+
+
+@pytest.mark.parametrize(("after", "also"), [(0.69, True), (0.71, False)])
+def test_what_leaves_far_less_than_the_claim_is_told_too(after: float, also: bool) -> None:
+    """From under 70 % of the claim's error on; but not what is said to be the claim, or where nothing is claimed."""
+    rival = one("rival", rmse_um_after=after)
+    assert told(found("effect", [claim("a"), rival])) == [claim("a"), *[rival] * also]
+    assert told(found("effect", [claim("a", equivalent=["rival:T"]), rival])) == [claim("a", equivalent=["rival:T"])]
+    assert told(found("unknown", [one("a"), rival])) == [one("a")]
 
 
 def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> None:

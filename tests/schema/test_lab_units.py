@@ -28,7 +28,22 @@ _EXACT: list[tuple[str, str, float]] = [
         (u, "rpm", 1.0)
         for u in ("min⁻¹", "min−1", "ｒｐｍ", "rot/min", "obr/min", "giri/min", "tours/min", "Umdr./min")
     ),
-    *((u, "rpm", 1000.0) for u in ("krpm", "kU/min")),
+    *(
+        (u, "rpm", 1.0)
+        for u in (
+            "vueltas/min",
+            "varv/min",
+            "omw/min",
+            "omdr/min",
+            "dev/dk",
+            "tr/mn",
+            "ford/perc",
+            "об/мин",
+            "转/分",
+            "r.p.m.",
+        )
+    ),
+    *((u, "rpm", 1000.0) for u in ("krpm", "kRPM", "kU/min")),
     *((u, "kW", 0.73549875) for u in ("PS", "CV", "ＰＳ")),
     *((u, "kW", 0.745699871582) for u in ("hp", "HP")),
     ("㎾", "kW", 1.0),
@@ -79,7 +94,10 @@ def test_what_only_a_table_of_prefixes_makes_a_unit_is_none(written: str) -> Non
     assert quantities_of(written) == ()
 
 
-@pytest.mark.parametrize(("written", "target"), [("mm/U", "um"), ("mm/rev", "um"), ("kWh", "rpm"), ("gpm", "m/min")])
+@pytest.mark.parametrize(
+    ("written", "target"),
+    [("mm/U", "um"), ("mm/rev", "um"), ("kWh", "rpm"), ("g/min", "rpm"), ("V/min", "rpm"), ("gpm", "m/min")],
+)
 def test_a_length_by_the_turn_is_no_length(written: str, target: str) -> None:
     with pytest.raises(UsageError, match="does not convert"):
         linear_conversion(written, target)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from thermodata.store.ingest.beside_each_other import odd_clocks
+from thermodata.store.ingest.beside_each_other import odd_clocks, together
 
 DAY, MINUTE = 86_400.0, 60.0
 
@@ -85,3 +85,26 @@ def test_what_has_no_even_steps_or_no_time_is_not_asked() -> None:
 def test_streams_of_one_source_are_one_log() -> None:
     tests = {name: [*rows, row("nc", rows[1]["start_ns"] / 1e9 + 600.0, 60.0)] for name, rows in days().items()}
     assert len(odd_clocks(tests)) == 1
+
+
+def test_logs_that_begin_and_end_together_agree() -> None:
+    """Within two minutes of each other, or of what they do in most tests."""
+    both = frozenset({"daq", "nc"})
+    assert together(days(0.0)) == {f"d{i}": both for i in range(5)}
+    assert together(days()) == {f"d{i}": both for i in (0, 1, 3, 4)}, "not where one stands elsewhere"
+    assert together(days(longer_s=600.0, moved_s=0.0)) == {f"d{i}": both for i in (0, 1, 3, 4)}, "nor ends later"
+
+
+@pytest.mark.parametrize(("later_s", "agree"), [(119.0, True), (121.0, False)])
+def test_in_few_tests_logs_agree_that_begin_and_end_at_once(later_s: float, agree: bool) -> None:
+    rows = {
+        f"d{i}": [row("daq", 1e9 + i * DAY, 18_000.0), row("nc", 1e9 + i * DAY + later_s, 18_000.0)] for i in (0, 1)
+    }
+    assert bool(together(rows)) is agree
+
+
+def test_a_log_that_agrees_with_one_and_not_with_another_tells_nothing() -> None:
+    rows = {"d0": [row("daq", 1e9, 18_000.0), row("nc", 1e9, 18_000.0), row("log", 1e9 + 600, 18_000.0)]}
+    assert together(rows) == {}
+    assert together({"d0": [row("daq", 1e9, 18_000.0)]}) == {}
+    assert together({"d0": [row("daq", 1e9, 18_000.0), row("nc", 1e9, 18_000.0, step_s=None)]}) == {}

@@ -112,10 +112,11 @@ def test_a_renamed_file_is_not_read_twice_nor_joined_to_itself(filled: Store, ca
 
 
 def test_a_copy_beside_the_file_counts_once(store: Store, campaign: Path) -> None:
-    shutil.copy(campaign.parent / "raw/one_a.npz", campaign.parent / "raw/one_a (copy).npz")
+    shutil.copy(campaign.parent / "raw/one_a.npz", campaign.parent / "raw/one_a (1).npz")
     summary = ingest(store, campaign)
     assert (summary.losses, len(values(store))) == ([], 1200)
-    assert any("left out" in note for note in summary.notes)
+    # 'one_a (1)' comes first by its name, and is the copy
+    assert "raw/one_a (1).npz: left out, its content is that of raw/one_a.npz" in summary.notes
 
 
 def test_a_file_that_cannot_be_read_any_more_keeps_what_was_read(

@@ -26,8 +26,8 @@ from thermodata.schema.quantity import (
 _EDGE = 5e-4
 _COLDEST_DEGC = -273.15
 _UNITLESS = frozenset({"state", "label"})
-_TRUE = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})
-_FALSE = frozenset({"0", "false", "off", "no", "ne", "aus", "nein"})
+TRUE_WORDS = frozenset({"1", "true", "on", "yes", "ano", "ein", "ja"})
+FALSE_WORDS = frozenset({"0", "false", "off", "no", "ne", "aus", "nein"})
 
 
 def calibrate(
@@ -245,8 +245,8 @@ def _from_text(raw: Array, state: bool) -> Float1D:
     numbers = np.full(len(words), np.nan)
     for i, word in enumerate(words.tolist()):
         bare = word.strip().casefold()
-        if state and bare in _TRUE | _FALSE:
-            numbers[i] = float(bare in _TRUE)
+        if state and bare in TRUE_WORDS | FALSE_WORDS:
+            numbers[i] = float(bare in TRUE_WORDS)
             continue
         try:
             numbers[i] = float(bare.replace(",", ".") if bare.count(",") == 1 and "." not in bare else bare)

@@ -13,10 +13,11 @@ from thermodata.diagnosis.artefact import noise_with_treads
 from thermodata.diagnosis.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.copies import as_artefacts, copies
 from thermodata.diagnosis.detection import LARGE, Limit
+from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends
 from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.left_on_locked import contradicted
-from thermodata.diagnosis.listed import candidate, fall, listed
+from thermodata.diagnosis.listed import candidate, explainable, listed
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.sound import sound, told
@@ -56,14 +57,15 @@ def answer(
     seed: int = 0,
     *,
     left_on_locked: Mapping[str, float] | None = None,
+    ends: Ends = UNKNOWN,
 ) -> Answer:
     """Diagnose the response that the model predicts worst; locked tests are opened once, for what is claimed
-    or likely. left_on_locked: response -> their error, where it is known already."""
+    or likely. left_on_locked: response -> their error, where it is known already. ends: how logs begin and end."""
     tests = fitted.tests(data)
     index = worst_response(fitted, tests)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
-    asked_of = sound(fitted, index, data, usable, library)
+    asked_of = sound(fitted, index, data, usable, library, ends)
     refitted, data, usable = asked_of.fitted, asked_of.data, list(asked_of.tests)
     same = copies(fitted.tests(data, "locked"), tests, response.name)
     again = {one.key for one, _ in same}
@@ -145,8 +147,6 @@ def _diagnosis(
     head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
     alone = investigation.selection
-    # beside others a candidate takes away what they leave; of one alone that says nothing
-    scored = [s for s in alone.first.ranked if len(s.rows)] if alone is not None else []
     return Diagnosis(
         model=model_id,
         response=problem.response,
@@ -154,7 +154,7 @@ def _diagnosis(
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
         rmse_um=alone.left if alone is not None else _left(problem),
-        explainable=max((float(np.clip(fall(s), 0.0, 1.0)) for s in scored), default=None),
+        explainable=explainable([s for s, _ in shown], investigation),
         weak_spots=investigation.spots,
         candidates=[
             candidate(i + 1, s, member, s is head, investigation, judgement, confirmation, data)

@@ -1,7 +1,8 @@
 """A heat balance of what one source's temperatures do with another's commands, moved in time.
 
 Over ten minutes a temperature rises by what works, less what it is warm already. How much of its rises the commands
-foretell, in tests left out, is asked of each shift of the commands.
+foretell, in tests left out, is asked of each shift of the commands. What goes with the air around is taken out of
+both before: a hall that warms in the morning is no drive that worked an hour ago.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ MOST_S = 3900.0
 TWO_HOURS_S, ABOUT_S = 7200.0, 360.0  # and about two hours, as where a zone and daylight saving are wrong
 OVER_S = 600.0  # that a temperature rises over
 RIDGE = 0.02  # of a column's squares
+ALIKE = 1e-3  # of the largest: sensors of the air that differ by less are one
 TELLS = 0.2  # share of the squared rises of a temperature that is foretold at its best shift, else it says nothing,
 LEAST_SHARE = 0.3  # and of all that tell, on average
 LEAST_TELLING = 2  # temperatures: one alone may follow what nobody logged,
@@ -69,10 +71,18 @@ class Disagreement:
 
 
 def pair_of(
-    tests: Sequence[TestData], names: Sequence[str], drives: Sequence[str], step_s: float, *, warmed: str, by: str
+    tests: Sequence[TestData],
+    names: Sequence[str],
+    drives: Sequence[str],
+    step_s: float,
+    *,
+    warmed: str,
+    by: str,
+    air: Sequence[str] = (),
 ) -> Pair | None:
     """names: of the temperatures, or of what else heat moves; drives: of the commands. step_s: of the tests' common
-    grid. None where there is too little to tell."""
+    grid. air: temperatures of what is around the machine, on the clock of `names`. None where there is too little to
+    tell."""
     if step_s > UNMOVED_S:
         return None  # one sample is as much as bodies are late by
     every = max(1, round(EVERY_S / step_s))
@@ -80,7 +90,7 @@ def pair_of(
     long = [t for t in tests if len(t.t_s) // every > 2 * over]
     if len(long) < LEAST_TESTS:
         return None
-    parts = [(_held(t, drives, every), _even(t, names, every)) for t in long]
+    parts = [(_held(t, drives, every), _even(t, names, every), _even(t, air, every)) for t in long]
     shifts = _shifts(every * step_s)
     return Pair(
         warmed, by, tuple(long), np.asarray(shifts * (every * step_s), dtype=np.float64), *_sums(parts, shifts, over)
@@ -225,12 +235,14 @@ def _even(test: TestData, names: Sequence[str], every: int) -> Float2D:
 
 
 def _means(columns: Float2D, every: int) -> Float2D:
-    whole = columns[: len(columns) // every * every]
-    return np.asarray(whole.reshape(-1, every, columns.shape[1]).mean(axis=1))
+    whole = len(columns) // every
+    return np.asarray(columns[: whole * every].reshape(whole, every, columns.shape[1]).mean(axis=1))
 
 
-def _sums(parts: Sequence[tuple[Float2D, Float2D]], shifts: Int1D, over: int) -> tuple[FloatND, FloatND, FloatND]:
-    """(gram, cross, energy) of a `Pair`. parts: commands and channels of each test.
+def _sums(
+    parts: Sequence[tuple[Float2D, Float2D, Float2D]], shifts: Int1D, over: int
+) -> tuple[FloatND, FloatND, FloatND]:
+    """(gram, cross, energy) of a `Pair`. parts: commands, channels, and the air of each test.
 
     Where commands are moved beyond the log's end nobody knows what worked: these rows are left out.
     """
@@ -238,14 +250,16 @@ def _sums(parts: Sequence[tuple[Float2D, Float2D]], shifts: Int1D, over: int) ->
     gram = np.zeros((len(parts), channels, len(shifts), drives + 1, drives + 1))
     cross = np.zeros((len(parts), channels, len(shifts), drives + 1))
     energy = np.zeros((len(parts), channels, len(shifts)))
-    for i, (held, value) in enumerate(parts):
+    for i, (held, value, air) in enumerate(parts):
         n = len(value)
         for k, shift in enumerate(map(int, shifts)):
             if n - abs(shift) <= 2 * over or n - abs(shift) < LEAST_LEFT * n:
                 continue
-            worked = _centred(_mean_over(held[max(0, -shift) : n - max(0, shift)], over))
-            here = value[max(0, shift) : n - max(0, -shift)]
-            rise, warm = _centred(here[over:] - here[:-over]), _centred(here[:-over])
+            worked = _mean_over(held[max(0, -shift) : n - max(0, shift)], over)
+            rows = slice(max(0, shift), n - max(0, -shift))
+            here = value[rows]
+            both = [worked, here[over:] - here[:-over], here[:-over]]
+            worked, rise, warm = _beside(both, _mean_over(air[rows], over))
             energy[i, :, k] = np.sum(rise**2, axis=0)
             seen = (energy[i, :, k] > 0).astype(np.float64)  # what was not measured says nothing of the commands
             gram[i, :, k, -1, -1] = np.sum(warm**2, axis=0)
@@ -256,8 +270,13 @@ def _sums(parts: Sequence[tuple[Float2D, Float2D]], shifts: Int1D, over: int) ->
     return gram, cross, energy
 
 
-def _centred(columns: Float2D) -> Float2D:
-    return np.asarray(columns - columns.mean(axis=0))
+def _beside(columns: Sequence[Float2D], air: Float2D) -> list[Float2D]:
+    """What no air gives, and no constant: each of shape (m, ...) as before. air: shape (m, sensors)."""
+    known = np.column_stack([np.ones(len(air)), air - air.mean(axis=0)])
+    size = np.linalg.norm(known, axis=0)
+    directions, singular, _ = np.linalg.svd(known[:, size > 0] / size[size > 0], full_matrices=False)
+    q = directions[:, singular > ALIKE * singular[0]]
+    return [np.asarray(c - q @ (q.T @ c)) for c in columns]
 
 
 def _mean_over(held: Float2D, over: int) -> Float2D:

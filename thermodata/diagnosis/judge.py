@@ -12,7 +12,7 @@ from thermodata.diagnosis.measure import FLOOR_SHARE, Measure
 from thermodata.diagnosis.present import CONTROL, GENERIC
 from thermodata.diagnosis.probability import may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.rules import blunt, contradicts, failed_rules, halves, is_plain, rules
+from thermodata.diagnosis.rules import LEAST_TESTS, blunt, contradicts, failed_rules, halves, is_plain, rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Selection
 
@@ -72,7 +72,7 @@ def judge(
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
     judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
     found = concluded(problem, selection, measure, judged)
-    if found.verdict != "unknown" or found.likely:
+    if found.verdict not in ("unknown", "none") or found.likely:
         return found
     return replace(found, likely=_nearly(selection, measure, problem.unit, refines))
 
@@ -135,7 +135,9 @@ def _nearly(
     """The likeliest of what was dropped for one rule alone that other tests may outweigh."""
     for one in sorted((s for s in selection.dropped if len(s.rows)), key=lambda s: -probability(s)):
         broken = [rule.name for rule in rules(one, measure, unit) if not rule.holds]
-        alone = len(broken) == 1 and broken[0] in OUTWEIGHED and one.candidate.unforetold is None
+        # of two tests in which it acts the rule asks for both
+        few = ("tests",) if int(one.acts.sum()) <= LEAST_TESTS else ()
+        alone = len(broken) == 1 and broken[0] in (*OUTWEIGHED, *few) and one.candidate.unforetold is None
         if alone and may_be_confirmed(one) and not one.candidate.within and refines(one) is None:
             return (Judged(one, one, None, selection.first.ranked),)
     return ()

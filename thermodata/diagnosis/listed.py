@@ -129,6 +129,15 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
     return alone if fall(alone) >= fall(s) else s
 
 
+def explainable(shown: Sequence[Scored], investigation: Investigation) -> float | None:
+    """What one candidate alone takes off the squared error, as a share: the most of those listed, and of all others
+    beside the model. Beside others a candidate takes away what they leave; of one alone that says nothing."""
+    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
+    told = [_beside_the_model(s, investigation) for s in shown]
+    alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
+    return max((float(np.clip(fall(s), 0.0, 1.0)) for s in alone), default=None)
+
+
 def _rmse(sse: np.ndarray, s: Scored) -> float | None:
     return float(np.sqrt(np.mean(sse / s.rows))) if len(s.rows) else None
 

@@ -27,6 +27,10 @@ from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 
 MODE = "it is another mode of what the model has"
+PART = (
+    "the model reads it already, together with others: another share of that, or a cause of its own, "
+    "which these tests can't tell"
+)
 LITTLE = "it is little beside what the model has of that family"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
@@ -64,8 +68,10 @@ class Refinement:
         if isinstance(scored.candidate, ChangedEffect):
             return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or kin == "same" or (kin == "part" and sharpness(scored) < STRONG):
+        if refines(scored.candidate.effect) or kin == "same":
             return MODE
+        if kin == "part" and sharpness(scored) < STRONG:
+            return PART
         if kin == "heat" and not self._acts_beside(scored):
             return MODE
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):

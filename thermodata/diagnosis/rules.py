@@ -105,8 +105,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             SPREAD_LIMIT,
             "most",
             strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            f"its gain differs between {tests} by {scored.spread:.0%} (limit {SPREAD_LIMIT:.0%}): a cause acts alike "
-            "everywhere",
+            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit {SPREAD_LIMIT:.0%}): a "
+            "cause acts alike everywhere",
         ),
         Rule(
             "others",
@@ -147,7 +147,13 @@ def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
     where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
     if scored.drop <= 0:
         return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
-    return f"{where} falls by {scored.drop:.0%} only, its size from the others (limit {fall:.0%})"
+    return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {fall:.0%})"
+
+
+def apart(value: float, limit: float) -> str:
+    """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
+    texts = [f"{value:.{digits}%}" for digits in range(3)]
+    return next((t for digits, t in enumerate(texts) if t != f"{limit:.{digits}%}"), texts[0])
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:
@@ -169,7 +175,7 @@ def surely(scored: Scored) -> Rule:
         limit,
         "least",
         sure >= limit,
-        f"causes like it were right in {sure:.0%} of cases only (limit {limit:.0%}): {_in_short(scored)}",
+        f"causes like it were right in {apart(sure, limit)} of cases only (limit {limit:.0%}): {_in_short(scored)}",
     )
 
 

@@ -14,7 +14,7 @@ from thermodata.diagnosis.by_phase import named_apart
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.confirm import Fits, confirm
 from thermodata.diagnosis.copies import copies
-from thermodata.diagnosis.ends_of_logs import odd_ends
+from thermodata.diagnosis.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.gain_by import named
 from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.diagnosis.sound import sound, told
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 53
+RULES_VERSION = 54
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -68,9 +68,9 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
     if kept is not None:
         return Diagnosis.model_validate_json(kept)
     with watched(tell):
-        outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left)
-    faults = [*outcome.diagnosis.artefacts, *odd_ends(store, model, outcome.diagnosis.artefacts)]
-    found = outcome.diagnosis.model_copy(update={"artefacts": faults})
+        ends = ends_of_logs(store, model)
+        outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends)
+    found = outcome.diagnosis
     for look in outcome.looks:
         count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
     save_diagnosis(store, model.identity, found)
@@ -98,7 +98,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         known = Confirmed.model_validate_json(kept)
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
     usable = [t for t in tests if response.can_predict(t)]
-    asked_of = sound(model.fitted, index, model.data, usable, effects())
+    asked_of = sound(model.fitted, index, model.data, usable, effects(), ends_of_logs(store, model))
     again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, response.name)}
     locked = [t for t in model.fitted.tests(asked_of.data, "locked") if response.can_predict(t) and t.key not in again]
     if not locked:

@@ -17,12 +17,13 @@ from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.declared_clocks import Declared
+from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, meets
 from thermodata.diagnosis.problem import TARGET_ROWS
 from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, PutRight
+from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -46,16 +47,24 @@ def told(put_right: PutRight) -> PutRight | None:
 
 
 def sound(
-    fitted: FittedModel, index: int, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect]
+    fitted: FittedModel,
+    index: int,
+    data: Dataset,
+    tests: Sequence[TestData],
+    library: Mapping[str, Effect],
+    ends: Ends = UNKNOWN,
 ) -> Sound:
-    """index: of the response among the model's responses. tests: open ones that can be predicted.
+    """index: of the response among the model's responses. tests: open ones that can be predicted. ends: how the logs
+    begin and end beside each other.
 
     All of them take part: gains that only a verification test excites must not be guesses.
     """
     found = _fitted_to(fitted, data, tests)
     if not tests:
         return found
-    found = _clocks_right(found, index)
+    asked, found = found, _clocks_right(_with_ends_right(found, index, ends), index, ends)
+    if ends.is_met(found.put_right.clocks):  # heat tells of one test what the ends of the logs tell of all of them
+        found = _clocks_right(_with_ends_right(asked, index, ends, met=found.put_right.clocks), index, ends)
     turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library)
     if not turned:
         return found
@@ -74,13 +83,35 @@ def _fitted_to(fitted: FittedModel, data: Dataset, tests: Sequence[TestData]) ->
     return Sound(spec, fit_model(spec, data, uncertainty=False) if tests else fitted, data, tuple(tests))
 
 
-def _clocks_right(found: Sound, index: int) -> Sound:
+def _with_ends_right(found: Sound, index: int, ends: Ends, met: Sequence[ClockMoved] = ()) -> Sound:
+    """By how logs begin and end beside each other, which is exact, where heat bears it out. met: what heat alone moved,
+    a test each."""
+    response, data = found.fitted.responses[index].name, found.data
+    home, clocks = data.channels[response].source, list[ClockMoved]()
+    if alike := ends.moves(home):
+        logs = compared(found.tests, data.channels, response, data.step_s)
+        clocks = [move for some in alike if meets(some, met) or logs.bears_out(some) for move in some]
+    found = replace(found, faults=tuple(ends.artefacts(home, clocks)))
+    return _moved(found, clocks) if clocks else found
+
+
+def _moved(found: Sound, clocks: Sequence[ClockMoved]) -> Sound:
+    """With further clocks moved."""
+    keys = {t.key for t in found.tests}
+    data = with_clocks_right(found.data, clocks)
+    right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
+    every = [*found.put_right.clocks, *clocks]
+    return replace(right, faults=found.faults, put_right=PutRight(clocks=every))
+
+
+def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     """By what commands move at once; then, by heat, of the logs that no such command is in."""
     response, keys = found.fitted.responses[index], {t.key for t in found.tests}
     problem = compressed(response, found.data, found.tests, TARGET_ROWS)
     known = timings(problem, found.data.channels)
     word = Declared.of(found.data, response.name)
-    in_one = {key: sources - word.of_all for key, sources in word.in_one.items()}
+    by_ends = {(c.campaign, c.test): frozenset({c.source}) for c in found.put_right.clocks}
+    in_one = {key: (sources - word.of_all) | by_ends.get(key, frozenset()) for key, sources in word.in_one.items()}
     order = in_order([*found.tests, *found.fitted.tests(found.data, "locked")])
     off = [t for t in known.off(order, in_one) if t.source not in word.of_clock(t.campaign, t.test)]
     clocks = [move for t in off for move in t.moves()]
@@ -92,12 +123,11 @@ def _clocks_right(found: Sound, index: int) -> Sound:
     logs = compared(tests, data.channels, response.name, data.step_s, locked=locked, declared=in_one)
     late = late_logs(logs, known.told)
     if not late and all(c.test for c in clocks):  # of a log that was moved in all tests the ends are not known
-        late = late_in_one(logs, known.told_in_one)
+        agreed = {key: sources | ends.together.get(key, frozenset()) for key, sources in in_one.items()}
+        late = late_in_one(replace(logs, declared=agreed), known.told_in_one)
+        late = [one for one in late if not ends.agree(one.tests, {one.of.warmed, one.of.by})]
     late = [one for one in late if not word.settles(one)]
     faults += [by_heat(one, tests[0].campaign) for one in late]
     clocks += [move for one in late for move in one.moves()]
-    if not clocks:
-        return replace(found, faults=tuple(faults))
-    data = with_clocks_right(found.data, clocks)
-    right = _fitted_to(found.fitted, data, [t for t in data.tests if t.key in keys])
-    return replace(right, faults=tuple(faults), put_right=PutRight(clocks=clocks))
+    found = replace(found, faults=(*found.faults, *faults))
+    return _moved(found, clocks) if clocks else found

@@ -8,7 +8,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.judge import Judgement
 from thermodata.diagnosis.measure import Measure
 from thermodata.diagnosis.probability import limit_of, probability
-from thermodata.diagnosis.rules import PLAUSIBLE, failed_rules
+from thermodata.diagnosis.rules import PLAUSIBLE, apart, failed_rules
 from thermodata.diagnosis.scored import Scored
 
 
@@ -40,7 +40,8 @@ def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: s
         return None
     sure, limit = probability(head), limit_of(head)
     stopped = (
-        f"it keeps the rules of a claim, but causes like it were right in {sure:.0%} of cases only (limit {limit:.0%})"
+        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit "
+        f"{limit:.0%})"
         if sure < limit
         else "alone it keeps the rules of a claim, but not beside what else was chosen"
     )

@@ -57,7 +57,7 @@ def why(
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
-        return f"{numbers}; a refinement, not a missing cause: {member.refines}"
+        return f"{numbers}; a refinement, not claimed as missing: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
     failed += [why for why in [blunt(s)] if why]
     if failed:

@@ -20,7 +20,7 @@ from thermodata.draft.quantity import Guess
 from thermodata.draft.same_probe import own_name
 from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
-from thermodata.draft.values import Values, joined
+from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
@@ -55,6 +55,9 @@ def channels_of(
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
         said, note = _said(one)
+        if said.quantity is None and signal.unit is None and _counts_rows(one):
+            notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
+            continue
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
@@ -78,6 +81,13 @@ def channels_of(
     return made, notes
 
 
+def _counts_rows(one: OneSignal) -> bool:
+    """Whether a signal numbers the rows of each file that has it."""
+    own = [(f, one.of(f) or one.signal) for f in one.files]
+    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    return bool(seen) and all(v is not None and v.counts_rows for v in seen)
+
+
 def _moved_probe(said: Guess, name: str) -> Guess:
     """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
     letter = (axis_of(words(name.rsplit("/", 1)[-1])) or "").upper()
@@ -89,18 +99,20 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
     they call it beside its name."""
     values, signal = None, one.signal
-    units: Counter[str | None] = Counter()
+    units = Counter((one.of(f) or signal).unit for f in one.files)
+    usual = units.most_common(1)[0][0]
     called_so: Counter[str] = Counter()
     seen: dict[str, Values | None] = {}
     for f in one.files:
         own = one.of(f) or signal
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
-        values = joined(values, seen[str(f.path)])
-        units[own.unit] += 1
+        values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
         called_so[own.properties.get("description", "")] += 1
+    if signal.dtype == "str" and None in seen.values():
+        values = None  # words in one test that are no switch's
     note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(called(signal), units.most_common(1)[0][0], signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

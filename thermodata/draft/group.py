@@ -10,6 +10,7 @@ from itertools import pairwise
 from thermodata.draft.filenames import Naming, matches, namings, normal
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
+from thermodata.reader.counted import counted
 
 _NEAR_NS = 15 * 60 * 1_000_000_000
 _HOUR_NS = 3_600_000_000_000
@@ -73,8 +74,9 @@ def _allowed(group: Group) -> list[Naming]:
 
 
 def _by_sheet(group: Group) -> Naming | None:
-    """Of a workbook each sheet is a test, called as the sheet is; of several each names its file."""
-    ids = tuple(f.sheet or "" for f in group.files)
+    """Of a workbook each sheet is a test, called as the sheet is, and so is each block of a table whose rows name their
+    test; of several each names its file."""
+    ids = tuple(f.part or "" for f in group.files)
     if not all(ids):
         return None
     files = {str(f.path) for f in group.files}
@@ -83,22 +85,54 @@ def _by_sheet(group: Group) -> Naming | None:
 
 def _one_recording(group: Group, way: Naming) -> bool | None:
     """Whether the files that share an id follow each other without a pause; None where no clock tells."""
-    verdicts = []
+    verdicts: list[bool] = []
+    going_on: list[bool] = []
     for files in _grouped(group, way).values():
-        starts = [f.start_ns for f in files]
-        if len(files) < 2 or any(s is None for s in starts):
+        if len(files) < 2:
             continue
-        spans = sorted((f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files)
-        for (begin, end, whole), (following, _, _) in pairwise(spans):
-            pause, length = following - end, max(end - begin, 1)
-            if following <= begin or pause < -length // 10:
-                verdicts.append(False)  # they ran at once
-            elif whole:
-                verdicts.append(pause <= max(length // 4, 60_000_000_000))
-            elif len(spans) >= 3:
-                gaps = [b[0] - a[0] for a, b in pairwise(spans)]
-                verdicts.append(max(gaps) <= 1.5 * min(gaps))
+        if all(f.start_ns is not None for f in files):
+            verdicts += _follow([(f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files])
+        elif (goes_on := _counts_on(files)) is not None:
+            going_on.append(goes_on)
+    if all(going_on):  # else each counts from its own start, and says nothing of the others
+        verdicts += going_on
     return all(verdicts) if verdicts else None
+
+
+def _counts_on(files: Sequence[RawFile]) -> bool | None:
+    """Whether the relative times of files go on where the file before ended; None where they have other clocks."""
+    if any(f.start_ns is not None or f.recording.start_ns is not None or f.sample.first_ns is None for f in files):
+        return None
+    found = _follow([(f.sample.first_ns or 0, f.sample.last_ns or 0, f.sample.whole) for f in files])
+    return bool(found) and all(found)
+
+
+def _follow(spans: Sequence[tuple[int, int, bool]]) -> list[bool]:
+    """Whether each recording of several follows the one before it without a pause. spans: (first, last time [ns],
+    whether that is the end)."""
+    spans = sorted(spans)
+    verdicts = []
+    for (begin, end, whole), (following, _, _) in pairwise(spans):
+        pause, length = following - end, max(end - begin, 1)
+        if following <= begin or pause < -length // 10:
+            verdicts.append(False)  # they ran at once
+        elif whole:
+            verdicts.append(pause <= max(length // 4, 60_000_000_000))
+        elif len(spans) >= 3:
+            gaps = [b[0] - a[0] for a, b in pairwise(spans)]
+            verdicts.append(max(gaps) <= 1.5 * min(gaps))
+    return verdicts
+
+
+def counted_on(groups: Sequence[Group]) -> list[str]:
+    """A note on each source whose tests are in parts, as their relative times alone say."""
+    found = {g.source: [(t, f) for t, f in g.tests.items() if len(f) > 1 and _counts_on(f)] for g in groups}
+    return [
+        f"{source}: {counted(len(of), 'test')} in parts, e.g. {of[0][0]} in {counted(len(of[0][1]), 'file')}: the "
+        "times of each go on where those of the one before ended"
+        for source, of in found.items()
+        if of
+    ]
 
 
 def _agreeing(groups: Sequence[Group], ways: Mapping[str, list[Naming]]) -> dict[str, Naming]:
@@ -192,7 +226,7 @@ def _with_template(group: Group, template: str | None, ids: Sequence[str], every
         paths = [str(f.path) for f in group.files]
         return replace(group, template=_glob(paths, every))
     many = len(group.tests) > 1 or len(ids) == 1
-    if template is not None and any(f.sheet for f in group.files):
+    if template is not None and any(f.part for f in group.files):
         return replace(group, template=template)
     if (
         template is not None
@@ -220,4 +254,4 @@ def files_of(group: Group, test: str) -> str | list[str]:
     return paths[0] if len(paths) == 1 else paths
 
 
-__all__ = ["files_of", "tests_of"]
+__all__ = ["counted_on", "files_of", "tests_of"]

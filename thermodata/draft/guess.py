@@ -17,7 +17,7 @@ from thermodata.draft.doubted_units import doubted, implausible
 from thermodata.draft.naming import words
 from thermodata.draft.place import place_of
 from thermodata.draft.place_rules import Place
-from thermodata.draft.quantity import Guess, quantity_of, range_text
+from thermodata.draft.quantity import NO_READING, Guess, quantity_of, range_text
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
 from thermodata.plugin import Signal
@@ -27,7 +27,8 @@ from thermodata.schema.quantity import is_unit, normal_unit
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
 _OF_ROWS = re.compile(r"__index_level_\d+__|Unnamed: 0")  # what pandas calls its numbers of rows
-_NUMBERED = re.compile(r"column \d+(?:#\d+)?")
+_OF_ITSELF = re.compile(r"\$RT_[A-Z]+\$")  # what WinCC puts between the rows of its tags: $RT_OFF$, $RT_DIS$
+NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
     "rotational_speed": "rpm",
@@ -94,9 +95,11 @@ def guess_of(signal: Signal, values: Values | None = None) -> Guess:
 @lru_cache(maxsize=50_000)
 def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
     """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
+    if _OF_ITSELF.fullmatch(name):
+        return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
         return Guess(None, unit, why_not="the numbers that pandas gives to rows: none of the quantities")
-    if _NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
+    if NUMBERED.fullmatch(name.rsplit("/", 1)[-1]):
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in bare.split("/"))
@@ -126,8 +129,8 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
             return Guess(None, why_not=why)
         return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
     found = quantity_of(what, text, known, dtype, values)
-    if found.quantity == "label" and _STATUS.fullmatch(_last(bare).strip()):
-        return replace(found, sure=False, questions=(_ASK_STATUS,))
+    if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(_last(bare).strip()):
+        return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
     if found.quantity is None or found.quantity == "label":
         return found
     if found.quantity in _RATES:

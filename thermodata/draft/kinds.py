@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from types import MappingProxyType
 
 from thermodata.draft.axis import axis_of
 from thermodata.draft.moved import Moved, moved_in
@@ -76,6 +77,7 @@ _AGREE = {
 }
 
 
+_NOTHING: Mapping[str, str] = MappingProxyType({})
 # what a pump shows by where it runs and where it rests
 
 _LINEAR = re.compile(r"(?<!\S)[xyz]\d*(?!\S)")
@@ -98,8 +100,9 @@ class Kind:
     role_by: str = "the name"
 
 
-def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
-    """The kind of a test, and its conditions. files: all its recordings, of all sources."""
+def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NOTHING) -> Kind:
+    """The kind of a test, and its conditions. files: all its recordings, of all sources; listed: the conditions that a
+    table says, whose speed tells where neither name nor data do."""
     text, moved = words(test), moved_in(files)
     folders = [part for f in files for part in reversed(f.path.parts[:-1])]
     said = said_by(list(dict.fromkeys([test, *(f.path.stem for f in files), *folders])))
@@ -115,11 +118,13 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
         by_name = "linear_axis"
     elif by_name is None and "air" in conditions:
         by_name = "etve"
-    by_data = _by_data(moved)
+    by_data, by = _by_data(moved), "name"
+    if by_name is None and _turns(listed.get("speed", "")):
+        by_name, by = "spindle", "table"
     if by_name is None and by_data == "mixed" and says(_DAYS, text):
         by_name = "mixed"
     hint = said_by_name(text)
-    kind, comment, question = _decided(by_name, by_data, moved)
+    kind, comment, question = _decided(by_name, by_data, moved, by)
     if by_name is None and by_data == "etve" and says(_FLUIDS, text):
         kind, comment = "other", ""
         question = "kind: the name speaks of pumps or fluids, whose switches are not logged; nothing else moves: etve?"
@@ -138,12 +143,19 @@ def kind_of(test: str, files: Sequence[RawFile]) -> Kind:
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 
 
-def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[str, str, str | None]:
+def _turns(speed: str) -> bool:
+    """Whether a condition such as '8000 1/min' is a speed above 0."""
+    number = re.match(r"\d+(?:\.\d+)?(?![^\s])", speed)
+    return number is not None and float(number[0]) > 0
+
+
+def _decided(by_name: str | None, by_data: str | None, moved: Moved, by: str) -> tuple[str, str, str | None]:
+    """by: who says by_name, the name or the table."""
     if by_name and by_data and by_data != "other":
         if by_data in _AGREE.get(by_name, {by_name}):
             kind = "spectrum" if (by_name, by_data) == ("spindle", "spectrum") else by_name
-            return kind, "sure: name and data", None
-        return by_name, "", f"kind: the name says {by_name}, the data {by_data} ({moved})"
+            return kind, f"sure: {by} and data", None
+        return by_name, "", f"kind: the {by} says {by_name}, the data {by_data} ({moved})"
     if by_data == "mixed" and moved.with_spindle and moved.loaded is None:
         asked = "mixed, or cutting? the axes feed only while the spindle turns, whose power is not logged"
         return by_data, "", f"kind: {asked} ({moved})"
@@ -154,7 +166,7 @@ def _decided(by_name: str | None, by_data: str | None, moved: Moved) -> tuple[st
     if by_data and by_data != "other":
         return by_data, f"guess: data only, {moved}", None
     if by_name:
-        return by_name, "guess: name only", None
+        return by_name, f"guess: {by} only", None
     return "other", "", "kind? e.g. spindle, linear_axis, etve, cutting"
 
 

@@ -74,6 +74,8 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
             if seen is None:
                 continue
             said = guess_of(signal, seen)
+            if said.quantity == "position" and said.questions:
+                continue  # it may be a probe's, and shows no axis that stands still
             factor = _factor(said.quantity, said.unit)
             _add(
                 found,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.draft.guess import guess_of
 from thermodata.draft.raw_file import RawFile
+from thermodata.draft.units import converts, quantities_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 
@@ -50,7 +51,10 @@ def joined_over_units(found: Sequence[tuple[Signal, Sequence[RawFile]]]) -> list
         homes = by_name.setdefault((signal.stream, name), []) if unit and name else []
         home = next((i for i in homes if _are_one(made[i], own)), None)
         if home is not None:
-            made[home] = OneSignal((*made[home].spellings, signal), (*made[home].files, *files))
+            spellings = (*made[home].spellings, signal)
+            # what it is, that one tells whose name or unit leaves no doubt
+            surest = sorted(spellings, key=_on_its_unit)
+            made[home] = OneSignal(tuple(surest), (*made[home].files, *files))
             continue
         homes.append(len(made))
         made.append(own)
@@ -97,11 +101,23 @@ def _ambiguous(one: OneSignal) -> bool:
     return any(sum(_last(s.name) == name for s in f.signals) > 1 for f in one.files)
 
 
+def _on_its_unit(signal: Signal) -> bool:
+    """Whether its unit alone says what it is, and several quantities have it: a length in mm."""
+    found = guess_of(signal)
+    return found.basis == ("unit",) and len(quantities_of(found.unit or "")) > 1
+
+
+def _one_length(one: Signal, other: Signal) -> bool:
+    """Whether two units of a length part them alone: 'Probe Z [mm]' is what 'Probe Z [um]' is in another test."""
+    lengths = [s.unit is not None and converts(s.unit, "displacement") for s in (one, other)]
+    return all(lengths) and (_on_its_unit(one) or _on_its_unit(other))
+
+
 def _are_one(one: OneSignal, other: OneSignal) -> bool:
-    said = guess_of(one.signal).quantity
-    paths = {(f.path, f.sheet) for f in one.files}
+    said, other_said = guess_of(one.signal).quantity, guess_of(other.signal).quantity
+    paths = {(f.path, f.part) for f in one.files}
     return (
         said is not None
-        and said == guess_of(other.signal).quantity
-        and not any((f.path, f.sheet) in paths for f in other.files)
+        and (said == other_said or _one_length(one.signal, other.signal))
+        and not any((f.path, f.part) in paths for f in other.files)
     )

@@ -63,7 +63,8 @@ class DraftJump:
 
 @dataclass(frozen=True, slots=True)
 class DraftTest:
-    """tests[]: files: source -> path or paths, where the source's pattern does not find them."""
+    """tests[]: files: source -> path or paths, where the source's pattern does not find them; window: of a table that
+    holds several, since its first row [s]."""
 
     id: str
     kind: Kind
@@ -71,6 +72,7 @@ class DraftTest:
     files: dict[str, str | list[str]]
     doubts: tuple[str, ...] = ()
     measuring: str | None = None
+    window: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
 from thermodata.draft.file_copies import other_versions
-from thermodata.draft.group import files_of, tests_of
+from thermodata.draft.group import counted_on, files_of, tests_of
 from thermodata.draft.hints import hinted
 from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
@@ -27,6 +27,7 @@ from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
+from thermodata.draft.speeds_told import with_told_speeds
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.twin_probes import each_its_own
 from thermodata.draft.warm import warm_starts
@@ -50,9 +51,10 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes: list[str] = []
+    notes = counted_on(groups)
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
+        made = with_told_speeds(made, g)
         made = asked_whether_held(beside_each_other(made), g, groups)
         channels += made
         notes += left
@@ -137,7 +139,7 @@ def _claimed_table(folder: Path, found: Scan) -> str | None:
     """A table of tests that a reader takes for a log, because it has a column of dates; what holds long logs is none,
     though a sheet beside them lists the tests."""
     most = most_rows(len(found.logs))
-    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.sheet is None and f.sample.rows <= most]
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.part is None and f.sample.rows <= most]
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
@@ -180,10 +182,10 @@ def _test(
     version: RawFile | None,
 ) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
-    kind = kind_of(test, files)
+    listed = table.rows.get(test, {}) if table else {}
+    kind = kind_of(test, files, listed)
     asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
     conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
-    listed = table.rows.get(test, {}) if table else {}
     if (role := said_by_list(listed)) is not None:
         kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
     for key, value in listed.items():
@@ -192,7 +194,10 @@ def _test(
             continue
         conditions[key] = value
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named))
+    window = next((f.block.window for f in files if f.block is not None), None)
+    if window is not None and len(files) > 1:
+        doubts.append("window: it is counted in one log, and meant since the start of the first of several")
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:

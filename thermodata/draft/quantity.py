@@ -14,6 +14,7 @@ from thermodata.reader.time_units import found_epoch
 from thermodata.schema.quantity import normal_unit
 from thermodata.schema.unit_spelling import bare_unit, is_of_humidity
 
+NO_READING = "no reading"  # begins what is said of a column that nobody need be asked about
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
 # what creeps there between 5 and 80 is a temperature
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
@@ -39,7 +40,7 @@ class Guess:
     def comment(self) -> str:
         """'sure: name and unit', 'guess: name only', or '? at: where on the machine?'."""
         if self.quantity is None:
-            return f"? {self.why_not}"
+            return str(self.why_not) if (self.why_not or "").startswith(NO_READING) else f"? {self.why_not}"
         rests = " and ".join(self.basis)
         if self.questions:
             return f"? {', '.join(self.questions)}" + (f" ({rests})" if rests else "")
@@ -51,6 +52,8 @@ class Guess:
 def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Values | None) -> Guess:
     bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "str":
+        if bare and values is not None and values.text and not foreign_in(own):
+            return Guess("state", basis=("name", "values") if places_in(own) else ("values",))  # ON and OFF
         if bare:
             return Guess("label", sure=True, basis=("text",))
         # numbers in a spelling that is none would be kept as words, and be missed in every view of values
@@ -61,6 +64,8 @@ def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Value
         return Guess("state", sure=True, basis=("type",))
     if bare and values is not None and _since_a_date(values):
         return Guess(None, unit, why_not="a count of seconds since 1970: none of the quantities")
+    if bare and values is not None and values.counts_rows and not named:
+        return Guess(None, unit, why_not=f"{NO_READING}: it counts the rows")
     if bare and not foreign and _on_off(own, named, values):
         return Guess(
             "state",

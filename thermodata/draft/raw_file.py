@@ -11,13 +11,13 @@ from typing import Any
 
 from thermodata.draft.letters_of_files import common, letters_of
 from thermodata.draft.sample import Sample, sample_of
+from thermodata.draft.sheets import sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
-from thermodata.reader.explain import kind_of
+from thermodata.reader.explain import kind_of, why_no_table
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
-from thermodata.reader.series import SERIES
 from thermodata.reader.text.begin import EITHER, NOT_TAKEN
 
 _MOST_QUESTIONS = 4
@@ -36,13 +36,21 @@ class Asked:
     times: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Rows of a table that are one of the tests in it. window: from and to, since the first row of the table [s]."""
+
+    test: str
+    window: tuple[float, float]
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class RawFile:
-    """A file that one reader claims, or a sheet of it. path: relative to the folder. like: the file of the same kind
+    """A file that one reader claims, or a part of it. path: relative to the folder. like: the file of the same kind
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
-    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; besides: why others of
-    its sheets are none; letters: the encoding of a text that is no ASCII; delivered: what its reader gives, where
-    columns of it are left out of `recording`."""
+    answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; block: of a table whose
+    rows name their tests; besides: why others of its sheets are none; letters: the encoding of a text that is no ASCII;
+    delivered: what its reader gives, where columns of it are left out of `recording`."""
 
     path: PurePosixPath
     reader: str
@@ -53,6 +61,7 @@ class RawFile:
     asked: tuple[Asked, ...] = ()
     table: Mapping[str, Any] | None = None
     sheet: str | None = None
+    block: Part | None = None
     besides: tuple[str, ...] = ()
     letters: str | None = None
     delivered: Recording | None = None
@@ -61,6 +70,11 @@ class RawFile:
     def source(self) -> Source:
         """What the reader is told, so that it reads the file at all."""
         return Source(encoding=common((self.letters,)), table=self.table)
+
+    @property
+    def part(self) -> str | None:
+        """The sheet or block that it is of its file; None where it is all of it."""
+        return self.sheet or (self.block.test if self.block is not None else None)
 
     @property
     def signals(self) -> tuple[Signal, ...]:
@@ -91,15 +105,36 @@ def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:
     return replace(file, sample=sample_of_file(folder / path, file))
 
 
-def described_files(who: Reader, full: Path, path: PurePosixPath, encoding: str | None = None) -> list[RawFile]:
-    """A file as its reader describes it, with what it leaves open; a workbook whose sheets are alike sheet by sheet.
-    encoding: what somebody declared for texts that are no UTF-8.
+def described_file(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> RawFile:
+    """A file as its reader describes it, with what it leaves open. encoding: what somebody declared for texts that are
+    no UTF-8; table: answers to what it leaves open.
 
     ThermodataError where it cannot be read at all.
     """
     size, letters = full.stat().st_size, letters_of(full, encoding)
-    whole = _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, letters=letters))
-    names, besides = _sheets(whole.recording)
+    return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters))
+
+
+def described_files(
+    who: Reader,
+    full: Path,
+    path: PurePosixPath,
+    encoding: str | None = None,
+    table: Mapping[str, Any] | None = None,
+) -> list[RawFile]:
+    """The same; a workbook whose sheets are alike sheet by sheet."""
+    return sheet_by_sheet(who, full, described_file(who, full, path, encoding, table))
+
+
+def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:
+    """A workbook whose sheets, or a recording whose groups, are alike, as that many files; any other as it is."""
+    names, besides = sheets_of(whole.recording)
     if not names:
         return [whole]
     found = []
@@ -166,27 +201,6 @@ def merged(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
     return out
 
 
-def _sheets(recording: Recording) -> tuple[list[str], list[str]]:
-    """(the sheets of a workbook that are tests of one kind, the others): each a stream, and with mostly the same
-    signals. No sheets where fewer than two are alike, or fewer than three beside one that is unlike them, or where
-    streams are the series of one table."""
-    streams = list(dict.fromkeys(s.stream for s in recording.signals))
-    if any(SERIES in s.properties for s in recording.signals):
-        return [], []
-    if len(streams) < 2 or not all(s.name.startswith(f"{s.stream}/") for s in recording.signals):
-        return [], []
-    own = {n: {s.name.removeprefix(f"{n}/") for s in recording.signals if s.stream == n} for n in streams}
-
-    def like(one: str) -> list[str]:
-        return [n for n in streams if len(own[one] & own[n]) >= 0.5 * max(len(own[one]), len(own[n]))]
-
-    alike = max((like(n) for n in streams), key=len)
-    others = [n for n in streams if n not in alike]
-    # an overview or notes beside the tests; half of the sheets of another kind are two loggers of the same tests
-    enough = len(alike) >= 2 and (not others or len(alike) >= max(3, 2 * len(others)))
-    return (alike, others) if enough else ([], [])
-
-
 def claimant(path: Path) -> tuple[Reader | None, str]:
     """The one reader that claims a file, or None and why there is none."""
     found = claims(path)
@@ -195,7 +209,8 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
     if not path.stat().st_size:
         return None, "an empty file"
     if not found:
-        return None, f"no reader claims it ({kind_of(path)}): thermodata sniff says why"
+        why = why_no_table(path)
+        return None, f"no reader claims it ({kind_of(path)}): {why or 'thermodata sniff says why'}"
     said = " and ".join(f"{name} ({why})" for name, why in found.items())
     return None, f"two readers claim it: {said}; declare one as the reader of a source"
 

@@ -86,7 +86,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     repeats = RepeatedTimes()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
-    wanted = _courses(recording.signals)
+    wanted, worded = _courses(recording.signals), set[tuple[str, str]]()
     first: int | None = None
     last: int | None = None
     unseen = {s.stream for s in recording.signals}
@@ -96,7 +96,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
             if isinstance(item, Loss):
                 losses += 1
                 continue
-            _take(item, values, parts, wanted)
+            _take(item, values, parts, wanted, worded)
             unseen.discard(item.stream)
             repeats = repeats.beside(item.t_ns)
             first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
@@ -140,10 +140,17 @@ def _take(
     values: dict[tuple[str, str], Values],
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
     wanted: set[tuple[str, str]],
+    worded: set[tuple[str, str]],
 ) -> None:
+    """worded: signals so far with words that are none of a switch; they have no values."""
     for name, column in block.values.items():
         key = (block.stream, name)
         seen = values_of(column)
+        if seen is None and column.dtype.kind in "OUS" and any(str(word).strip() for word in column.tolist()):
+            worded.add(key)
+        if key in worded:
+            values.pop(key, None)
+            continue
         both = joined(values.get(key), seen)
         if both is not None:
             values[key] = both

@@ -11,11 +11,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
+from thermodata.draft.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.file_copies import copies_in, unfinished_in
-from thermodata.draft.raw_file import RawFile, claimant, described_files, sample_of_file
+from thermodata.draft.lent_names import with_lent_names
+from thermodata.draft.raw_file import Asked, RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.sample import SMALL, Watch, short
+from thermodata.draft.sheets import recordings_in
 from thermodata.errors import ThermodataError
-from thermodata.plugin import Recording
+from thermodata.plugin import Reader, Recording
 from thermodata.reader.counted import counted
 from thermodata.reader.stores import within_stores
 from thermodata.schema.lines import is_text
@@ -64,7 +67,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             continue
         try:
             like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
-            if like is not None and like.sheet is None:
+            if like is not None and like.part is None:
                 logs[str(path)] = RawFile(
                     path,
                     like.reader,
@@ -81,20 +84,31 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 ignored.append((str(path), why))
                 continue
             try:
-                found = described_files(who, full, path, encoding)
+                whole = described_file(who, full, path, encoding)
+                found = sheet_by_sheet(who, full, whole)
+                if len(found) == 1 and is_of_series(whole):
+                    found = _not_as_series(who, full, path, encoding, whole) or found
+                elif len(found) == 1:
+                    found = by_tests(who, full, whole)
             except _UNREAD as error:
-                failed.append((str(path), who.name))
-                ignored.append(
-                    (str(path), f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}")
-                )
-                continue
+                tests = _not_as_series(who, full, path, encoding, None)
+                if tests is None:
+                    failed.append((str(path), who.name))
+                    said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
+                    ignored.append((str(path), said))
+                    continue
+                whole, found = tests[0], tests
+            if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
+                own = Watch()
+                found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
+                if (once := _of_one_time(whole, found)) is not None:
+                    found = [replace(once, sample=sample_of_file(full, once))]
+                spent += own.spent_s
+            elif (once := _of_one_time(whole, found)) is not None:
+                found = [once]
             ignored += [(str(path), why) for why in found[0].besides]
             for made in found:
-                if made.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
-                    own = Watch()
-                    made = replace(made, sample=sample_of_file(full, made))
-                    spent += own.spent_s
-                key = str(path) if made.sheet is None else f"{path}/{made.sheet}"
+                key = str(path) if made.part is None else f"{path}/{made.part}"
                 logs[key] = shapes[_shape(path)] = made
             if str(path) in logs and not logs[str(path)].signals:
                 del logs[str(path)]
@@ -108,7 +122,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     for found_out in (ignored, failed):
         found_out.sort(key=lambda item: position[item[0]])
     return Scan(
-        tuple(sorted(sampled, key=lambda f: position[str(f.path)])),
+        with_lent_names(folder, sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
         tuple(
@@ -116,6 +130,29 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         ),  # a log is no list of tests
         tuple(failed),
     )
+
+
+def _of_one_time(whole: RawFile, found: Sequence[RawFile]) -> RawFile | None:
+    """The whole file where its sheets or groups ran at once, and are no tests; with a question where they did so more
+    than once. None where they are tests."""
+    if not all(f.sheet for f in found):
+        return None
+    recordings = recordings_in([f.start_ns for f in found], [f.sample for f in found])
+    if recordings < 2:
+        return whole if recordings else None
+    asked = (
+        f"it holds {recordings} recordings of several loggers or rates: a test each? then write each with its window"
+    )
+    return replace(whole, asked=(*whole.asked, Asked(asked, {})))
+
+
+def _not_as_series(
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None
+) -> list[RawFile] | None:
+    try:
+        return not_as_series(who, full, path, encoding, whole)
+    except _UNREAD:
+        return None
 
 
 def _try(error: Exception) -> str:

@@ -11,7 +11,8 @@ from typing import Any
 
 from thermodata.draft.filenames import normal
 from thermodata.draft.naming import plain, words
-from thermodata.draft.vocabulary import says
+from thermodata.draft.units import quantities_of
+from thermodata.draft.vocabulary import quantities_in, says
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 
@@ -30,6 +31,7 @@ _KNOWN = (
     ("tool", "tool. werkzeug nastroj 刀具"),
     ("axis", "axis. achse. osa. 轴"),
 )
+_QUANTITIES = (("speed", "rotational_speed"), ("feed", "feed"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,14 +144,12 @@ def _read(file: str, rows: list[list[str]], tests: Sequence[str], by_number: boo
         return None
     _, key_column, named = best
     found: dict[str, dict[str, str]] = {}
+    conditions = _conditions([title if c != key_column else "" for c, title in enumerate(header)])
     for i, test in named.items():
         found[test] = {
             name: value
-            for c, title in enumerate(header)
-            if c != key_column
-            and c < len(lines[i])
-            and (name := _condition(title))
-            and (value := _with_unit(lines[i][c], title, name))
+            for c, name in conditions.items()
+            if c < len(lines[i]) and (value := _with_unit(lines[i][c], header[c], name))
         }
     return TestTable(file, header[key_column], found)
 
@@ -166,10 +166,27 @@ def _numbers(tests: Sequence[str]) -> dict[str, str]:
     return found if len(found) == len(tests) else {}
 
 
-def _condition(title: str) -> str:
-    text = words(split_unit(title)[0])
-    known = next((name for name, listed in _KNOWN if says(listed, text)), None)
-    return known or re.sub(r"__+", "_", plain(split_unit(title)[0])).lower()[:40]
+def _conditions(header: Sequence[str]) -> dict[int, str]:
+    """Column -> condition, of those with a title. What has a name of its own has it once: of a second speed, its own
+    words tell which it is."""
+    found: dict[int, str] = {}
+    for column, title in enumerate(header):
+        known = _known(title)
+        plainly = re.sub(r"__+", "_", plain(split_unit(title)[0])).lower()[:40]
+        name = known if known and known not in found.values() else plainly
+        if name:
+            found[column] = name
+    return found
+
+
+def _known(title: str) -> str | None:
+    """The condition that a title says, in any language; turns a minute are a speed, whatever they are called."""
+    text, unit = split_unit(title)
+    said = words(text)
+    known = next((name for name, listed in _KNOWN if says(listed, said)), None)
+    if known is None and unit is not None and quantities_of(unit)[:1] == ("rotational_speed",):
+        return "speed"
+    return known or next((name for name, quantity in _QUANTITIES if quantities_in(said) == (quantity,)), None)
 
 
 def _with_unit(cell: str, title: str, name: str) -> str:

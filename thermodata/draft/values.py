@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
 from thermodata.calibration.quality_limit import impossible, sentinels
 from thermodata.calibration.quality_value import run_stats
+from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
+from thermodata.schema.quantity import linear_conversion
 
 _FEW = 8
+_LEAST_COUNTED = 10
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
 
@@ -18,7 +22,7 @@ _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as la
 class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first:
-    the first of them."""
+    the first of them; counts: each is one more than the one before; text: words of a switch, counted as 0 and 1."""
 
     n: int
     low: float
@@ -29,6 +33,13 @@ class Values:
     distinct: int
     whole: bool
     first: float
+    counts: bool = False
+    text: bool = False
+
+    @property
+    def counts_rows(self) -> bool:
+        """1, 2, 3 ... or 0, 1, 2 ...: the number of a row."""
+        return self.counts and self.n >= _LEAST_COUNTED and self.first in (0.0, 1.0)
 
     @property
     def constant(self) -> bool:
@@ -38,6 +49,12 @@ class Values:
     def switch(self) -> bool:
         """Only 0 and 1, and both."""
         return self.distinct == 2 and (self.low, self.high) == (0.0, 1.0)
+
+    @property
+    def counts_rows(self) -> bool:
+        """It numbers the rows from 0 or 1 on, none left out."""
+        steady = self.whole and self.moves == 1.0 and self.step == 1.0
+        return steady and self.first == self.low in (0.0, 1.0) and self.high - self.low == self.n - 1 > _FEW
 
     @property
     def slow(self) -> bool:
@@ -50,7 +67,10 @@ class Values:
 
 
 def values_of(column: Array) -> Values | None:
-    """None for text and for signals without a finite value. column: shape (n,)."""
+    """None for text, but of a switch ('ON', 'aus'), and for signals without a finite value. column: shape (n,)."""
+    if column.dtype.kind in "OUS" and (switched := _switched(column)) is not None:
+        made = values_of(switched)
+        return None if made is None else replace(made, text=True)
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
@@ -69,7 +89,18 @@ def values_of(column: Array) -> Values | None:
         min(int(few.size), _FEW + 1),
         bool((x == np.round(x)).all()),
         float(x[0]),
+        bool(x.size > 1 and (np.diff(x) == 1).all()),
     )
+
+
+def _switched(column: Array) -> Float1D | None:
+    """The words of a switch as 0 and 1, as ingest counts them; None where others stand among them. shape (n,)."""
+    bare = {word: str(word).strip().lower() for word in set(column.tolist())}
+    said = {word: b for word, b in bare.items() if b}
+    if not said or not TRUE_WORDS.union(FALSE_WORDS).issuperset(said.values()):
+        return None
+    numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
+    return np.array([numbers.get(word, np.nan) for word in column.tolist()])
 
 
 def _readings(x: Float1D) -> Float1D:
@@ -86,6 +117,18 @@ def _readings(x: Float1D) -> Float1D:
         if others.size and largest > _FAR * float(others.max()):
             marks |= there
     return x[~marks] if not marks.all() else x
+
+
+def in_unit(values: Values | None, written: str | None, unit: str | None) -> Values | None:
+    """A sample in another unit; as it is where either is none, or they have nothing in common."""
+    if values is None or written is None or unit is None or written == unit:
+        return values
+    try:
+        factor, offset = linear_conversion(written, unit)
+    except UsageError:
+        return values
+    low, high, median, first = (x * factor + offset for x in (values.low, values.high, values.median, values.first))
+    return replace(values, low=low, high=high, median=median, step=values.step * factor, whole=False, first=first)
 
 
 def joined(one: Values | None, other: Values | None) -> Values | None:
@@ -106,4 +149,6 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         max(levels, one.distinct, other.distinct),
         one.whole and other.whole,
         one.first,
+        one.counts and other.counts,
+        one.text and other.text,
     )

@@ -167,6 +167,8 @@ def _tests(draft: Draft) -> list[str]:
 
 def _test(t: DraftTest) -> str:
     body = flow({"id": t.id, "start": t.kind.start, "kind": t.kind.kind, "role": "none"})
+    if t.window is not None:
+        body += f", window: [{t.window[0]:.12g} s, {t.window[1]:.12g} s]"
     if t.measuring:
         body += f", measuring: {scalar(t.measuring)}"
     if t.conditions:

@@ -83,12 +83,23 @@ def explain(path: Path) -> Explanation:
     return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
 
 
+_TRIED = "made to try, it says: "
 _MARKS = {"\t": "tabs", BLANKS: "blanks"}
 
 
 def kind_of(path: Path) -> str:
     """What the first bytes of a file are, in a few words."""
     return _kind(head(path))
+
+
+def why_no_table(path: Path) -> str | None:
+    """Why a text with cells that no reader claims is not read as a table; None where it has none."""
+    start = head(path)
+    text = decode_head(start.start)
+    if text is None or "table" not in readers() or find_delimiter(text.splitlines()) is None:
+        return None
+    _, tried, why = _why_not("table", path, start, asked=True).partition(_TRIED)
+    return why if tried else None
 
 
 def looks_for(name: str) -> str:
@@ -124,6 +135,8 @@ def _kind(start: Head) -> str:
     # as the readers find it: in a decimal comma's file there are more commas than ';'
     delimiter = find_delimiter(lines)
     between = f", {_MARKS.get(delimiter, repr(delimiter))} between cells" if delimiter is not None else ""
+    if "\ufffd" in first:
+        return f"text{between}, in an encoding that it does not name"
     return f"text{between}; it starts with '{first[:50]}{'...' if len(first) > 50 else ''}'"
 
 
@@ -145,7 +158,7 @@ def _why_not(name: str, path: Path, start: Head, asked: bool) -> str:
             what = getattr(error, "what", str(error))
             hint = getattr(error, "hint", None)
             if not what.startswith("reader '"):
-                return f"made to try, it says: {what}" + (f"; {hint}" if hint else "")
+                return f"{_TRIED}{what}" + (f"; {hint}" if hint else "")
         else:
             return "it does not claim it, but can read it where a source declares it"
     return f"no; it reads: {looks_for(name)}"
@@ -172,4 +185,4 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
     return None if start.size_bytes else "was it closed?"
 
 
-__all__ = ["Explanation", "explain", "looks_for"]
+__all__ = ["Explanation", "explain", "looks_for", "why_no_table"]

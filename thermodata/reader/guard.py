@@ -7,16 +7,19 @@ from pathlib import Path
 
 from thermodata.errors import PluginError, ThermodataError
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
+from thermodata.reader.heeded import Watched
 from thermodata.reader.regular import refuse_what_never_ends
 from thermodata.reader.rules import RECORDING_RULES, broken_rule, sentence
 
 
 def described(reader: Reader, path: Path, source: Source) -> Recording:
     """The reader's description, held against the rules. PluginError for a broken rule or an exception that is
-    none of ours: a plugin's bug, with the file named. FormatError for what is no file: a reader would wait for ever."""
+    none of ours: a plugin's bug, with the file named; UsageError for a declared sheet that the reader ignores, and for
+    what is no file: a reader would wait for ever."""
     refuse_what_never_ends(path)
+    watched = Watched(source)
     try:
-        recording = reader.describe(path, source)
+        recording = reader.describe(path, watched.source)
     except (ThermodataError, OSError, MemoryError):
         raise
     except Exception as error:
@@ -27,6 +30,7 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
         raise PluginError(
             f"reader '{reader.name}' describes with {type(recording).__name__}", where=str(path), expected="a Recording"
         )
+    watched.refuse_ignored(reader.name, path)
     for rule in RECORDING_RULES:
         wrong = rule(recording)
         if wrong is not None:

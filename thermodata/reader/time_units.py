@@ -77,15 +77,34 @@ EPOCHS = {
     "filetime": Epoch(1e-7, -11644473600, False),
     "ticks": Epoch(1e-7, -62135596800, True),  # of .NET, which programs mostly take in local time
 }
+# other words for them: of Windows' OLE automation, in which Gantner and .NET count Excel's days
+_ALSO = {
+    "ole": "excel",
+    "ole date": "excel",
+    "oledate": "excel",
+    "oadate": "excel",
+    "excel date": "excel",
+    "matlab datenum": "datenum",
+    "unix time": "unix",
+    "epoch": "unix",
+    "unix s": "unix",
+    "unix ms": "unix_ms",
+}
 _REACH_S = 9e9
+
+
+def known_unit(text: str) -> str | None:
+    """A unit of time, or a count from a date, by its name here: 'excel' of '[OLE]'. None where it is none."""
+    low = text.strip().strip("[]()").strip().lower()
+    low = _ALSO.get(low, low)
+    return low if low in SECONDS or low in EPOCHS else None
 
 
 def check_unit(text: str, where: str) -> str:
     """A unit of time in lower case; FormatError with the known ones where it is none."""
-    low = text.strip().strip("[]()").lower()
-    if low in SECONDS or low in EPOCHS:
-        return low
-    if low == UNKNOWN:
+    if (known := known_unit(text)) is not None:
+        return known
+    if text.strip().strip("[]()").lower() == UNKNOWN:
         raise unanswered("time.unit", "s, min, h or ms", where)
     raise FormatError(
         f"unknown unit of time '{text}'",

@@ -5,7 +5,7 @@ from __future__ import annotations
 ERRORS = {
     "locked": "tests that no fit and no choice has seen; they are opened to confirm what is claimed or likely, "
     "and every look is counted",
-    "left-out": "each open test in turn, foretold by a fit to the others",
+    "left-out": "each open test in turn, foretold by a fit to the others; its level is free",
     "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
     "and say so",
     "fitted": "tests that the model was fitted to: how well it bends to them, not how well it foretells",

@@ -21,6 +21,9 @@ _UNNAMED = ("lag", "control_compensation")  # which say no more than the channel
 _MOST_TWINS = 2
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
+NO_MORE = "the open tests show no missing cause apart from what the model has in part"
+FAR_LESS = 0.7
+"""What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
 FAR = 2.0
 """An error on locked tests of so many times that on left-out ones says that these lack something."""
 
@@ -49,10 +52,22 @@ def refinements_of(found: Diagnosis) -> list[Candidate]:
 
 def told(found: Diagnosis) -> list[Candidate]:
     """The candidates whose evidence is told in full: all claims, else the first of the others; and all refinements.
-    What the verdict names comes first."""
-    causes = claims_of(found) or [c for c in found.candidates if not c.refinement][:1]
-    refined = refinements_of(found)
-    return [*refined, *causes] if found.verdict == "refine" else [*causes, *refined]
+    What the verdict names comes first, and last the one that would leave far less than what is claimed."""
+    claims, refined = claims_of(found), refinements_of(found)
+    causes = claims or [c for c in found.candidates if not c.refinement][:1]
+    named = [*refined, *causes] if found.verdict == "refine" else [*causes, *refined]
+    return [*named, *_leaves_far_less(found, claims)]
+
+
+def _leaves_far_less(found: Diagnosis, claims: Sequence[Candidate]) -> list[Candidate]:
+    """Whoever reads the table would add it instead: of what no claim is said to be, the one of the least error."""
+    if not claims:
+        return []
+    least = min((c.rmse_um_after for c in claims if c.rmse_um_after is not None), default=0.0)
+    known = {name for c in (*claims, *refinements_of(found)) for name in (c.id, *c.equivalent)}
+    others = [c for c in found.candidates if c.rmse_um_after is not None and c.id not in known]
+    first = min(others, key=lambda c: c.rmse_um_after or 0.0, default=None)
+    return [first] if first is not None and (first.rmse_um_after or 0.0) < FAR_LESS * least else []
 
 
 def named(one: Candidate) -> str:
@@ -104,14 +119,18 @@ def _verdict(found: Diagnosis) -> str:
         return "; ".join(
             filter(
                 None,
-                ["the open tests show no missing cause", f"{beside}, {_left_out(refined, found.rmse_um)}", open_still],
+                [
+                    NO_MORE,
+                    f"{beside}, {_left_out(refined, found.rmse_um)}",
+                    open_still,
+                ],
             )
         )
     if found.verdict == "none":
         return "; ".join(filter(None, [f"the open tests show no missing effect: {left_over(found)}", open_still]))
     return {
         "effect": "missing: an effect that the data point to",
-        "refine": "the open tests show no missing cause, but an effect that is there acts otherwise than modelled",
+        "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
 
@@ -254,13 +273,17 @@ def _is_refused(one: Candidate) -> bool:
 
 
 def in_parts(found: Diagnosis) -> str:
-    """'2 open tests are too few to leave one out, so 4 parts of them are left out in turn'; '' where tests are."""
+    """'2 open tests are too few to leave one out, so 4 parts of them are, each with a level of its own: ...'; '' where
+    tests are."""
     parts = next((c.left_out for c in found.candidates if c.left_out), [])
     tests = len({(p.campaign, p.test) for p in parts})
     if tests == len(parts):
         return ""
     few = "1 open test is" if tests == 1 else f"{tests} open tests are"
-    return f"{few} too few to leave one out, so {len(parts)} parts of {'it' if tests == 1 else 'them'} are"
+    return (
+        f"{few} too few to leave one out, so {len(parts)} parts of {'it' if tests == 1 else 'them'} are, each with a "
+        "level of its own: how a course goes on within hours, not how far a whole test drifts"
+    )
 
 
 def explainable(found: Diagnosis) -> str:

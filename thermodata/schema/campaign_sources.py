@@ -49,10 +49,13 @@ class TimeColumn(Strict):
 class TableLayout(Strict):
     """`sources.*.table`: how a table lies on its page. What is not said is found in its first rows.
 
-    sheet: of a workbook: counted from 1, or its name; with {test} in it each test is a sheet
+    sheet: of a workbook, or the group of a TDMS or MDF file: counted from 1, or its name; of a MAT file a variable;
+        with {test} in it each test is a sheet; refused where the files have none
     header_rows: rows with names, above the data
     units_row: the row that holds the units, counted from 1
     skip_rows: rows above the header
+    names: of all columns, the time among them, for files without a header: [time, T_bed, "dZ [um]"]; a file with a
+        header has its own
     time: its time column, or a list where columns have times of their own
     delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
@@ -66,7 +69,10 @@ class TableLayout(Strict):
     time: TimeColumn | list[TimeColumn] | None = None
     delimiter: str | None = None
     decimal: Literal[".", ",", "unknown"] | None = None
-    # left out where it is not declared: raw data is kept by what its source declares
+    # left out where they are not declared: raw data is kept by what its source declares
+    names: Annotated[list[str], Field(min_length=1)] | None = Field(
+        default=None, exclude_if=lambda names: names is None
+    )
     series: Literal["none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
         default=None, exclude_if=lambda series: series is None
     )

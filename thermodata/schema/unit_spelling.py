@@ -21,6 +21,9 @@ UNIT_SPELLING: dict[str, str] = {
     "rev/min": "rpm",
     "r/min": "rpm",
     "rpm": "rpm",
+    "r.p.m.": "rpm",
+    "r.p.m": "rpm",
+    "krpm": "krpm",
     "upm": "rpm",
     "tr/min": "rpm",
     "/min": "rpm",
@@ -159,9 +162,14 @@ UNIT_SPELLING: dict[str, str] = {
 
 # in these the case of a letter counts: PS is a horse's power, ps a time
 _IN_THIS_CASE = {"PS": "metric_horsepower", "CV": "metric_horsepower"}
-_TURN = r"(?:u|umdr|rev|revs|r|tr|tours?|giri|rot|obr|ot|turns?)\.?"
-_TIME = r"(?P<time>ms|s|sec|sek|min|h|hr|d)"
-_TURNS_PER = re.compile(rf"(?P<kilo>k?){_TURN}/{_TIME}", re.IGNORECASE)
+# turns and minutes as the languages of labs write them: varv/min, omw/min, dev/dk, об/мин, 转/分
+_TURN = (
+    r"(?:u|umdr|rev|revs|revoluciones|vueltas?|r|tr|tours?|giri|rot|rotações|obr|obrotów|ot|otáč(?:ek|ky)|otac(?:ek|ky)|o|"
+    r"omdr|omw|toeren|varv|kierr|dev|devir|ford|fordulat|obrt|vrt|об|оборотов|转|轉|回転|turns?)\.?"
+)
+_MINUTES = ("mn", "dk", "dak", "perc", "мин", "分")
+_TIME = rf"(?P<time>ms|s|sec|sek|秒|min|{'|'.join(_MINUTES)}|h|hr|d)"
+_TURNS_PER = re.compile(rf"(?P<kilo>k?){_TURN}/{_TIME}\.?", re.IGNORECASE)
 _PER_TIME = re.compile(rf"1?/{_TIME}")
 _PER_TIME_RAISED = re.compile(r"(?P<time>s|min|h|d)(?:(?:\^|\*\*)?-1|⁻¹)")
 _PER_TURN = re.compile(rf"(?P<length>mm|um|μm|in|inch)/{_TURN}", re.IGNORECASE)
@@ -218,7 +226,15 @@ def spelled(text: str) -> str | None:
 
 
 def _time(written: str) -> str:
-    return {"s": "second", "sec": "second", "sek": "second", "hr": "h"}.get(written.lower(), written.lower())
+    known = {
+        "s": "second",
+        "sec": "second",
+        "sek": "second",
+        "秒": "second",
+        "hr": "h",
+        **dict.fromkeys(_MINUTES, "min"),
+    }
+    return known.get(written.lower(), written.lower())
 
 
 def spellings() -> dict[str, tuple[str, ...]]:

@@ -8,10 +8,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from thermodata.calibration.measuring import measuring_names
-from thermodata.errors import ThermodataError
 from thermodata.schema.campaign import Measuring
-from thermodata.schema.quantity import linear_conversion, split_value
 from thermodata.store.catalogue.conditions import plain_value
+from thermodata.store.tidy.finer_steps import resolution_in
 from thermodata.store.views.catalogue import SCHEDULE
 from thermodata.view.dataset import ChannelInfo
 from thermodata.view.flagged import flagged_channels
@@ -94,7 +93,7 @@ def channel_infos(
             relative_to,
             None if source == SCHEDULE else source,
             sign,
-            _resolution(resolution, unit, raw_unit),
+            resolution_in(unit, resolution, raw_unit),
             clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
             is_mask=quantity == "state" and at is None and name in masks.get((campaign, test), frozenset()),
         )
@@ -134,18 +133,6 @@ def _declared_clocks(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -
         for test in spec.get("tests") or ():
             found |= {(campaign, test["id"], name) for name in _json(test.get("clocks"))}
     return found
-
-
-def _resolution(text: Any, unit: str, raw_unit: str | None) -> float | None:
-    """A sensor's resolution in the channel's unit, or None where that takes a calibration."""
-    if text is None:
-        return None
-    try:
-        number, written = split_value(text)
-        factor, _ = linear_conversion(written or raw_unit or unit, unit)
-    except ThermodataError:
-        return None
-    return abs(factor * number)
 
 
 def _json(text: Any) -> dict[str, Any]:

@@ -93,6 +93,23 @@ def test_preamble_group_row_and_declared_layout(tmp_path: Path) -> None:
     np.testing.assert_array_equal(found.t_ns["table"], [0, 1800 * S])
 
 
+def test_declared_names_are_those_of_files_without_a_header(tmp_path: Path) -> None:
+    names = ["t [min]", "T", "dZ [um]"]
+    found = read(tmp_path, "0,20.5,1.5\n1,20.6,2.5\n2,20.7,3.5\n", names=names)
+    assert [(s.name, s.unit) for s in found.recording.signals] == [("T", None), ("dZ [um]", "um")]
+    np.testing.assert_array_equal(found.t_ns["table"], [0, 60 * S, 120 * S])
+    own = read(tmp_path, "t [s],a,b\n0,20.5,1.5\n1,20.6,2.5\n2,20.7,3.5\n", names=names)
+    assert [s.name for s in own.recording.signals] == ["a", "b"]
+    np.testing.assert_array_equal(own.t_ns["table"], [0, S, 2 * S])
+
+
+@pytest.mark.parametrize("row", ["20.5", "20.5,1.5,7"])
+def test_declared_names_have_to_be_of_all_columns(tmp_path: Path, row: str) -> None:
+    with pytest.raises(FormatError, match="other columns than are declared") as refused:
+        read(tmp_path, "".join(f"{k},{row}\n" for k in range(5)), names=["t [min]", "T", "dZ [um]"])
+    assert refused.value.got == f"{row.count(',') + 2} columns"
+
+
 def test_text_columns_empty_cells_and_words_among_numbers(tmp_path: Path) -> None:
     text = "time [s];T [degC];note;door\n0;20,5;start;TRUE\n1;;ok;FALSE\n2;broken;ok;TRUE\n3;20,8;;TRUE\n4;20,9;;TRUE\n"
     data = read(tmp_path, text)

@@ -204,18 +204,14 @@ def _long(path: Path, *, melted: bool, names: tuple[str, str] = ("name", "value"
 
 
 @pytest.mark.parametrize("melted", [True, False])
-def test_a_long_table_is_refused_with_what_to_do(tmp_path: Path, melted: bool) -> None:
-    with pytest.raises(FormatError, match="a long table: each row names what it measures") as caught:
-        Reader().describe(_long(tmp_path / "a.parquet", melted=melted), Source())
-    assert "'name' holds T_bearing, speed" in str(caught.value)
-    assert "pivot" in str(caught.value)
-    assert "cnc" not in str(caught.value), "which reads no Parquet"
-
-
-def test_a_long_table_of_other_heads_is_refused_by_its_rows(tmp_path: Path) -> None:
-    path = _long(tmp_path / "a.parquet", melted=False, names=("which", "reads"))
-    with pytest.raises(FormatError, match="a long table"):
-        Reader().describe(path, Source())
+@pytest.mark.parametrize("names", [("name", "value"), ("tag", "reads")])
+def test_a_long_table_is_taken_apart(tmp_path: Path, melted: bool, names: tuple[str, str]) -> None:
+    path = _long(tmp_path / "a.parquet", melted=melted, names=names)
+    found = [s.name for s in Reader().describe(path, Source()).signals]
+    if melted and names[1] == "reads":  # nothing in its first rows says that it is one
+        assert found == ["tag", "reads"]
+    else:
+        assert found == [f"T_bearing/{names[1]}", f"speed/{names[1]}"]
 
 
 def test_a_table_with_a_label_is_none(tmp_path: Path) -> None:

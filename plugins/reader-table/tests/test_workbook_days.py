@@ -59,3 +59,31 @@ def test_a_start_that_may_be_of_two_days_is_asked(tmp_path: Path) -> None:
     assert any("whose day and month may be either way round" in n for n in found.notes)
     assert read(tmp_path, rows, time={"start": "dmy"}).t_ns["table"][0] == T0
     assert read(tmp_path, rows, time={"start": "none"}).recording.clock == "relative"
+
+
+@pytest.mark.parametrize("styles", [(PLAIN,), (DATE, PLAIN, PLAIN)])
+def test_a_half_of_the_day_in_a_cell_of_its_own_is_part_of_the_time(tmp_path: Path, styles: tuple[int, ...]) -> None:
+    day: Any = "2026-03-02" if len(styles) == 1 else DAY
+    rows: list[list[Any]] = [["Date", "Time", "AM/PM", "T1 [degC]"]]
+    rows += [[day, f"9:{i:02d}:00", "PM" if i != 7 else None, 20.5 + i] for i in range(40)]
+    data = read(tmp_path, rows, styles)
+    assert data.t_ns["table"].tolist() == [T0 + i * MINUTE for i in range(40) if i != 7]
+    assert list(data.values) == [("table", "T1 [degC]")]
+    assert [loss.reason for loss in data.losses] == ["1 row without a time"]
+
+
+@pytest.mark.parametrize(("units", "rows"), [(["", "degC", "mm"], 60), (["", "degC", "um"], 30)])
+def test_other_units_below_a_repeated_header_end_the_sheet(tmp_path: Path, units: list[str], rows: int) -> None:
+    head: list[list[Any]] = [["Time", "T1", "dZ"], ["", "degC", "mm"]]
+    parts = [[[f"2026-03-02 {h}:{i:02d}:00", 20.5 + i, 0.1 * i] for i in range(30)] for h in (21, 22)]
+    data = read(tmp_path, [*head, *parts[0], head[0], units, *parts[1]])
+    assert data.t_ns["table"].size == rows
+    told = [loss.reason for loss in data.losses if "other units begin here" in loss.reason]
+    assert [("'dZ' in um, in mm before" in t) for t in told] == [True] * (rows == 30)
+
+
+def test_hours_and_minutes_beside_a_date_are_its_time_of_day(tmp_path: Path) -> None:
+    rows: list[list[Any]] = [["Date", "Hour", "Minute", "T1 [degC]"]]
+    rows += [[DAY, 21 + i // 60, i % 60, 20.5 + i] for i in range(90)]
+    data = read(tmp_path, rows, (DATE, PLAIN, PLAIN, PLAIN))
+    assert data.t_ns["table"].tolist() == [T0 + i * MINUTE for i in range(90)]

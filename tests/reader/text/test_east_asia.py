@@ -107,6 +107,17 @@ def test_text_of_europe_is_none_of_east_asia(text: str, encoding: str) -> None:
     assert east_asian((text + _ROWS).encode(encoding)) is None
 
 
+@pytest.mark.parametrize("encoding", ["cp932", "euc-jp"])
+def test_a_head_of_a_japanese_logger_tells_by_its_own_words(encoding: str) -> None:
+    head = "ベンダー,グラフテック\nモデル,GL840\nバージョン,Ver1.30\nサンプリング間隔,5s\n総データ点数,720\n"
+    more = "開始時刻,2026/02/12,11:00:00\nトリガ時刻,\n"
+    more += "CH,信号名,入力,レンジ,フィルタ,スパン\n番号,日付 時刻,ms,CH1,アラーム1\n"
+    for text in (head, head + more):
+        told = east_asian((text + _ROWS).encode(encoding))
+        assert told is not None
+        assert told[0] == encoding
+
+
 def test_what_shift_jis_lacks_is_answered_with_cp932(tmp_path: Path) -> None:
     data = (_JAPANESE[0] + _ROWS).encode("cp932")
     with pytest.raises(FormatError, match="does not decode") as error:

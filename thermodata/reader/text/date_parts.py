@@ -16,6 +16,7 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text import time_pattern, timestamp
 from thermodata.reader.text.cell import Cell, is_clocked, mostly, number_of
+from thermodata.reader.text.clock_numbers import days_of_years
 from thermodata.reader.text.clock_pattern import HALF
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.number import text_array
@@ -130,6 +131,11 @@ def declared_parts(declared: str | None, columns: int) -> tuple[TimeFormat, ...]
     """The formats of the columns of a date in parts: that of all parts, and `PART` for the others; () where a declared
     format is none of parts, or has more of them than there are columns."""
     pieces = (declared or "").split()
+    if len(pieces) == columns > 1 and (reads := days_of_years(pieces)) is not None:
+        form = TimeFormat(
+            "datetime", None, f"{declared} in {columns} columns", zoned=False, columns=columns, reads=reads
+        )
+        return (form, *[PART] * (columns - 1))
     letters = [p[1:] for p in pieces if p[:1] == "%" and p[1:] in _PIECES]
     if len(letters) != len(pieces) or len(pieces) < 3 or len(pieces) > columns or columns == 1:
         return ()

@@ -104,15 +104,15 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     reader = RowReader(table, Source(table=source.table), 1)
     data = "\n".join((*last, "")).encode()
     ends = [int(b.t_ns[-1]) for b in reader.read(Chunk(data, 0, 0, False)) if isinstance(b, Block)]
-    offsets = {utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends]))}
+    before, after = (utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends])))
     notes = []
-    if table.zone is not None and offsets != {utc_offset_ns(table.zone[0], start // 10**9)}:
+    if table.zone is not None and {before, after} != {utc_offset_ns(table.zone[0], start // 10**9)}:
         notes.append(f"the line above the rows says '{table.zone[1][:60]}'; the declared {source.timezone} is used")
-    if len(offsets) > 1:
-        notes.append(
-            f"daylight saving of {source.timezone} changes in this file; rows of a repeated hour are told apart by "
-            "their order"
+    if before != after:
+        how = (
+            "rows of the repeated hour are told apart by their order" if after < before else "it skips an hour, no row"
         )
+        notes.append(f"daylight saving of {source.timezone} changes in this file; {how}")
     return notes
 
 

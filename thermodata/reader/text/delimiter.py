@@ -8,6 +8,8 @@ from collections import Counter
 from collections.abc import Sequence
 
 from thermodata.reader.text.cell import is_number, is_stamp
+from thermodata.reader.text.clock_pattern import is_half
+from thermodata.reader.text.zone_words import is_zone
 
 DELIMITERS = (";", "\t", ",", "|")
 BLANKS = " "  # as many as there are, tabs among them: columns that stand below each other
@@ -15,6 +17,8 @@ _WORDS = {"tab": "\t", "\\t": "\t", "semicolon": ";", "comma": ",", "space": BLA
 _LOOKED_AT = 500
 _BETWEEN = re.compile(r"[ \t]+(?![\[(])")  # a unit in brackets belongs to the name before it
 _BETWEEN_BYTES = re.compile(rb"[ \t]+(?![\[(])")
+# a cell in quotes keeps its blanks; '2" probe' is none
+_QUOTED = re.compile(r'(?<![^ \t])"[^"\t]*"(?![^ \t\r])|[ \t]+(?![\[(])')
 _MARGINS = re.compile(rb"^[ \t]+|[ \t]+(?=\r?$)", re.MULTILINE)
 _NUMBERS, _ALIKE = 0.8, 0.9  # of the cells of a table that blanks part, and of its lines
 
@@ -22,6 +26,11 @@ _NUMBERS, _ALIKE = 0.8, 0.9  # of the cells of a table that blanks part, and of 
 def declared(delimiter: str) -> str:
     """The delimiter that a campaign file names: itself, or one of the words tab, semicolon, comma, blanks."""
     return _WORDS.get(delimiter, delimiter)
+
+
+def shown(delimiter: str, blanks: bool) -> str:
+    """A delimiter as messages show it. blanks: any number of them stands for it."""
+    return "blanks" if blanks else {",": "','", "\t": "a tab"}.get(delimiter, f"'{delimiter}'")
 
 
 def fields(line: str, delimiter: str, quoted: bool = True) -> list[str]:
@@ -36,12 +45,20 @@ def fields(line: str, delimiter: str, quoted: bool = True) -> list[str]:
 
 def parted(line: str) -> str:
     """A line whose cells blanks part, with a tab between them."""
-    return _BETWEEN.sub("\t", line.strip(" \t"))
+    bare = line.strip(" \t")
+    if '"' not in bare:
+        return _BETWEEN.sub("\t", bare)
+    return _QUOTED.sub(lambda found: found[0] if found[0][0] == '"' else "\t", bare)
 
 
 def parted_bytes(data: bytes) -> bytes:
     """The same of whole lines in UTF-8, which keep their ends and their number."""
-    return _BETWEEN_BYTES.sub(b"\t", _MARGINS.sub(b"", data))
+    bare = _MARGINS.sub(b"", data)
+    if b'"' not in bare:
+        return _BETWEEN_BYTES.sub(b"\t", bare)
+    return "\n".join(map(parted, bare.decode("utf-8", "surrogateescape").split("\n"))).encode(
+        "utf-8", "surrogateescape"
+    )
 
 
 def find_delimiter(lines: Sequence[str]) -> str | None:
@@ -68,7 +85,7 @@ def find_delimiter(lines: Sequence[str]) -> str | None:
 
 def _blanks_part(body: Sequence[str], commas: bool) -> bool:
     """Whether blanks stand between the cells of lines. commas: beside commas, which are decimal marks then."""
-    rows = [line.split() for line in body[-100:]]
+    rows = [[c.strip('"') for c in parted(line).split("\t")] for line in body[-100:]]
     common, many = Counter(map(len, rows)).most_common(1)[0] if rows else (0, 0)
     if common < 2 or many < _ALIKE * len(rows):
         return False
@@ -76,5 +93,5 @@ def _blanks_part(body: Sequence[str], commas: bool) -> bool:
     # '2025-10-25 22:00:00,0': a comma after a time of day parts it from a value, more often than it begins a fraction
     if commas and not all(is_number(c) for c in cells if "," in c):
         return False
-    told = sum(is_number(c) or is_stamp(c) for c in cells)
+    told = sum(is_number(c) or is_stamp(c) or is_half(c) or is_zone(c) for c in cells)
     return told >= (1.0 if commas else _NUMBERS) * len(cells)

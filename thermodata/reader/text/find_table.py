@@ -24,7 +24,6 @@ from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
-from thermodata.reader.text.short_header import refuse_short_header
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells
@@ -78,17 +77,15 @@ def _kept(asked: _Asked) -> Table:
             expected="a table",
             got=repr(first.head[0][:60]) if first.head else "nothing",
         )
-    table = find_table(head, first, source, path.name, asked.stream)
-    numbered = (
-        bool(table.layout.names) and table.layout.names[0] == "column 1"
-    )  # of rows, which their header leaves out
-    if (source.table or {}).get("header_rows") is None and not (table.blanks or numbered):
-        refuse_short_header(head, table.layout.first, len(table.layout.names), table.delimiter, table.quoted, path.name)
-    return with_series(table, source)
+    return with_series(find_table(head, first, source, path.name, asked.stream, strict=True), source)
 
 
-def find_table(head: Sequence[str], first: Sample, source: Source, where: str, stream: str) -> Table:
-    """The table in a file's first lines. first: all that was sampled of the file."""
+def find_table(
+    head: Sequence[str], first: Sample, source: Source, where: str, stream: str, strict: bool = False
+) -> Table:
+    """The table in a file's first lines. first: all that was sampled of the file; strict: not where its header has
+    another number of cells than its rows, and nothing tells which names which (whose file it is does not hang on
+    that)."""
     if not any(line.strip() for line in head):
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
     refuse_foreign(head, where)
@@ -124,7 +121,7 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
     rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
-    layout = find(rows, said, where)
+    layout = find(rows, said, where, delimiters.shown(delimiter, blanks) if strict else None)
     width = len(layout.names)
     # lines of a header were joined, rows are not
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
@@ -154,10 +151,10 @@ def find_table(head: Sequence[str], first: Sample, source: Source, where: str, s
             kinds.append(dtype_of(column, name, unit))
     if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
-    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
-        refuse_units_in_cells(
-            [c for i, name in enumerate(layout.names) if i not in times for c in cells_of[name]], where
-        )
+    words = [i for i, kind in enumerate(kinds) if kind == "str" and i not in times]
+    if strict or not any(kind and i not in times and i not in words for i, kind in enumerate(kinds)):
+        for name in (layout.names[i] for i in words if layout.names[i] not in forced):
+            refuse_units_in_cells(cells_of[name], where, name)
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
     if declared == UNKNOWN:
@@ -288,7 +285,8 @@ def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
 
 
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
-    names = [n for n, kind in zip(layout.names, kinds, strict=True) if kind is not None]
+    times = set(layout.time)
+    names = [n for i, (n, kind) in enumerate(zip(layout.names, kinds, strict=True)) if kind and i not in times]
     if any(n.startswith("column ") for n in names):
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):

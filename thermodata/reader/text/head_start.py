@@ -16,6 +16,7 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_formats import find_format
 from thermodata.reader.text.time_pattern import DAY_NS, TIME_OF_DAY
+from thermodata.reader.text.zone_places import without_places
 from thermodata.reader.zone import NAT
 
 ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
@@ -125,6 +126,7 @@ def _split(cell: str) -> tuple[str, str]:
 
 def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
     """A text as a moment; None where it is none."""
+    text = without_places(text)
     clock = timestamp.parse_one(text, time_pattern.with_zone(TIME_OF_DAY, False))
     if clock != NAT:
         return Moment(says, line, None, clock)

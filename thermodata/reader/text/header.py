@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import pairwise
 
-from thermodata.reader.text.cell import TIME_WORD, Cell, is_stamp
 from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import bare_unit, plain_letters, spelled
 
@@ -101,20 +99,6 @@ def _unit_within(header: str) -> tuple[str, str | None]:
     if match is not None and looks_like_unit(match["unit"]):
         return f"{match['before']} {match['behind']}", match["unit"].strip()
     return header, None
-
-
-def numbered_rows(header: Sequence[Cell], heads: Sequence[str], data: Sequence[Sequence[Cell]]) -> bool:
-    """Whether rows begin with their number, which the header leaves out (R writes so): it has a cell less than they,
-    they count from row to row, and dates stand one column behind the word for them."""
-    if len(header) != len(heads) - 1:
-        return False
-    firsts = [str(r[0]) for r in data]
-    counted = all(f.isdecimal() for f in firsts) and all(int(b) - int(a) == 1 for a, b in pairwise(firsts))
-    stamped = [bool(data) and all(is_stamp(r[i]) for r in data) for i in range(len(heads))]
-    return counted and any(
-        TIME_WORD.match(split_unit(heads[i])[0]) is not None and stamped[i + 1] and not stamped[i]
-        for i in range(len(heads) - 1)
-    )
 
 
 def unique(names: Sequence[str]) -> list[str]:

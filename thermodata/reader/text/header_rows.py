@@ -29,6 +29,18 @@ def names_and_units(
 ) -> tuple[list[str], list[str | None], list[str]]:
     """Names, units, and heads of groups over the names, '' where there is none, from the rows before the data; rows
     that do not span the table are preamble."""
+    return _read(rows, width, units_row)[:3]
+
+
+def place_of_names(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None = None) -> int | None:
+    """Which of the rows before the data that of the names is; None where none is."""
+    return _read([r[:width] for r in rows], width, units_row)[3]
+
+
+def _read(
+    rows: Sequence[Sequence[Cell]], width: int, units_row: int | None
+) -> tuple[list[str], list[str | None], list[str], int | None]:
+    """Names, units, heads of groups, and the place of the names."""
     texts = [_texts(r, width) for r in rows]
     units: list[str | None] = [None] * width
     if units_row is None:
@@ -51,7 +63,10 @@ def names_and_units(
     if named is not None:
         spanning = spanning[: named + 1]
     names = spanning[-1] if spanning else [""] * width
-    at = next((i for i in range(len(texts) - 1, 0, -1) if texts[i] is names), 0)
+    place = next((i for i in range(len(texts) - 1, -1, -1) if texts[i] is names), None)
+    at = place or 0
+    if place is not None and len(texts) < len(rows) and units_row is not None and place >= units_row:
+        place += 1
     if at:
         names = _with_units_below(texts[at - 1], names)
     over = [""] * width
@@ -61,7 +76,7 @@ def names_and_units(
         over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
         names = _of_channels(texts[: at - 1], names)
         found = [own or split_unit(n)[1] or head for own, n, head in zip(found, names, of_heads, strict=True)]
-    return names, [u or f for u, f in zip(units, found, strict=True)], over
+    return names, [u or f for u, f in zip(units, found, strict=True)], over, place
 
 
 def texts_of(row: Sequence[Cell]) -> list[str]:
@@ -116,7 +131,7 @@ def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Seque
     what the sensors are. above: what is merged with the row below it."""
     merged = [n or a for n, a in zip(row, above, strict=True)] if above else row
     times = _times_among(merged)
-    unnamed = not any(_says_time(r[k]) for r in below[1:] for k in times)
+    unnamed = not any(says_time(r[k]) for r in below[1:] for k in times)
     return bool(times) and not mostly_units(row) and of_units(below[0], times) and unnamed
 
 
@@ -124,7 +139,7 @@ def _times_among(row: Sequence[str]) -> list[int]:
     """Which cells of a row that names every column say time; none of another row."""
     if not all(row) or len(set(row)) < len(row) or any(is_number(c) or is_stamp(c) for c in row):
         return []
-    return [k for k, c in enumerate(row) if _says_time(c)]
+    return [k for k, c in enumerate(row) if says_time(c)]
 
 
 def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
@@ -134,7 +149,7 @@ def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
     if all(map(STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
         return True
     said = [row[k] for k in times if row[k]]
-    return bool(said) and not _is_label(row[0]) and not any(map(_says_time, said))
+    return bool(said) and not _is_label(row[0]) and not any(map(says_time, said))
 
 
 def _is_label(cell: str) -> bool:
@@ -142,7 +157,7 @@ def _is_label(cell: str) -> bool:
     return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
 
 
-def _says_time(cell: str) -> bool:
+def says_time(cell: str) -> bool:
     """Whether a cell is a word for time, or begins with one: 'Zeit  1 - Standard [s]', 'Date Time, GMT+01:00'."""
     first = _FIRST_WORD.match(cell)
     word = split_unit(cell)[0]
@@ -236,7 +251,7 @@ def _units_of_heads(above: Sequence[str], names: Sequence[str]) -> list[str | No
     """The unit that the head of its group says of each name, but for a time's: 'T_front (DEG F)' over 'Timestamp' and
     'Value'."""
     heads = _heads_over(above, names)
-    return [None if _says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
+    return [None if says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
 
 
 def _under(above: list[str], names: list[str]) -> list[str]:
@@ -272,7 +287,7 @@ def _of_channels(rows: Sequence[Sequence[str]], names: list[str]) -> list[str]:
         # a channel begins over any value, also one whose own name does not repeat; over the time stands what the row,
         # or the sheet, is called
         channel = ""
-        said = [c if n and not _says_time(n) else "" for c, n in zip(row, names, strict=False)]
+        said = [c if n and not says_time(n) else "" for c, n in zip(row, names, strict=False)]
         channels = [channel := c or channel for c in said]
         of = {k: f"{channels[k]}/{names[k]}" if channels[k] else "" for k in again}
         if all(of.values()) and len(set(of.values())) == len(again):

@@ -7,13 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from thermodata.errors import FormatError, UsageError
+from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.first_data import first_data, width_of
-from thermodata.reader.text.header import numbered_rows, unique
+from thermodata.reader.text.head_interval import with_interval
+from thermodata.reader.text.header import split_unit, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
+from thermodata.reader.text.line_up import Fit, line_up, refuse_misfit
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -48,7 +50,8 @@ class Group:
 class Layout:
     """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
     blanks around it. groups: one, or several where columns have times of their own. over: the head that stands over
-    several names, '' where there is none; described: what the file says of each column elsewhere, '' for nothing."""
+    several names, '' where there is none; described: what the file says of each column elsewhere, '' for nothing; fit:
+    how the cells of the header were put over the columns, None where they stood there."""
 
     first: int
     names: tuple[str, ...]
@@ -57,6 +60,7 @@ class Layout:
     notes: tuple[str, ...] = ()
     over: tuple[str, ...] = ()
     described: tuple[str, ...] = ()
+    fit: Fit | None = None
 
     def said_of(self, column: int) -> dict[str, str]:
         """The properties of a signal: the head of the group that it stands in, and what the file says of it."""
@@ -80,16 +84,18 @@ class Layout:
         return next(g.stream for g in self.groups if column in g.columns)
 
 
-def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str) -> Layout:
-    """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`.
+def find(
+    rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, where: str, between: str | None = None
+) -> Layout:
+    """The layout of a table from its first rows (some hundred suffice). declared: the campaign file's `table`; between:
+    what parts the cells of a text, as messages show it, where a header of another number of cells is refused.
 
     FormatError where no data, or no time column, can be found.
     """
     said = {k: v for k, v in (declared or {}).items() if v is not None}
     skip = int(said.get("skip_rows", 0))
-    body = list(rows[skip:])
-    width = width_of(body)
-    body = [r[:width] for r in body]
+    width = width_of(rows[skip:])
+    body = [r[:width] for r in rows[skip:]]
     header = said.get("header_rows")
     if header is None:
         first = first_data(body, width, where)
@@ -103,20 +109,40 @@ def find(rows: Sequence[Sequence[Cell]], declared: Mapping[str, Any] | None, whe
     if units_row is not None and header is not None and int(units_row) > first:
         first = int(units_row)
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
-    heads, units, over = names_and_units([r[:width] for r in rows[skip:first]], width, row_of_units)
+    below = rows[first : first + 200]
+    above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
+    if between is not None and header is None:
+        refuse_misfit(above, below, width, row_of_units, skip, between, where)
+    heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
+    if said.get("names") is not None and not any(heads):
+        heads = _declared_names(said["names"], width, where)
+        units = [split_unit(name)[1] for name in heads]
     names = unique(heads)
-    described, listed = descriptions([texts_of(r) for r in rows[skip:first]], heads)
+    described, listed = descriptions([texts_of(r) for r in above], heads)
     units = [u or v for u, v in zip(units, listed, strict=True)]
-    data = _whole_rows(rows[first : first + 200], width)
+    data = _whole_rows(below, width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    lost = lines_between(rows[skip:first], width, skip) if header is None else []
-    if header is None and first > skip and numbered_rows(rows[first - 1], heads, data):
-        names, units, over = unique(["", *heads[:-1]]), [None, *units[:-1]], ["", *over[:-1]]
-        described = ["", *described[:-1]]
-        lost = [*lost, "the header names one column fewer than there are: the first holds the numbers of the rows"]
-    groups, notes = _groups(said.get("time") or {}, names, units, data, where)
-    return Layout(first, tuple(names), tuple(units), tuple(groups), (*notes, *lost), tuple(over), tuple(described))
+    lost = lines_between(above, width, skip) if header is None else []
+    try:
+        groups, notes = _groups(said.get("time") or {}, names, units, data, where)
+    except QuestionError as question:
+        raise with_interval(question, map(texts_of, above)) from None
+    noted = (*notes, *lost, *([fit.note] if fit and fit.note else []))
+    return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
+
+
+def _declared_names(names: Sequence[str], width: int, where: str) -> list[str]:
+    """What the columns of a file without a header are called."""
+    if len(names) != width:
+        raise FormatError(
+            "a file without a header has other columns than are declared",
+            where=where,
+            expected=f"{len(names)} columns: {', '.join(names)}",
+            got=f"{width} columns",
+            hint="a source of its own for it, with table: {names: [...]} that names each of its columns",
+        )
+    return list(names)
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

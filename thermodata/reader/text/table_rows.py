@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.another_header import another_header
 from thermodata.reader.text.arrow import values
 from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import column_times
@@ -46,7 +47,8 @@ class RowReader:
 
     def __init__(self, table: Table, source: Source, size: int) -> None:
         self.table = table
-        self.losses = Losses(table.name, max(size, 1))
+        qualities = {quality: name for name, (quality, _) in table.quality.items()}
+        self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
         self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
@@ -113,28 +115,19 @@ class RowReader:
     def _until_another_header(
         self, rows: Rows, told: list[_Complaint], data: bytes, line: int
     ) -> tuple[Rows, list[_Complaint]]:
-        """The rows before one that names the columns anew, in another order: what follows it is another table."""
-        clock = self.clocks[0]
-        suspects = rows.line[clock.times(rows, peek=True) == NAT].tolist()
+        """The rows before a line that names the columns anew, or their units: what follows it is another table."""
+        suspects = {*rows.line[self.clocks[0].times(rows, peek=True) == NAT].tolist(), *(b.line for b in rows.bad)}
         if not suspects:
             return rows, told
         lines = data.split(b"\n")
-        for number in suspects:
-            text = lines[number - line].decode("utf-8", "replace").strip("\r")
-            cells = [clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)]
-            names = self.table.layout.names
-            if self.table.repeats_header(text) or not all(
-                i < len(cells) and cells[i] == names[i] for i in clock.timed.group.time
-            ):
-                continue
-            self.stopped = True
-            reason = f"another header begins here, nothing after it is read: '{text[:120]}'; split the file there"
-            rows = rows.before(number)
-            return rows, [
-                *(t for t in told if t.line < number),
-                _Complaint(number, reason, self._left(data, lines[: number - line])),
-            ]
-        return rows, told
+        texts = ((n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects))
+        found = another_header(self.table, texts)
+        if found is None:
+            return rows, told
+        self.stopped = True
+        number, reason = found
+        size = self._left(data, lines[: number - line])
+        return rows.before(number), [*(t for t in told if t.line < number), _Complaint(number, reason, size)]
 
     def _left(self, data: bytes, before: Sequence[bytes]) -> int:
         """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""

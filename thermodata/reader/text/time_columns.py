@@ -7,15 +7,17 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from thermodata.errors import FormatError, QuestionError, UsageError, nearest
+from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.clock_numbers import columns_of_clock, fraction_question
 from thermodata.reader.text.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.clock_words import said_clock
 from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.spans import are_spans
+from thermodata.reader.text.time_cells import part_question, with_parts, zoned_beside
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -78,8 +80,9 @@ def time_of(
             if asked is not None:
                 raise asked
             if parts is not None:
-                shown = ", ".join(f"'{names[i]}'" for i in parts[0])
-                return parts[0], None, parts[1], [f"the time stands in {len(parts[0])} columns: {shown}"]
+                every = with_parts(parts[0], names, data)
+                shown = ", ".join(f"'{names[i]}'" for i in every)
+                return every, None, parts[1], [f"the time stands in {len(every)} columns: {shown}"]
         try:
             columns = find_time(names, units, data, where, likely)
         except FormatError:
@@ -91,11 +94,16 @@ def time_of(
                     raise
                 raise question from None
             columns = (worded[0],)
-        asked = None
+        open_part: ThermodataError | None = None
         if not told and not likely:
-            asked = joined_question(columns, names, data, where) or clock_question(columns, names, data, where)
-        if asked is not None:
-            raise asked
+            open_part = (
+                joined_question(columns, names, data, where)
+                or clock_question(columns, names, data, where)
+                or part_question(columns, names, data, where)
+                or _fraction_beside(columns, names, data, where)
+            )
+        if open_part is not None:
+            raise open_part
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes: list[str] = []
@@ -106,6 +114,8 @@ def time_of(
         return columns, None, form, notes
     text = unit or units[columns[0]] or unit_of_time(name)
     if text is None:
+        if (fraction := fraction_question(columns[0], names, data, where)) is not None:
+            raise fraction
         text = size_of_clock(name, cells, where)
         notes.append(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
@@ -147,13 +157,19 @@ def find_time(
         standing = set()
     dates = [i for i in dates if i not in standing]
     if dates:
-        first = next((i for i in dates if i in words), dates[0])
+        of_hours = [i for i in dates if _tell_the_hour(filled[i])]
+        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, filled)
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
-        found = (first,) if has_clock or not clocks else (first, clocks[0])
+        found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
+        if not clocks and not _tell_the_hour(filled[first]):
+            found = (first, *columns_of_clock(first, names, data))
+        whole = with_parts(found, names, data)
+        if whole != found:
+            return whole
         return (*found, *_parts_of_a_second(found[-1] + 1, names, [r[found[-1]] for r in data], data))
     if clocks:
-        return (clocks[0],)
+        return with_parts((clocks[0],), names, data)
     if numbers:
         # a "t" may be many things beside a column that is called time
         return (min(numbers, key=lambda i: split_unit(names[i])[0].strip(" .:") == "t"),)
@@ -172,6 +188,16 @@ def find_time(
         expected="a column of dates, or one called time or with s, min or h as its unit",
         hint="declare table: {time: {column: 1, unit: s}}, or time: {period: 60 s} for rows that nothing dates",
     )
+
+
+def _fraction_beside(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask where a day alone was found, and a column that is called a time holds numbers below 1."""
+    if len(columns) != 1 or not any(is_dated(r[columns[0]]) and not _tell_the_hour([r[columns[0]]]) for r in data):
+        return None
+    times = [i for i, name in enumerate(names) if i not in columns and is_time_header(name)]
+    return next((q for i in times if (q := fraction_question(i, names, data, where)) is not None), None)
 
 
 def _named(header: str) -> bool:

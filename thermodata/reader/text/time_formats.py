@@ -18,10 +18,11 @@ import numpy.typing as npt
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.text import time_pattern, timestamp
+from thermodata.reader.text import time_cells, time_pattern, timestamp
 from thermodata.reader.text.clock_letters import refuse_unread, with_clock
+from thermodata.reader.text.clock_numbers import clock_of_numbers
 from thermodata.reader.text.clock_words import CLOCKS, ask_for_minutes
-from thermodata.reader.text.date_parts import declared_parts
+from thermodata.reader.text.date_parts import PART, declared_parts
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.spans import SPAN, are_spans
 from thermodata.reader.text.time_pattern import DATE, DATETIME, DAY_NS, ELAPSED, HOURS, MINUTES, TIME_OF_DAY, TimeFormat
@@ -83,23 +84,38 @@ def find_formats(
     forms: list[TimeFormat] = list(declared_parts(declared, len(columns)))
     if forms:
         declared = None  # what stands beside a date in parts tells its own format
+    runs = [[k + len(forms) for k in run] for run in time_cells.runs(columns[len(forms) :])]
     wanted: Sequence[str] = () if declared is None or order or clock else [declared]
-    if declared is not None and len(columns) > 1 and len(declared.split()) == len(columns):
-        wanted = declared.split()
-    for k, (name, cells) in list(enumerate(zip(names, columns, strict=True)))[len(forms) :]:
-        behind = time_pattern.part_of_a_second(name) if k else None
+    if declared is not None and len(columns) > 1 and len(pieces := declared.split()) in (len(columns), len(runs)):
+        each = len(pieces) == len(columns)
+        wanted = [" ".join(pieces[k] for k in run) for run in runs] if each else pieces
+    for at, run in enumerate(runs):
+        k, name = run[0], names[run[0]]
+        cells = columns[k] if len(run) == 1 else time_cells.joined_cells([columns[i] for i in run])
+        whole = bool(forms) and forms[-1].text == "minutes"  # whose seconds stand behind them
+        behind = time_pattern.part_of_a_second(name) if k and not whole else None
         if behind is not None:
             forms.append(behind)
             continue
         form = None
-        for text in wanted[k : k + 1] if len(wanted) == len(columns) else wanted:
+        further = partial(_further, more, run)
+        alone = len(runs) == 1 and not forms
+        for text in wanted[at : at + 1] if len(wanted) == len(runs) else wanted:
             own = time_pattern.declared_format(text)
-            if len(columns) == 1:
+            if alone:
                 refuse_unread(text, own, _spread(cells, _MANY), share, f"{where} column '{name}'")
-            form = own if len(columns) == 1 or share(_spread(cells, _FEW), own) > 0.5 else form
-        form = form or _two_parts(clock, cells, more(k)) or find_format(cells, where, name, partial(more, k), order)
-        forms.append(_zoned(form, cells))
+            form = own if alone or share(_spread(cells, _FEW), own) > 0.5 else form
+        if form is None and k and forms[0].role == "date":
+            form = clock_of_numbers(name, cells)
+        form = form or _two_parts(clock, cells, further()) or find_format(cells, where, name, further, order)
+        form = _zoned(form, cells)
+        forms.append(form if len(run) == 1 else time_cells.read_together(form, [columns[i] for i in run]))
+        forms += [PART] * (len(run) - 1)
     return tuple(forms)
+
+
+def _further(more: Callable[[int], Sequence[str]], run: Sequence[int]) -> Sequence[str]:
+    return more(run[0]) if len(run) == 1 else time_cells.joined_cells([more(k) for k in run])
 
 
 def _zoned(form: TimeFormat, cells: Sequence[str]) -> TimeFormat:

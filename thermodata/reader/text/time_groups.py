@@ -17,7 +17,7 @@ import numpy as np
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
 from thermodata.reader.text.header import split_unit
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.reader.time_units import SECONDS, known_unit
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
 _COUNTED = re.compile(r"^(?P<word>[^\W\d_]+)\s*\d{1,2}\s*[-–:]\s")  # 'Zeit  2 - fast': the rates of catman
@@ -149,7 +149,7 @@ def _beside(run: Sequence[int], said: Mapping[int, _Name], names: Sequence[str])
 
 def _rises(column: int, name: _Name, unit: str | None, data: Sequence[Sequence[Cell]]) -> bool:
     """Dates, or numbers that never fall; what is only called t must rise with every row."""
-    if unit is not None and unit.strip("[]() ").lower() not in SECONDS and unit.lower() not in EPOCHS:
+    if unit is not None and known_unit(unit) is None:
         return False
     cells = [r[column] for r in data if not is_empty(r[column])]
     if len(cells) < 2:

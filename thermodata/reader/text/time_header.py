@@ -6,7 +6,7 @@ import re
 
 from thermodata.reader.text.cell import TIME_WORD
 from thermodata.reader.text.header import split_unit
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.reader.time_units import SECONDS, known_unit
 
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
@@ -19,8 +19,7 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
     name, own = split_unit(header)
     for text in (unit, own):
         if text is not None:
-            low = text.strip().strip("[]()").lower()
-            return low if low in SECONDS or low in EPOCHS else None
+            return known_unit(text)
     match = _UNIT_BEHIND.match(name.strip())
     if match is None or not TIME_WORD.match(match["word"]):
         return None

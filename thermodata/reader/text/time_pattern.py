@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
 from thermodata.reader.text.clock_pattern import BLANK, CLOCK, HALF
+from thermodata.reader.text.joined_clock import joined_clock
 from thermodata.reader.text.zone_words import ZONE
 
 DAY_NS = 86_400 * 1_000_000_000
@@ -66,7 +67,7 @@ class TimeFormat:
     @property
     def cycle_ns(self) -> int:
         """Behind what a time without a date begins anew: an hour where it has no hours, else a day; a span never."""
-        if self.reads is not None:
+        if self.reads is not None and self.pattern is None:
             return NEVER_NS
         return DAY_NS // 24 if self.pattern is not None and "N" in self.pattern.groupindex else DAY_NS
 
@@ -164,7 +165,7 @@ def declared_format(text: str) -> TimeFormat:
     except re.error as error:
         raise FormatError(f"time format '{text}' cannot be used", got=str(error)) from None
     role = "datetime" if day and clock else "date" if day else "time"
-    return TimeFormat(role, pattern, text, zoned=bool(used & {"z", "Z"}) or None)
+    return TimeFormat(role, pattern, text, zoned=bool(used & {"z", "Z"}) or None, reads=joined_clock(text))
 
 
 _CLOCK_TEXT = re.sub(r"\?P<\w+>", "?:", CLOCK + ZONE + "?")

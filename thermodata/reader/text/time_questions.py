@@ -12,6 +12,8 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.clock_numbers import year_and_day
+from thermodata.reader.text.joined_clock import format_of_joined
 from thermodata.reader.text.odd_stamps import guess_format
 from thermodata.reader.text.time_header import is_time_header
 from thermodata.reader.text.zone_words import HOURS, SEVERAL, word_behind
@@ -26,6 +28,8 @@ def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionErr
     """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
     else the time from row to row. None where it is no table of numbers."""
     worded = worded_time(names, data)
+    if worded is None and (days := year_and_day(names, data)) is not None:
+        return _format_question(days[0], names, days[1], " ".join(str(data[0][i]) for i in days[0]), where)
     if worded is None:
         return time_question(names, data, where)
     place, words = worded
@@ -202,17 +206,10 @@ def joined_question(
 def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[int, str] | None:
     """(place, format) of a column that is called a time and holds times of day in one number: 070000."""
     for i in (i for i, name in enumerate(names) if i != day and is_time_header(name)):
-        cells = [str(r[i]).strip() for r in data if r[i] not in ("", None)]
-        for digits, letters in ((6, "%H%M%S"), (4, "%H%M")):
-            pairs = [[int(c[k : k + 2]) for k in range(0, digits, 2)] for c in cells if _is_joined(c, digits)]
-            fit = all(p[0] < 24 and max(p[1:]) < 60 for p in pairs)
-            if cells and len(pairs) == len(cells) and fit:
-                return i, letters
+        letters = format_of_joined([str(r[i]).strip() for r in data if r[i] not in ("", None)])
+        if letters is not None:
+            return i, letters
     return None
-
-
-def _is_joined(cell: str, digits: int) -> bool:
-    return len(cell) == digits and cell.isascii() and cell.isdecimal()
 
 
 def zone_question(names: list[str], data: list[list[Cell]], where: str, columns: Iterable[int]) -> QuestionError | None:

@@ -23,6 +23,7 @@ from thermodata.reader.text.zone_words import offset_ns
 from thermodata.reader.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
+_NO_NUMBERS = ("s", "p", "q", "z")  # parts of a pattern
 _REIWA = 2018  # the year before its first one
 _S = 1_000_000_000
 _EPOCH = date(1970, 1, 1)
@@ -149,6 +150,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
     if match is None:
         return NAT
     g = match.groupdict()
+    if g and not any(text for name, text in g.items() if name not in _NO_NUMBERS):
+        return NAT
     if g.get("ms") is not None:
         return int(g["ms"]) * 1_000_000
     if g.get("us") is not None:
@@ -198,7 +201,7 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
     good = np.ones(len(matrix), bool)
     literal = set(range(matrix.shape[1]))
     for name, text in match.groupdict().items():
-        if text is None or name in ("s", "p", "q", "z"):
+        if text is None or name in _NO_NUMBERS:
             continue
         start, stop = match.span(name)
         literal -= set(range(start, stop))
@@ -210,6 +213,8 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
         fields[name] = value * 10 ** ({"f": 9, "of": 6}[name] - (stop - start)) if name in ("f", "of") else value
     for place in literal:
         good &= matrix[:, place] == matrix[0, place]
+    if not fields:  # 'PM' alone, in a declared format, is no time
+        return np.full(len(matrix), NAT, np.int64), good
     ns = _assemble(fields, match)
     return ns, good & (ns != NAT)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from thermodata.reader.text.table import TimedGroup
+from thermodata.reader.text.zone_places import places_above
 from thermodata.reader.text.zone_words import HOURS, zone_above
 from thermodata.reader.zone import utc_offset_ns
 
@@ -19,6 +20,7 @@ _SAVING = re.compile(
     r"(?i)(?:dst|daylight[ -]?saving(?:s)?(?: time)?|summer ?time|sommerzeit|heure d'été|ora legale|horario de verano|"
     r"horário de verão|letní čas|czas letni|zomertijd|sommartid|夏令时|夏時間|サマータイム)"
 )
+_LONGEST = 80  # letters of a line in a note
 _ON = ("on", "yes", "1", "true", "ein", "an", "ja", "aktiv", "active", "enabled", "oui", "si", "sì", "sí", "ano", "tak")
 
 
@@ -54,6 +56,10 @@ def zones_said(
         if timezone is None:
             groups = tuple(g if g.stated else replace(g, stated=zone[0], above=zone[1]) for g in groups)
         return groups, zone, None
+    placed = places_above(lines)
+    if placed is not None:
+        known = None if placed[0] is None else (placed[0], placed[1])
+        return groups, known, _of_places(placed[1], placed[0]) if timezone is None else None
     named = named_in(names[i] for g in groups if g.absolute and not (g.zoned or g.stated) for i in g.group.time)
     return groups, named, None if named is None or timezone is not None else _open(named[1], named[0])
 
@@ -67,6 +73,11 @@ def named_note(headers: Sequence[str], timezone: str | None, first_ns: int, last
     ends = (first_ns // 10**9, last_ns // 10**9)
     other = any(utc_offset_ns(timezone, s) != utc_offset_ns(named[0], s) for s in ends)
     return f"the header says '{named[1][:60]}'; the declared {timezone} is used" if other else None
+
+
+def _of_places(said: str, zone: str | None) -> str:
+    """The note on a zone with places."""
+    return f"the head says '{said[:_LONGEST]}', {OPEN}" + (f": timezone: {zone} where they are" if zone else "")
 
 
 def _open(said: str, zone: str) -> str:

@@ -38,6 +38,7 @@ OFFSET = r"[+-]\d{2}(?::?\d{2})?"
 WORDS = "|".join(sorted(HOURS, key=len, reverse=True))
 _STATED_OFFSET = rf"(?:UTC|GMT)[+-]\d{{1,2}}(?::?\d{{2}})?|{OFFSET}"
 ZONE = rf"(?P<z>\s*(?:{_STATED_OFFSET}|\((?:{_STATED_OFFSET})\)|\(?(?:{WORDS})\)?(?!\w)))"
+_ALONE = re.compile(ZONE, re.ASCII)
 _BEHIND = re.compile(r"\d\s*(?:[AaPp]\.?[Mm]\.?)?\s*(?P<word>\(?[^\W\d_]{2,5}\)?)$")
 
 
@@ -52,6 +53,16 @@ def offset_ns(text: str) -> int:
     digits = rest[1:].replace(":", "")
     hours, minutes = (digits[:2], digits[2:]) if len(digits) != 3 else (digits[:1], digits[1:])
     return (-1 if rest[0] == "-" else 1) * (int(hours) * 3600 + int(minutes or 0) * 60) * 1_000_000_000
+
+
+def is_zone(text: str) -> bool:
+    """Whether a text alone is an offset, or a word for one zone: '+02:00', '+0100', 'CEST'."""
+    return _ALONE.fullmatch(text.strip()) is not None
+
+
+def is_offset(text: str) -> bool:
+    """Whether a zone has no letters: '+02:00', '+0100'."""
+    return text.strip().strip("()")[:1] in ("+", "-")
 
 
 def word_behind(cell: str) -> str | None:

@@ -74,6 +74,26 @@ def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock
     return found
 
 
+def together(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> dict[str, frozenset[str]]:
+    """Test -> its sources that begin and end with all others of it, as they do in most tests. rows: as above.
+
+    Two logs of another hour do not begin and end together: their clocks agree to within `LEAST_S`.
+    """
+    ends = {test: _ends(of_test) for test, of_test in rows.items()}
+    found = {test: set(of_test) for test, of_test in ends.items() if len(of_test) > 1}
+    for one, other in combinations(sorted({s for of_test in ends.values() for s in of_test}), 2):
+        tests = [t for t, of_test in ends.items() if one in of_test and other in of_test]
+        apart = {
+            t: np.array([ends[t][one].first - ends[t][other].first, ends[t][one].last - ends[t][other].last])
+            for t in tests
+        }
+        usual = np.median(list(apart.values()), axis=0) if len(tests) > OTHERS else np.zeros(2)
+        for test, by in apart.items():
+            if np.abs(by).max() > LEAST_S and np.abs(by - usual).max() > LEAST_S:
+                found[test] -= {one, other}
+    return {test: frozenset(sources) for test, sources in found.items() if sources}
+
+
 def _odd(apart: Float2D) -> tuple[list[int], float] | None:
     """(which tests, by how much [s]). apart: how much later one log begins and ends than the other, shape (tests, 2).
 

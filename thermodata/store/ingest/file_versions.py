@@ -91,10 +91,10 @@ def read_otherwise(raw: RawStream, reader: Reader, source: Source) -> str | None
 
 
 def twins(paths: Iterable[str], hashes: Mapping[str, str]) -> dict[str, str]:
-    """Path -> the earlier path with the same bytes."""
+    """Path -> the path with the same bytes that is no copy: that of the shortest name, 'a.csv' beside 'a (1).csv'."""
     first: dict[str, str] = {}
     copies: dict[str, str] = {}
-    for path in paths:
+    for path in sorted(paths, key=len):
         if path in hashes:
             other = first.setdefault(hashes[path], path)
             if other != path:

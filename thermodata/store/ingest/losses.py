@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.errors import UsageError
 from thermodata.plugin import Loss
+from thermodata.schema.campaign import Campaign, JumpCalibration
+from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.in_parts import find_signal
 
 Losses = list[dict[str, Any]]
 
@@ -37,3 +42,18 @@ def loss_row(
         "fraction": loss.fraction if loss else None,
         "reason": reason,
     }
+
+
+def unread_signals(campaign: Campaign, source: str, raws: Iterable[RawStream]) -> set[str]:
+    """The signals of a file of a source that no channel and no jump test reads: what is lost of them, nobody misses."""
+    raws = list(raws)
+    channels = [c for c in campaign.channels.values() if c.source == source]
+    wanted = {c.signal for c in channels} | {c.signal for t in campaign.tests for c in t.channels.values()}
+    wanted |= {c.signal for c in campaign.calibrations.values() if isinstance(c, JumpCalibration)}
+    read: set[str] = set()
+    for name in wanted - {None}:
+        try:
+            read.add(find_signal(raws, str(name))[1].name)
+        except UsageError:
+            continue
+    return {s.name for r in raws for s in r.signals} - read

@@ -16,6 +16,7 @@ from thermodata.reader import newest_first, registry
 from thermodata.reader.guard import described, guarded
 from thermodata.schema.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
+from thermodata.store.raw.loss_rows import losses_from_json, losses_to_json, plain
 from thermodata.store.raw.writer import StreamWriter
 
 RAW_VERSION = "1"
@@ -94,7 +95,7 @@ class RawStream:
                 **({"unordered": True} if self.unordered else {}),
                 **({} if self.of_day_ns is None else {"of_day_ns": self.of_day_ns}),
             },
-            default=_plain,
+            default=plain,
             sort_keys=True,
         )
 
@@ -138,7 +139,7 @@ class RawStream:
             {s["name"]: s["column"] for s in meta["signals"]},
             tuple(meta["flagged"]),
             tuple(meta["notes"]),
-            () if row["losses"] in (None, "", "[]") else tuple(Loss(**loss) for loss in json.loads(row["losses"])),
+            losses_from_json(row["losses"]),
             meta.get("ordered"),
             meta.get("newest_first", False),
             meta.get("unordered", False),
@@ -149,7 +150,7 @@ class RawStream:
         return raw
 
     def losses_json(self) -> str:
-        return json.dumps([dataclasses.asdict(loss) for loss in self.losses], default=_plain) if self.losses else "[]"
+        return losses_to_json(self.losses)
 
 
 _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
@@ -159,10 +160,6 @@ _OF_ROW = ("key", "path", "source_path", "sha256", "bytes", "rows")
 def _stream_of(*row: Any) -> RawStream:
     """An ingest meets each row twice: among all that the store holds, and as what a test was made of."""
     return RawStream._from(dict(zip((*_OF_ROW, "columns", "losses"), row, strict=True)))
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if hasattr(value, "item") else str(value)
 
 
 def declared(name: str, spec: SourceSpec) -> Source:

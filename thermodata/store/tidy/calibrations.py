@@ -12,7 +12,7 @@ from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, Linea
 from thermodata.schema.quantity import linear_conversion
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import derive
-from thermodata.store.tidy.plan import find_signal
+from thermodata.store.tidy.in_parts import find_signal
 from thermodata.store.tidy.source_clock import Clock, build
 from thermodata.store.tidy.timeline import Timeline
 

@@ -54,6 +54,9 @@ def member_key(
         if source in plan.sources:
             source_plan = plan.sources[source]
             clock = clocks[source]
+            own = {r.path for r in source_plan.streams.get(stream, [])}
+            if otherwise := sorted((k, repr(v)) for k, v in source_plan.parts.items() if k[0] in own):
+                parts.append(repr(otherwise))
             parts += [
                 source,
                 stream,

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.reader.match import NoSignalError, match_signal
-from thermodata.reader.text import split_unit
+from thermodata.reader.match import NoSignalError
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.campaign_channels import MEASURED
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import schedule
+from thermodata.store.tidy.in_parts import InPart, find_in_parts
 from thermodata.store.tidy.on_change import step_beside
 
 SCHEDULE = "schedule"
@@ -54,12 +54,13 @@ class Bound:
 
 @dataclass(slots=True)
 class SourcePlan:
-    """The raw streams that a source contributes to a test, and what is known about its files."""
+    """The raw streams that a source contributes to a test, and what is known about its files. parts: see `in_parts`."""
 
     name: str
     spec: SourceSpec
     raws: list[RawStream] = field(default_factory=list)
     shared: bool = False
+    parts: dict[tuple[str, str], InPart] = field(default_factory=dict)
 
     @property
     def is_dated(self) -> bool:
@@ -161,7 +162,7 @@ def bind(plan: TestPlan) -> None:
             if source is None or not source.raws:
                 continue  # the source's absence is told once, not for each channel
             try:
-                raw, signal, unit = find_signal(source.raws, channel.signal)
+                found = find_in_parts(source.raws, channel)
             except NoSignalError as error:
                 if _is_the_time(channel.signal, source.spec):
                     plan.notes.append(f"channel '{name}' is the time of '{source.name}': its line can be deleted")
@@ -171,11 +172,11 @@ def bind(plan: TestPlan) -> None:
             except UsageError as error:
                 plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
                 continue
-            problem = _unit_problem(channel, unit, signal, [r for r in source.raws if r.stream == raw.stream])
-            if problem is not None:
-                plan.problems.append(f"channel '{name}': {problem}; it is left without values")
-                continue
-            plan.bound[name] = Bound(name, channel, source.name, raw.stream, signal, channel.unit or unit)
+            source.parts |= found.parts
+            if found.note is not None:
+                plan.notes.append(f"channel '{name}': {found.note}")
+            unit = channel.unit or found.unit
+            plan.bound[name] = Bound(name, channel, source.name, found.raw.stream, found.signal, unit)
     for name, channel in channels.items():
         if channel.derive is not None:
             _bind_derived(plan, channels, name, channel)
@@ -223,25 +224,6 @@ def _listed(columns: int | str | list[int | str]) -> list[int | str]:
     return columns if isinstance(columns, list) else [columns]
 
 
-def _unit_problem(channel: Channel, unit: str | None, signal: Signal, raws: Iterable[RawStream]) -> str | None:
-    """Why a channel has no one unit: its files differ, or the campaign file contradicts them."""
-    from thermodata.calibration.channel import same_unit, unit_contradiction
-
-    said: dict[str, str] = {}
-    for raw in raws:
-        for other in raw.signals:
-            if other.name == signal.name and (written := other.unit or split_unit(other.name)[1]):
-                said.setdefault(written, raw.source_path)
-    first = next(iter(said), None)
-    for written, path in said.items():
-        if first is not None and not same_unit(first, written):
-            return (
-                f"'{first}' in {said[first]}, and '{written}' in {path}; try: a source of its own for files of "
-                "another unit"
-            )
-    return unit_contradiction(channel, unit)
-
-
 def operands(expression: str) -> list[str]:
     """The channels of an expression in the order of their first appearance."""
     from thermodata.calibration.expression import parse
@@ -268,19 +250,3 @@ def _bind_derived(plan: TestPlan, channels: Mapping[str, Channel], name: str, ch
         return None
     plan.bound[name] = Bound(name, channel, home.source, home.stream, None, channel.unit)
     return plan.bound[name]
-
-
-def find_signal(raws: Iterable[RawStream], wanted: str) -> tuple[RawStream, Signal, str | None]:
-    """The raw stream, signal and unit behind a name in the campaign file; UsageError where none or several fit.
-
-    A unit in brackets after the name in the file may be left out, and is then the signal's unit.
-    """
-    first: dict[tuple[str, str], RawStream] = {}
-    signals: list[Signal] = []
-    for raw in raws:
-        for signal in raw.signals:
-            if (raw.stream, signal.name) not in first:
-                first[raw.stream, signal.name] = raw
-                signals.append(signal)
-    match = match_signal(wanted, signals)
-    return first[match.stream, match.name], match, match.unit or split_unit(match.name)[1]

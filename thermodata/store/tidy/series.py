@@ -67,6 +67,7 @@ class TestSeries:
                     self.clocks[member[0]],
                     resets_allowed=source.spec.clock.resets == "allow",
                 )
+                self._lines[member].parts = source.parts
         return self._lines[member]
 
     def as_written(self, bound: Bound) -> Bound:

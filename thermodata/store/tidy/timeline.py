@@ -14,6 +14,7 @@ from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, in_order
 from thermodata.store.raw.repeats import pieces
 from thermodata.store.raw.streams import RawStream
+from thermodata.store.tidy.in_parts import InPart, Parts, joined_parts
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096
@@ -23,7 +24,7 @@ _MOST_STRETCHES = 50
 @dataclass(slots=True)
 class Timeline:
     """rows: how many. raws: (raw, what is added to its times [ns]) in file order. cut: (first, past-the-last) rows of
-    them that are left out, shape (k, 2).
+    them that are left out, shape (k, 2). parts: what files have under other names, or in other units (`in_parts`).
 
     Row numbers count in time order. Not shared between threads.
     """
@@ -37,6 +38,7 @@ class Timeline:
     losses: tuple[Loss, ...] = ()
     notes: tuple[str, ...] = ()
     cut: Int1D = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    parts: Parts = field(default_factory=dict)
     _files: RawFiles = field(default_factory=RawFiles)
     _times: Int1D | None = None
 
@@ -118,12 +120,13 @@ class Timeline:
             there = [n for n in names.values() if n is not None]
             read = dict(zip(there, self._read(raw, there, a, b), strict=True)) if there else {}
             for signal, name in names.items():
-                parts[signal].append(b - a if name is None else read[name])
+                own = self.part(raw, signal)
+                parts[signal].append(b - a if name is None else read[name] if flags else own.read(read[name]))
         arrays = {}
         for signal, some in parts.items():
             if all(isinstance(p, int) for p in some):
                 continue
-            joined = _joined(some, zero=flags)
+            joined = joined_parts(some, zero=flags)
             arrays[signal] = (joined if order is None else joined[order])[start - low : stop - low]
         return arrays
 
@@ -136,14 +139,18 @@ class Timeline:
 
     def flagged(self, signals: Iterable[str]) -> bool:
         """Whether a reader flagged any row of these signals."""
-        wanted = set(signals)
-        return any(not wanted.isdisjoint(raw.flagged) for raw, _ in self.raws)
+        wanted = list(signals)
+        return any(self.part(raw, signal).name in raw.flagged for raw, _ in self.raws for signal in wanted)
 
-    @staticmethod
-    def _name(raw: RawStream, signal: str, flags: bool) -> str | None:
-        column = raw.columns.get(signal)
+    def part(self, raw: RawStream, signal: str) -> InPart:
+        """A signal as one of the files has it."""
+        return self.parts.get((raw.path, signal)) or InPart(signal)
+
+    def _name(self, raw: RawStream, signal: str, flags: bool) -> str | None:
+        name = self.part(raw, signal).name
+        column = raw.columns.get(name)
         if flags:
-            return f"{column}__flag" if signal in raw.flagged else None
+            return f"{column}__flag" if name in raw.flagged else None
         return column
 
     def _read(self, raw: RawStream, columns: Sequence[str], start: int, stop: int) -> list[Array]:
@@ -208,20 +215,3 @@ class Timeline:
 def given_timeline(t_ns: Int1D) -> Timeline:
     """Of times that no file holds."""
     return Timeline(len(t_ns), order=in_order(len(t_ns)), _times=t_ns)
-
-
-def _joined(parts: list[Array | int], *, zero: bool) -> Array:
-    arrays = [p for p in parts if not isinstance(p, int)]
-    if len(parts) == 1:
-        return arrays[0]
-    text = any(a.dtype == object for a in arrays)
-    kind = np.dtype(object) if text else np.result_type(*arrays)
-    if any(isinstance(p, int) for p in parts) and not text and not zero:
-        kind = np.result_type(kind, np.float64)
-
-    def missing(n: int) -> Array:
-        if text:
-            return np.full(n, None, dtype=object)
-        return np.zeros(n, kind) if zero else np.full(n, np.nan)
-
-    return np.concatenate([(missing(p) if isinstance(p, int) else p).astype(kind, copy=False) for p in parts])

@@ -19,6 +19,7 @@ from thermodata.store.tidy.between import Sampler, Verdict
 from thermodata.store.tidy.chunk import Column
 from thermodata.store.tidy.cut_start import driven_before
 from thermodata.store.tidy.event import Event
+from thermodata.store.tidy.finer_steps import finer_than_declared
 from thermodata.store.tidy.on_change import SET, asked, told
 from thermodata.store.tidy.overrule import overrule, overruled, rules_of
 from thermodata.store.tidy.plan import Bound
@@ -79,6 +80,7 @@ def write_member(
     held = tuple(b.name for b in here if b.is_held)
     result.notes += _as_written(series, member, here, line.rows)
     result.notes += driven_before(series, member, here, rows.start, rows.stop)
+    result.notes += finer_than_declared(series, here, rows.start, rows.stop)
     verdict = (verdict or Verdict()).of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)

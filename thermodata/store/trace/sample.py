@@ -147,6 +147,7 @@ def _raw(series: TestSeries, member: Member, at: int, signal: str, again: Again 
     if placed is None:
         return {}
     raw, row = placed
+    signal = series.timeline(member).part(raw, signal).name
     column = raw.columns.get(signal)
     if column is None:
         return {"source_path": raw.source_path, "sha256": raw.sha256, "row": row, "raw_value": None}

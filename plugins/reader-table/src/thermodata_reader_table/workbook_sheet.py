@@ -12,13 +12,16 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.another_header import another_in_sheet
 from thermodata.reader.text.cell import is_empty
+from thermodata.reader.text.clock_numbers import clock_of_numbers
 from thermodata.reader.text.date_parts import column_times, declared_parts
 from thermodata.reader.text.days import NOTE, is_once
 from thermodata.reader.text.footer import is_footer
 from thermodata.reader.text.head_start import ORDERS
 from thermodata.reader.text.layout import STREAM, Group, Layout
 from thermodata.reader.text.number import clean, decimal_mark, values_of
+from thermodata.reader.text.time_cells import belongs_to_time
 from thermodata.reader.text.time_formats import (
     Stamps,
     find_formats,
@@ -72,7 +75,12 @@ class Table:
         self.notes = list(layout.notes)
         self.losses: list[Loss] = []
         self.head = rows[: layout.first]
-        self.columns = list(zip(*rows[layout.first :], strict=False))
+        rows = rows[layout.first :]
+        if (other := another_in_sheet(layout, self.head, rows)) is not None:
+            lost = 1 - other[0] / len(rows)
+            self.losses.append(Loss(f"{where} row {layout.first + other[0] + 1}", None, None, lost, other[1]))
+            rows = rows[: other[0]]
+        self.columns = list(zip(*rows, strict=False))
         said = (source.table or {}).get("decimal")
         self.decimal_declared = said is not None
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
@@ -162,15 +170,18 @@ class Table:
             if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
-        if declared_parts(group.form, len(columns)):
+        names = [self.layout.names[i] for i in group.time]
+        numbers = any(clock_of_numbers(n, cells) for n, cells in zip(names[1:], columns[1:], strict=True))
+        if declared_parts(group.form, len(columns)) or numbers:
             parts = [[_part(cell) for cell in cells] for cells in columns]
-            forms = find_formats([self.layout.names[i] for i in group.time], parts, group.form, self.where)
+            forms = find_formats(names, parts, group.form, self.where)
             return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
         if len(columns) == 2 and is_once(columns[0]):
             self.notes.append(NOTE)
             order = group.form if group.form in ORDERS else None
             return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
-        joined = [_joined(cells) for cells in zip(*columns, strict=True)]
+        worded = any(belongs_to_time(cells, "column 1") for cells in columns[1:])
+        joined = [_of_words(cells) if worded else _joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
             return self._of_texts(texts, zone, group.form)
@@ -233,7 +244,7 @@ class Table:
             return texts, None, np.zeros(len(cells), bool)
         if odd:
             reason = f"{len(odd)} cells are no numbers, such as '{odd[0]}'"
-            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason))
+            self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason, name))
         return numbers, unit, over
 
 
@@ -247,6 +258,8 @@ def _part(cell: Any) -> str:
     """The text of a number that is part of a date: a workbook keeps all of them as floats."""
     if cell in ("", None):
         return ""
+    if isinstance(cell, dt.date):
+        return str(_bare_day(cell))
     return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell).strip()
 
 
@@ -266,3 +279,16 @@ def _joined(cells: tuple[Any, ...]) -> Any:
             return midnight + clock
         return dt.datetime.combine(midnight.date(), clock.time() if isinstance(clock, dt.datetime) else clock)
     return " ".join(str(c).strip() for c in cells)
+
+
+def _of_words(cells: tuple[Any, ...]) -> str:
+    """One text of a row's time cells, words among them: '2026-03-14 01:00:00 PM'; '' where one is empty."""
+    if any(map(is_empty, cells)):
+        return ""
+    clocked = any(isinstance(c, dt.time | dt.timedelta) or ":" in str(c) for c in cells[1:])
+    return " ".join(str(_bare_day(c) if clocked and not k else c).strip() for k, c in enumerate(cells))
+
+
+def _bare_day(day: Any) -> Any:
+    """The date of a moment at midnight, as a workbook keeps a day."""
+    return day.date() if isinstance(day, dt.datetime) else day

@@ -9,6 +9,7 @@ from threading import Lock
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata_reader_crio.tdms.channels import channels
+from thermodata_reader_crio.tdms.one_group import columns_of, without_its_name
 from thermodata_reader_crio.tdms.raw_columns import columns
 from thermodata_reader_crio.tdms.segment_index import Index
 from thermodata_reader_crio.tdms.segments import read_index
@@ -36,11 +37,12 @@ def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
         ends = [file.read(4096)]
         file.seek(max(0, status.st_size - 4096))
         ends.append(file.read(4096))
+    sheet = (source.table or {}).get("sheet")
     key = str(path.absolute()), status.st_size, status.st_mtime_ns, status.st_ino, repr(source), *ends
     with _LOCK:
         found = _KEPT.pop(key, None)
     if found is None:
-        found = _opened(path, source)
+        found = _opened(path, source, sheet)
     if keep:
         with _LOCK:
             _KEPT.clear()
@@ -48,16 +50,21 @@ def open_file(path: Path, source: Source, *, keep: bool = False) -> File:
     return found
 
 
-def _opened(path: Path, source: Source) -> File:
-    """Index, streams and notes of a TDMS file; reads no bulk (but the start of channels that hold a time)."""
+def _opened(path: Path, source: Source, sheet: int | str | None) -> File:
+    """Index, streams and notes of a TDMS file, or of one group of it; reads no bulk (but the start of channels that
+    hold a time)."""
     index = read_index(path)
     cols, partly = columns(index)
+    if sheet is not None:
+        cols = columns_of(cols, sheet, path.name)
     notes = list(index.notes)
     groups = channels(index, cols, path.name, set(source.options.get("unscaled", ())), notes, partly)
     taken: dict[str, int] = {}
     found: list[Stream] = []
     with path.open("rb") as file:
         for group, members in groups.items():
+            if sheet is not None:
+                group, members = "", without_its_name(group, members)
             found += streams_of(group, members, index, source, notes, taken, file)
     if not found:
         raise FormatError(

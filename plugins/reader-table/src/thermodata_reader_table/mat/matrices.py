@@ -8,6 +8,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
 from thermodata_reader_table.mat import names as say
+from thermodata_reader_table.mat.described_by import fitting, unit_of
 from thermodata_reader_table.mat.stream_plan import (
     LOOK,
     MOST_SIGNALS,
@@ -15,7 +16,6 @@ from thermodata_reader_table.mat.stream_plan import (
     Plan,
     Scope,
     TimeVector,
-    fitting,
     rises,
     upwards,
 )
@@ -35,7 +35,7 @@ def sort_matrices(plan: Plan, scope: Scope) -> None:
                 got=str(count),
                 expected=f"at most {MOST_SIGNALS}",
             )
-        heads = fitting(scope, "names", count)
+        heads = fitting(scope, "names", count, path)
         if plan.cut and heads is None:
             plan.losses.append(
                 Loss(
@@ -47,7 +47,7 @@ def sort_matrices(plan: Plan, scope: Scope) -> None:
                 )
             )
             continue
-        units = fitting(scope, "units", count) or [""] * len(heads or ())
+        units = fitting(scope, "units", count, path) or [unit_of(scope, path) or ""] * count
         names = [f"{path}/{h}" if h else "" for h in heads] if heads and len(scope.matrices) > 1 else heads
         made = []
         for i in range(count):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from thermodata.reader.time_units import EPOCHS, SECONDS
 
@@ -80,6 +81,11 @@ _UNITS = {
     "yunits",
     "variableunits",
 }
+_UNIT_OF = re.compile(r"(?P<a>.+?)(?:_[Uu]nits?|Units?)|[Uu]nits?_(?P<b>.+)|unit(?P<c>[A-Z].*)")
+_LIST_OF = re.compile(
+    r"(?P<a>.+?)(?:_(?i:names?|labels?|headers?|legend)|Names?|Labels?|Headers?|names|labels|header)"
+    r"|(?i:names?|labels?)_(?P<b>.+)"
+)
 _GENERAL = {
     *"xy",
     "channel",
@@ -92,6 +98,13 @@ _GENERAL = {
     "value",
     "values",
     "col",
+    "column",
+    "columns",
+    "var",
+    "sensor",
+    "sensors",
+    "kanal",
+    "kanäle",
 }
 _STEP = {
     "dt",
@@ -160,18 +173,34 @@ def names_units(name: str) -> bool:
     return squeezed(name) in _UNITS or squeezed(name).endswith("units")
 
 
-def unit_of(name: str) -> str | None:
-    """The variable whose unit one holds that is called after it: T1_unit, unit_T1, T1Unit; None for another one."""
-    match = re.fullmatch(r"(?P<a>.+?)(?:_[Uu]nits?|Units?)|[Uu]nits?_(?P<b>.+)|unit(?P<c>[A-Z].*)", name)
+def unit_of(name: str, known: Collection[str] = ()) -> str | None:
+    """The variable whose unit one holds that is called after it: T1_unit, unit_T1, T1Unit; None for another one.
+    known: the variables beside it: of two that differ by case alone each has its own."""
+    match = _UNIT_OF.fullmatch(name)
     if match is None:
         return None
     other = match["a"] or match["b"] or match["c"]
-    return None if names_time_unit(name) or squeezed(other) in _GENERAL else other
+    if other in known:
+        return str(other)
+    return None if names_time_unit(name) or squeezed(other) in _GENERAL else str(other)
+
+
+def listed_of(name: str, known: Collection[str]) -> str:
+    """The variable whose columns a list of names or units is of, by its own name: 'T_names' of T; '' where it is called
+    after none (names, channelUnits). known: the variables beside it; 'tempNames' is of Temp, 'T_names' never of t."""
+    match = _LIST_OF.fullmatch(name) or _UNIT_OF.fullmatch(name)
+    other = next((part for part in match.groups() if part), "") if match is not None else ""
+    if other in known or len(other) < 2:
+        return other
+    alike = [k for k in known if k.lower() == other.lower() and k != name]
+    return alike[0] if len(alike) == 1 else "" if squeezed(other) in _GENERAL else other
 
 
 def names_time_unit(name: str) -> bool:
-    """Whether a variable holds the unit of the time."""
-    return squeezed(name) in ("timeunit", "timeunits", "unittime", "tunit", "xunit")
+    """Whether a variable holds the unit of the time; T_unit, with a large T, is that of a temperature."""
+    return squeezed(name) in ("timeunit", "timeunits", "unittime", "xunit") or (
+        squeezed(name) == "tunit" and not name.startswith("T")
+    )
 
 
 def names_step(name: str) -> bool:

@@ -8,6 +8,7 @@ from typing import Any
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.time_groups import one_time
 from thermodata_reader_table.mat.date_vectors import take_date_vectors
+from thermodata_reader_table.mat.described_by import settle_lists
 from thermodata_reader_table.mat.matrices import sort_matrices
 from thermodata_reader_table.mat.signal_structs import as_record
 from thermodata_reader_table.mat.stream_plan import MOST_SIGNALS, Plan, Scope
@@ -32,15 +33,15 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
     plan = Plan(where, wanted, tree.complete is False, notes=list(tree.notes), losses=list(tree.losses))
     variables = dict(tree.variables)
     sheet = said.get("sheet")
-    if isinstance(sheet, str):
+    if sheet is not None:
         if sheet not in variables:
-            close = nearest(sheet, list(variables))
+            close = nearest(str(sheet), list(variables))
             raise UsageError(
                 f"no variable '{sheet}'",
                 where=where,
-                got=sheet,
+                got=str(sheet),
                 expected=", ".join(list(variables)[:30]),
-                hint=f"did you mean '{close}'?" if close else None,
+                hint=f"did you mean '{close}'?" if close else "'sheet' of a MAT file is the name of a variable",
             )
         variables = {sheet: variables[sheet]}
     if not variables and not plan.losses:
@@ -55,11 +56,12 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
 
 
 def _scope(plan: Plan, fields: Mapping[str, Node], path: str, above: Scope | None) -> None:
-    scope = Scope(path, above)
+    scope = Scope(path, above, frozenset(fields))
     inner: list[tuple[str, Struct]] = []
     for name, node in fields.items():
         sort_variable(plan, scope, name, node, inner)
     take_date_vectors(plan, scope)
+    settle_lists(plan, scope)
     sort_matrices(plan, scope)
     assign_columns(plan, scope)
     for where, struct in inner:

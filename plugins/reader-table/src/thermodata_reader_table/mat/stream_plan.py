@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -49,17 +49,28 @@ class Stream:
     properties: dict[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """Names or units of columns, in their order. of: the variable that they are called after, '' for none; called:
+    the variable that holds them."""
+
+    called: str
+    of: str
+    lines: tuple[str, ...]
+
+
 @dataclass
 class Scope:
-    """One level of the file: its arrays by path, and what describes them."""
+    """One level of the file: its arrays by path, and what describes them. known: the names of its variables."""
 
     path: str
     above: Scope | None
+    known: frozenset[str] = frozenset()
     columns: list[Column] = field(default_factory=list)
     matrices: list[tuple[str, Numbers]] = field(default_factory=list)
     times: list[TimeVector] = field(default_factory=list)
-    names: list[list[str]] = field(default_factory=list)
-    units: list[list[str]] = field(default_factory=list)
+    names: list[Listed] = field(default_factory=list)
+    units: list[Listed] = field(default_factory=list)
     unit_of: dict[str, str] = field(default_factory=dict)
     time_unit: str | None = None
     step_s: float | None = None
@@ -94,12 +105,6 @@ def described(scope: Scope) -> dict[str, str]:
             if value and len(found) < 100:
                 found.setdefault(key, value)
     return found
-
-
-def fitting(scope: Scope, kind: str, count: int) -> list[str] | None:
-    """The nearest list of `kind` (names, units) with as many entries as there are columns; None: there is none."""
-    lists: list[Sequence[str]] = [x for s in upwards(scope) for x in getattr(s, kind)]
-    return next((list(x) for x in lists if len(x) == count), None)
 
 
 def rises(values: Array) -> bool:

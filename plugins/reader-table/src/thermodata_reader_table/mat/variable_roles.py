@@ -11,7 +11,7 @@ from thermodata.reader.text import split_unit
 from thermodata_reader_table.mat import names as say
 from thermodata_reader_table.mat.signal_structs import one_number, one_text
 from thermodata_reader_table.mat.signal_structs import texts as lines_of
-from thermodata_reader_table.mat.stream_plan import LOOK, Column, Plan, Scope, TimeVector, rises
+from thermodata_reader_table.mat.stream_plan import LOOK, Column, Listed, Plan, Scope, TimeVector, rises
 from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, refusal
 
 
@@ -71,27 +71,31 @@ def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, i
     lines = lines_of(node)
     if lines is None:
         _cells(plan, scope, path, node, inner)
-    elif len(lines) == 1 and (of := say.unit_of(name)) is not None:
+    elif len(lines) == 1 and (of := say.unit_of(name, scope.known)) is not None:
         scope.unit_of.setdefault(of, lines[0])
         scope.properties[name] = lines[0][:500]
     elif len(lines) == 1:
         if say.names_time_unit(name):
             scope.time_unit = lines[0]
         if say.names_names(name) and not say.names_units(name):
-            scope.names.append(lines)
+            scope.names.append(_listed(scope, name, lines))
         if say.names_units(name):
-            scope.units.append(lines)
+            scope.units.append(_listed(scope, name, lines))
         scope.properties[name] = lines[0][:500]
     elif lines:
-        if say.names_units(name):
-            scope.units.append(lines)
+        if say.names_units(name) or say.unit_of(name, scope.known) in scope.known:
+            scope.units.append(_listed(scope, name, lines))
         elif (say.names_time(name) and plan.wanted is None) or plan.wanted in (path, name):
             scope.times.append(TimeVector(path, len(lines), texts=tuple(lines)))
-        elif say.names_names(name):
-            scope.names.append(lines)
+        elif say.names_names(name) or say.listed_of(name, scope.known) in scope.known:
+            scope.names.append(_listed(scope, name, lines))
         else:
             words = np.array(lines, object)
             scope.columns.append(Column(path, None, "str", len(lines), partial(_part, words)))
+
+
+def _listed(scope: Scope, name: str, lines: list[str]) -> Listed:
+    return Listed(name, say.listed_of(name, scope.known), tuple(lines))
 
 
 def _cells(plan: Plan, scope: Scope, path: str, node: Text | Cells, inner: list[tuple[str, Struct]]) -> None:

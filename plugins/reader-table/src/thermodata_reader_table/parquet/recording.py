@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
+
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.counted import counted
+from thermodata.reader.series import TakenApart
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
@@ -17,12 +20,12 @@ _ROWS = 250_000
 
 
 def describe(path: Path, source: Source) -> Recording:
-    """The one stream of a file, by its schema and first rows. FormatError: damaged, no time, or a long
-    table."""
-    from thermodata_reader_table.parquet.long import refuse
+    """The one stream of a file, or that of each of its series. FormatError: damaged, no time, or a long table that
+    can't be taken apart."""
+    from thermodata_reader_table.parquet.row_series import series_of
 
     table = Table(path, source)
-    doubts = refuse(table)
+    apart = series_of(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
     signals = tuple(
@@ -30,15 +33,30 @@ def describe(path: Path, source: Source) -> Recording:
         for i, n in enumerate(table.names)
         if i not in (table.time, *table.beside)
     )
+    signals = signals if apart.series is None else apart.series.signals(signals)
     start = (int(good[0]) if good.size else 0) if found.absolute else None
     return Recording(
-        signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes, *doubts)
+        signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes, *apart.notes)
     )
 
 
 def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     """The values as stored, times in ns since 1970 UTC (or since the start), and rows that have no time as a loss."""
+    from thermodata_reader_table.parquet.row_series import series_of
+
     table = Table(path, source)
+    series = series_of(table).series
+    if series is None:
+        yield from _rows(table)
+        return
+    apart = TakenApart(series, path.name)
+    for item in _rows(table):
+        yield from apart.split(item)
+    yield from apart.rest()
+
+
+def _rows(table: Table) -> Iterator[Block | Loss]:
+    source, path = table.source, table.path
     times = table.stamps().t_ns
     at = missing = 0
     columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i not in (table.time, *table.beside)]
@@ -46,10 +64,11 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     for batch in table.batches(size):
         t_ns = times[at : at + batch.num_rows]
         good = t_ns != NAT
+        rows = at + np.flatnonzero(good)
         at += batch.num_rows
         missing += int((~good).sum())
         with damage_as_format_error(path):
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
-        yield Block(STREAM, t_ns[good], values)
+        yield Block(STREAM, t_ns[good], values, at=rows)
     if missing:
         yield Loss(path.name, None, None, missing / at, f"{counted(missing, 'row')} without a time")

@@ -5,16 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Source
+from thermodata.reader.text.locate import row_at
+from thermodata_reader_table.parquet.recording import blocks
 from thermodata_reader_table.parquet.table import Table
-from thermodata_reader_table.timed_rows import nth_timed_row
 
 
 def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
     """`row group 3, row 812` (of the file: row 100812)."""
     table = Table(path, source)
-    at = nth_timed_row([table.stamps().t_ns], row)
-    if at is None:
+    found = row_at(blocks(path, source), stream, row)
+    if found is None:
         return None
+    at = found[0]
     first = 0
     for number in range(table.file.metadata.num_row_groups):
         rows = table.file.metadata.row_group(number).num_rows

@@ -1,0 +1,75 @@
+"""Clocks by how logs begin and end beside each other (diagnosis/ends_of_logs.py): what is moved, and what is told."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.diagnosis.ends_of_logs import Ends, OddEnds, meets
+from thermodata.diagnosis.heat_balance import UNMOVED_S
+from thermodata.schema.diagnosis import ClockMoved
+
+SHIFT_S = 1560.0
+
+
+def odd(test: str, late: str = "nc", early: str = "daq") -> OddEnds:
+    return OddEnds("c", test, late, early, SHIFT_S, f"{late} is later beside {early}")
+
+
+def move(test: str, by_s: float = -SHIFT_S, source: str = "nc") -> ClockMoved:
+    return ClockMoved(source=source, campaign="c", test=test, moved_s=by_s)
+
+
+@pytest.mark.parametrize(
+    ("home", "expected"),
+    [("daq", move("t1")), ("nc", move("t1", SHIFT_S, "daq")), ("other", None), (None, None)],
+)
+def test_the_log_that_the_response_is_not_in_is_moved(home: str | None, expected: ClockMoved | None) -> None:
+    assert odd("t1").move(home) == expected
+
+
+def test_the_tests_of_one_log_are_moved_together() -> None:
+    ends = Ends((odd("t1"), odd("t2"), odd("t1", late="daq", early="log")))
+    assert ends.moves("daq") == [[move("t1"), move("t2")], [move("t1", SHIFT_S, "log")]]
+    assert Ends().moves("daq") == []
+
+
+def test_what_was_moved_is_told_and_what_was_not() -> None:
+    ends = Ends((odd("t1"), odd("t2")))
+    moved, kept = ends.artefacts("daq", [move("t1")])
+    assert (moved.kind, moved.campaign, moved.test) == ("clock_offset", "c", "t1")
+    assert moved.why == "nc is later beside daq. The choice is made with 'nc' moved by -26 min there"
+    assert kept.why.endswith("Nothing was moved for it here")
+
+
+def test_two_logs_that_agree_once_a_third_is_moved_are_not_told_beside_it() -> None:
+    ends = Ends((odd("t1"), odd("t1", late="nc", early="log")))
+    assert [a.why for a in ends.artefacts("daq", [move("t1")])] == [
+        "nc is later beside daq. The choice is made with 'nc' moved by -26 min there"
+    ]
+    assert len(ends.artefacts("daq", [])) == 2
+
+
+@pytest.mark.parametrize(
+    ("clock", "met"),
+    [
+        (move("t1", -SHIFT_S + UNMOVED_S), True),
+        (move("t1", -SHIFT_S + UNMOVED_S + 1), False),
+        (move("t3", -SHIFT_S), False),
+        (move("t1", -SHIFT_S, "log"), False),
+    ],
+)
+def test_heat_meets_the_ends_where_it_says_nearly_the_same_of_one_of_the_tests(clock: ClockMoved, met: bool) -> None:
+    assert meets([move("t1"), move("t2")], [clock]) is met
+    near = clock.model_copy(update={"moved_s": clock.moved_s + 1e-3})
+    assert Ends((odd("t1"), odd("t2"))).is_met([near]) is meets([move("t1"), move("t2")], [near])
+
+
+def test_what_the_ends_moved_themselves_is_not_asked_again() -> None:
+    assert not Ends((odd("t1"), odd("t2"))).is_met([move("t1"), move("t2")])
+
+
+def test_clocks_agree_where_logs_begin_and_end_together() -> None:
+    ends = Ends(together={("c", "t1"): frozenset({"nc", "daq"})})
+    assert ends.agree([("c", "t0"), ("c", "t1")], {"nc", "daq"})
+    assert not ends.agree([("c", "t1")], {"nc", "log"})
+    assert not ends.agree([("c", "t0")], {"nc", "daq"})

@@ -1,0 +1,103 @@
+"""Groups of one TDMS file: tests where they were recorded one after the other, rates of one recording otherwise."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.draft.sample import Sample
+from thermodata.draft.sheets import recordings_in
+from thermodata.schema.load import load_campaign
+
+from .conftest import Said
+from .labs import tdms
+
+Say = Callable[..., Said]
+BEGAN = datetime(2026, 3, 2, 8, tzinfo=UTC)
+S = 1_000_000_000
+
+
+def one_file(path: Path, groups: dict[str, tuple[datetime, float, float]]) -> None:
+    """Group -> its start, seconds from row to row, and first temperature."""
+    from nptdms import TdmsFile, TdmsWriter
+
+    parts = []
+    for group, (began, step_s, first) in groups.items():
+        part = path.with_name("part.tdms")
+        rows = int(3600 / step_s)
+        tdms(part, {group: {"T_front": (first + np.arange(rows) * step_s / 3600, "degC")}}, began, step_s)
+        parts += [c for g in TdmsFile.read(part).groups() for c in g.channels()]
+        part.unlink()
+    with TdmsWriter(str(path)) as writer:
+        writer.write_segment(parts)
+
+
+def test_groups_of_three_days_are_three_tests_with_one_channel(tmp_path: Path, say: Say) -> None:
+    days = {f"S{n}": (BEGAN + timedelta(days=k), 10.0, 20.0 + 5 * k) for k, n in enumerate((4000, 8000, 12000))}
+    one_file(tmp_path / "all.tdms", days)
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    campaign = load_campaign(path)
+    assert [t.id for t in campaign.tests] == list(days)
+    assert [(n, c.signal) for n, c in campaign.channels.items()] == [("T_front", "T_front")]
+    store = ("--store", tmp_path / "s")
+    assert say(*store, "ingest", path).code == 0
+    asked = "select test, min(value) as t, count(*) as n from sample group by test order by t"
+    assert json.loads(say(*store, "sql", asked, "--json").out) == [
+        {"test": test, "t": first, "n": 360} for test, (_, _, first) in days.items()
+    ]
+
+
+@pytest.mark.parametrize("late", [0, 600])
+def test_groups_that_ran_at_once_are_rates_of_one_test(tmp_path: Path, say: Say, late: int) -> None:
+    one_file(tmp_path / "all.tdms", {"Slow": (BEGAN, 10.0, 20.0), "Fast": (BEGAN + timedelta(seconds=late), 1.0, 20.0)})
+    assert say("init", tmp_path).code == 0
+    campaign = load_campaign(tmp_path / "campaign.yaml")
+    assert [t.id for t in campaign.tests] == ["all"]
+    assert {c.signal for c in campaign.channels.values()} == {"Slow/T_front", "Fast/T_front"}
+    assert campaign.sources["daq"].table is None
+
+
+def ran(first_s: int, last_s: int, rows: int) -> Sample:
+    return Sample(whole=True, first_ns=first_s * S, last_ns=last_s * S, rows=rows)
+
+
+@pytest.mark.parametrize(
+    ("spans", "recordings"),
+    [
+        (((0, 3600), (0, 3600)), 1),
+        (((0, 3600), (1000, 4600)), 1),
+        (((0, 3600), (3500, 7100)), 0),  # they overlap by little: clocks are not that good
+        (((0, 3600), (3600, 7200)), 0),
+        (((0, 3600), (5, 3600), (90_000, 93_600)), 0),  # a copied date makes no recording of all
+        (((0, 3600), (5, 3600), (90_000, 93_600), (90_000, 93_600)), 2),
+    ],
+)
+def test_each_must_have_run_while_another_did(spans: tuple[tuple[int, int], ...], recordings: int) -> None:
+    samples = [ran(a, b, 100) for a, b in spans]
+    assert recordings_in([a * S for a, _ in spans], samples) == recordings
+
+
+def test_two_days_of_two_rates_are_asked(tmp_path: Path, say: Say) -> None:
+    late = BEGAN + timedelta(days=1)
+    days = {
+        "Slow1": (BEGAN, 10.0, 20.0),
+        "Fast1": (BEGAN, 1.0, 20.0),
+        "Slow2": (late, 10.0, 20.0),
+        "Fast2": (late, 1.0, 20.0),
+    }
+    one_file(tmp_path / "all.tdms", days)
+    assert say("init", tmp_path).code == 0
+    assert (
+        "? it holds 2 recordings of several loggers or rates: a test each?" in (tmp_path / "campaign.yaml").read_text()
+    )
+
+
+@pytest.mark.parametrize(("rows", "last", "one"), [(300, 3600, True), (101, 3600, False), (300, 3500, False)])
+def test_without_dates_equal_ends_at_other_rates_tell(rows: int, last: int, one: bool) -> None:
+    assert bool(recordings_in([None, None], [ran(0, 3600, 100), ran(0, last, rows)])) is one

@@ -1,0 +1,24 @@
+"""A column that numbers the rows of its files is no channel of a draft, and asks nothing; another count is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+@pytest.mark.parametrize(("first", "every", "left_out"), [(1, 1, True), (0, 1, True), (1, 2, False), (5, 1, False)])
+def test_numbers_of_rows_are_left_out(tmp_path: Path, say: Say, first: int, every: int, left_out: bool) -> None:
+    (tmp_path / "raw").mkdir()
+    for day in (2, 3):
+        rows = (f"2026-03-0{day} 08:{k // 60:02d}:{k % 60:02d},{first + k // every},2{k % 9}.5" for k in range(240))
+        (tmp_path / "raw" / f"t{day}.csv").write_text("\n".join(["Time,Scan,T_bed (°C)", *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert ("'Scan' numbers the rows of each file: left out" in text) == left_out
+    assert ("signal: Scan" in text) != left_out

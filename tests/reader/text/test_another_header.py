@@ -1,0 +1,72 @@
+"""A log that goes on under a header of its own: the same one is skipped, other names or units end the table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.plugin import Source
+from thermodata.testing.reader import Data, load
+
+
+def read(tmp_path: Path, head: str, again: str, row: str = "2026-03-02 {h:02d}:{m:02d}:00;2{m}.5;0.{m}") -> Data:
+    rows = [[row.format(h=h, m=m) for m in range(10, 40)] for h in (8, 9)]
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows[0], again, *rows[1], ""]), encoding="utf-8")
+    return load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+
+
+HEAD = "Zeit;T_vorn;dZ\n"
+
+
+@pytest.mark.parametrize(
+    ("again", "said"),
+    [
+        (HEAD + ";°C;µm", "'dZ' in µm, in mm before"),
+        (HEAD + ";°F;mm", "'T_vorn' in °F, in °C before"),
+        (HEAD + ";[°F];[µm]", "'T_vorn' in °F, in °C before, 'dZ' in µm, in mm before"),
+        (HEAD + "UTC;°C;V", "'dZ' in V, in mm before"),
+        (HEAD + ";;V", "'dZ' in V, in mm before"),
+        (HEAD + ";°F", "'T_vorn' in °F, in °C before"),
+    ],
+)
+def test_other_units_under_a_repeated_header_end_the_reading(tmp_path: Path, again: str, said: str) -> None:
+    data = read(tmp_path, HEAD + ";°C;mm", again)
+    (loss,) = data.losses
+    assert data.t_ns["table"].size == 30
+    assert loss.where == "a.csv line 34"
+    assert loss.reason == f"other units begin here, nothing after it is read: {said}; split the file there"
+
+
+@pytest.mark.parametrize("again", [HEAD + ";°C;mm", HEAD + ";degC;mm", HEAD.strip()])
+def test_the_same_units_are_read_on(tmp_path: Path, again: str) -> None:
+    data = read(tmp_path, HEAD + ";°C;mm", again)
+    assert data.t_ns["table"].size == 60
+
+
+def test_units_where_none_stood_end_the_reading_too(tmp_path: Path) -> None:
+    data = read(tmp_path, HEAD.strip(), HEAD + ";°F;µm")
+    assert data.t_ns["table"].size == 30
+    assert "'T_vorn' in °F, in no unit before" in data.losses[0].reason
+
+
+@pytest.mark.parametrize("again", ["Zeit;dZ;T_vorn", "Zeit;T_vorn;T_hinten;dZ", "Zeit;dZ [µm]"])
+def test_other_names_end_the_reading(tmp_path: Path, again: str) -> None:
+    data = read(tmp_path, HEAD.strip(), again)
+    assert data.t_ns["table"].size == 30
+    assert data.losses[0].reason.startswith("another header begins here")
+
+
+@pytest.mark.parametrize(("units", "size"), [("- degC um", 30), ("- degC mm", 60)])
+def test_headers_that_were_put_over_their_columns_are_compared_so(tmp_path: Path, units: str, size: int) -> None:
+    row = "2026-03-02 {h:02d}:{m:02d}:00 2{m}.5 0.{m}"
+    head = "Timestamp T_front dZ\n"
+    data = read(tmp_path, head + "- degC mm", head + units, row)
+    assert data.t_ns["table"].size == size
+
+
+def test_a_row_of_words_without_a_time_is_lost_alone(tmp_path: Path) -> None:
+    data = read(tmp_path, HEAD + ";°C;mm", ";pause;V")
+    assert data.t_ns["table"].size == 60
+    assert "expected a time" in data.losses[0].reason

@@ -1,0 +1,74 @@
+"""Times of day in numbers beside a date, and days of the year."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import QuestionError
+from thermodata.plugin import Source
+from thermodata.testing.reader import load
+
+DAY = np.datetime64("2026-07-14", "ns").astype(np.int64)
+MINUTE = 60 * 10**9
+
+
+def times(tmp_path: Path, head: str, row: str, **said: object) -> list[int]:
+    """Minutes since the day began, of every 15 minutes of a day and the first hour of the next."""
+    rows = []
+    for k in range(0, 1500, 15):
+        day, m = divmod(k, 1440)
+        joined = str(m // 60 * 10000 + m % 60 * 100)
+        of_day = {"d": 14 + day, "h": m // 60, "m": m % 60, "dec": m / 60, "part": m / 1440, "joined": joined}
+        rows.append(row.format(T=f"{20 + k / 60:.2f}", doy=195 + day, hhmm=int(joined) // 100, **of_day))
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC", table=said or None))
+    assert [name for _, name in data.values] == ["T_front"]
+    return np.round((data.t_ns["table"] - DAY) / MINUTE, 6).tolist()
+
+
+EVERY = [float(m) for m in range(0, 1500, 15)]
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("Date;Hour;Minute;T_front", "2026-07-{d};{h};{m};{T}"),
+        ("Date;Hour;Minute;Second;T_front", "2026-07-{d};{h};{m};0;{T}"),
+        ("Datum;Stunde;T_front", "{d}.07.2026;{dec:.2f};{T}"),
+    ],
+)
+def test_hours_and_minutes_beside_a_date_are_its_time_of_day(tmp_path: Path, head: str, row: str) -> None:
+    assert times(tmp_path, head, row) == EVERY
+
+
+@pytest.mark.parametrize(
+    ("head", "row", "ask"),
+    [
+        ("Date;Time;T_front", "2026-07-{d};{part:.10f};{T}", "fraction of the day in 'Date'"),
+        ("Date,Time,T_front", "202607{d},{joined},{T}", "%Y%m%d %H%M%S"),
+        ("Year,DOY,HHMM,T_front", "2026,{doy},{hhmm},{T}", "%Y %j %H%M"),
+    ],
+)
+def test_what_may_be_a_time_of_day_is_asked_with_an_answer_that_reads_it(
+    tmp_path: Path, head: str, row: str, ask: str
+) -> None:
+    with pytest.raises(QuestionError) as asked:
+        times(tmp_path, head, row)
+    assert ask in asked.value.ask
+    assert times(tmp_path, head, row, **asked.value.declare) == EVERY
+
+
+def test_seconds_from_a_start_beside_a_date_are_no_fraction_of_it(tmp_path: Path) -> None:
+    rows = [f"2026-07-14;{k / 4};{k}.5" for k in range(40)]
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Time [s];T", *rows, ""]))
+    assert load(Reader(), tmp_path / "a.csv", Source()).recording.clock == "relative"
+
+
+def test_a_column_behind_a_date_that_is_called_otherwise_is_a_signal(tmp_path: Path) -> None:
+    rows = [f"2026-07-14 08:{k:02d}:00;{k % 24};{k}.5" for k in range(40)]
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Hour;T", *rows, ""]))
+    assert [name for _, name in load(Reader(), tmp_path / "a.csv", Source()).values] == ["Hour", "T"]

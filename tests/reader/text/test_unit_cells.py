@@ -1,0 +1,37 @@
+"""Cells that hold their unit beside their number, in one column among others: their values would be words."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from thermodata_reader_table import Reader
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Source
+from thermodata.testing.reader import Data, load
+
+
+def read(tmp_path: Path, row: str, **options: object) -> Data:
+    rows = [row.format(m=m) for m in range(30)]
+    (tmp_path / "a.csv").write_text("\n".join(["Time,T front,Speed", *rows, ""]), encoding="utf-8")
+    return load(Reader(), tmp_path / "a.csv", Source(timezone="UTC", options=options))
+
+
+@pytest.mark.parametrize(
+    ("row", "column"),
+    [("2026-03-02 08:{m:02d}:00,21.{m} °C,6000", "T front"), ("2026-03-02 08:{m:02d}:00,21.{m},{m}00 rpm", "Speed")],
+)
+def test_a_column_of_such_cells_is_refused_beside_plain_ones(tmp_path: Path, row: str, column: str) -> None:
+    with pytest.raises(FormatError) as refused:
+        read(tmp_path, row)
+    assert refused.value.what == "cells that hold their units beside their numbers"
+    assert refused.value.where == f"a.csv column '{column}'"
+    data = read(tmp_path, row, text=[column])  # the way out that is named
+    assert data.values["table", column].dtype == object
+
+
+@pytest.mark.parametrize("word", ["spindle on", "S1 6000 rpm", "12 pieces left", "10 sec"])
+def test_words_are_read(tmp_path: Path, word: str) -> None:
+    data = read(tmp_path, "2026-03-02 08:{m:02d}:00,21.{m}," + word)
+    assert data.values["table", "Speed"].tolist() == [word] * 30

@@ -1,0 +1,79 @@
+"""Lines within a table that begin another one: names in another order, or other units, as where a logger was set up
+anew and its file went on. What stands behind them must not be taken for the columns above."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from thermodata.reader.text.cell import Cell, is_number, is_stamp
+from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.header_rows import texts_of
+from thermodata.reader.text.layout import Layout
+from thermodata.reader.text.number import clean
+from thermodata.reader.text.table import Table
+from thermodata.reader.text.units_row import as_units, of_units
+from thermodata.schema.unit_spelling import spelled
+
+_SHOWN = 120  # letters of a line
+
+
+def another_header(table: Table, lines: Iterable[tuple[int, str]]) -> tuple[int, str] | None:
+    """(number, what to tell) of the first line that begins another table. lines: those that are no rows of it."""
+    for number, text in lines:
+        if table.repeats_header(text):
+            continue
+        cells = [clean(c) for c in fields(text, table.delimiter, table.quoted)]
+        if reason := begins_another(table.layout, cells, text):
+            return number, reason
+    return None
+
+
+def another_in_sheet(
+    layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]
+) -> tuple[int, str] | None:
+    """The same of the rows of a sheet, counted from 0. head: the rows above them."""
+    above = [texts_of(row) for row in head]
+    for number, row in enumerate(rows):
+        if all(isinstance(c, str) or c is None for c in row):
+            cells = texts_of(row)
+            if cells not in above and (reason := begins_another(layout, cells, "; ".join(filter(None, cells)))):
+                return number, reason
+    return None
+
+
+def begins_another(layout: Layout, cells: Sequence[str], shown: str) -> str:
+    """Why a row begins another table; '' where it does not."""
+    if layout.fit is not None:
+        cells = [str(c) for c in layout.fit.over(cells)]
+    if names_again(layout, cells):
+        return f"another header begins here, nothing after it is read: '{shown[:_SHOWN]}'; split the file there"
+    other = other_units(layout, cells)
+    return f"other units begin here, nothing after it is read: {other}; split the file there" if other else ""
+
+
+def names_again(layout: Layout, cells: Sequence[str]) -> bool:
+    """Whether a line names the time as the header does."""
+    time = layout.groups[0].time
+    return bool(time) and all(i < len(cells) and (cells[i] or f"column {i + 1}") == layout.names[i] for i in time)
+
+
+def other_units(layout: Layout, cells: Sequence[str]) -> str:
+    """'dZ' in µm, in mm before: the columns of which a row of units says another one; '' where it is none, or says the
+    same."""
+    if any(cells[len(layout.names) :]) or not any(cells) or any(is_number(c) or is_stamp(c) for c in cells):
+        return ""
+    cells = [*cells, *[""] * (len(layout.names) - len(cells))]  # a line that is cut off
+    if not of_units(cells, layout.time):
+        return ""
+    said = enumerate(zip(as_units(cells), layout.units, strict=False))
+    changed = [
+        (i, unit, was)
+        for i, (unit, was) in said
+        if unit and i not in layout.dated and _plain(unit) != _plain(was or "")
+    ]
+    return ", ".join(f"'{layout.names[i]}' in {unit}, in {was or 'no unit'} before" for i, unit, was in changed)
+
+
+def _plain(unit: str) -> str:
+    """A unit in one spelling: 'degC' of '°C'."""
+    return spelled(unit) or unit

@@ -1,0 +1,70 @@
+"""Lines above a table that say the time from row to row: 'Sample interval: 2 s', 'Abtastrate;10 Hz'. It is proposed
+where no column tells the time, never taken: rows may be left out, or the setting may be another logger's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from thermodata.errors import QuestionError
+from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.time_units import SECONDS
+
+_LABEL = re.compile(
+    r"(?i)(?:(?:sampl(?:e|ing)|scan|log(?:ging)?|record(?:ing)?|measur(?:e|ing|ement)|data|time)[ _-]*)?"
+    r"(?P<what>interval|period|step|rate|frequency)|(?:abtast|mess|log|aufzeichnungs|speicher)?-?(?P<de>intervall|zeit|"
+    r"periode|rate|frequenz|takt)|intervallo|intervalle|intervalo|période|periodo|interval vzorkování|perioda|"
+    r"サンプリング間隔|サンプリング周期|采样间隔|采样周期|记录间隔"
+)
+_VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
+_CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)")
+_BARE_WORDS = ("zeit", "takt", "rate", "period", "step")  # which alone say another thing as well
+
+
+def interval_above(lines: Iterable[Sequence[str]]) -> tuple[float, str] | None:
+    """(the time from row to row [s], the line that says so); None where none says one, or several say others."""
+    found: dict[float, str] = {}
+    for cells in lines:
+        text = " ".join(c.strip() for c in cells if c and c.strip()).strip("#%;/* \t\"'")
+        match = re.fullmatch(
+            r"(?P<label>[^:=\d\[(]+?)\s*(?:[\[(](?P<unit>[^\W\d]+)[\])])?\s*[:=]?\s*(?P<value>\d\S*.*)", text
+        )
+        label = _LABEL.fullmatch(match["label"].strip()) if match else None
+        if match is None or label is None or label[0].casefold() in _BARE_WORDS:
+            continue
+        seconds = _seconds(match["value"].strip(), match["unit"])
+        if seconds is not None:
+            found[seconds] = text
+    return next(iter(found.items())) if len(found) == 1 else None
+
+
+def _seconds(value: str, unit: str | None) -> float | None:
+    if clock := _CLOCK.fullmatch(value):
+        return 3600 * int(clock["h"]) + 60 * int(clock["m"]) + float(clock["s"].replace(",", ".")) or None
+    match = _VALUE.fullmatch(value)
+    if match is None or not float(match["number"].replace(",", ".")):
+        return None
+    number, said = float(match["number"].replace(",", ".")), (match["unit"] or unit or "").lower()
+    if said in ("hz", "khz"):
+        return 1.0 / (number * (1000 if said == "khz" else 1))
+    return number * SECONDS[said] if said in SECONDS else None
+
+
+def with_interval(question: QuestionError, lines: Iterable[Sequence[str]]) -> QuestionError:
+    """A question of the time from row to row, with the one that stands above the rows to be confirmed; another question
+    as it is."""
+    if question.declare.get("time") != {"period": UNKNOWN} or (found := interval_above(lines)) is None:
+        return question
+    seconds, line = found
+    said = {"time": {"period": f"{seconds:.12g} s"}}
+    return QuestionError(
+        question.what,
+        where=question.where,
+        expected=question.expected,
+        got=f"{question.got}; above them: '{line[:80]}'",
+        hint=f"declare table: {{time: {{period: {seconds:.12g} s}}}} where the rows follow each other so",
+        ask=f"period: do all rows follow each other every {seconds:.12g} s, as '{line[:80]}' above them says?",
+        declare=said,
+        meanwhile=said,
+        times=question.times,
+    )
