@@ -129,3 +129,9 @@ def test_the_language_is_mended_before_anything_asks_for_it() -> None:
     """uPlot formats by `navigator.language` as it loads, and fails as a whole where that is none (LANG=C)."""
     text = script()
     assert 0 <= text.index("new Intl.NumberFormat(navigator.language)") < text.index("uPlot")
+
+
+@pytest.mark.parametrize(("label", "curves", "height"), [(None, 2, 110), (None, 16, 13 * 16 + 16), ("", 16, 110)])
+def test_a_panel_is_high_enough_for_the_labels_of_its_lines(label: str | None, curves: int, height: int) -> None:
+    series = [Series(f"t{k}", "degC", np.zeros(3), "measured", label=label) for k in range(curves)]
+    assert Panel("temperatures", "degC", series, height=110).height == height

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 from thermodata.cli.app import COMMANDS, Commands, cli
 from thermodata.errors import StoreError
 
-from .conftest import Said
+from .conftest import Said, write_campaign
 
 Say = Callable[..., Said]
 CONTRACT = {
@@ -172,3 +173,19 @@ def test_a_defect_says_so_and_keeps_the_traceback_for_debugging(say: Say, monkey
     monkeypatch.setenv("THERMODATA_DEBUG", "1")
     with pytest.raises(KeyError):
         say("plugins")
+
+
+def test_quality_counts_what_ingest_did_not_measure(say: Callable[..., Said], tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    store = tmp_path / "store"
+    say("--store", store, "ingest", path)
+    assert "not_measuring" not in say("--store", store, "quality").out
+    path.write_text(path.read_text().replace("id: day1,", 'id: day1, measuring: "spindle_speed == 0",'))
+    flags = json.loads(say("--store", store, "ingest", path, "--json").out)["flags"]
+    assert flags["not_measuring"] > 0
+    for more in ((), ("--events",)):
+        rows = json.loads(say("--store", store, "quality", *more, "--json").out)
+        (row,) = [row for row in rows if row["flag"] == "not_measuring"]
+        assert (row["test"], row["n"], row["from_s"]) == ("day1", flags["not_measuring"], None)
+    said = " ".join(say("--store", store, "quality").out.split())
+    assert f"not_measuring {flags['not_measuring']}" in said

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -195,3 +196,15 @@ def test_preview_looks_closely_at_a_share_of_very_many_signals_and_says_so(tmp_p
         assert stream["first_rows"][1][f"g{i}/c{60 * i + 59}"] == 21.0 + 60 * i + 59
     few = previewed(csv(tmp_path / "a.csv"), None, None, 2, None)
     assert not any("looked at" in note for note in few["notes"])
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+@pytest.mark.parametrize("words", [("sniff",), ("preview",), ("preview", "--reader", "table")])
+def test_a_named_pipe_is_refused_and_nobody_waits_for_it(say: Say, tmp_path: Path, words: tuple[str, ...]) -> None:
+    os.mkfifo(tmp_path / "log.csv")
+    said = say(*words, tmp_path / "log.csv")
+    assert said.code == 2
+    assert "this is a pipe" in said.err
+    assert "expected: a file" in said.err
+    (tmp_path / "log.csv").unlink()
+    assert say(*words, csv(tmp_path / "log.csv")).code == 0

@@ -133,6 +133,33 @@ class NotLinearInKelvin(Good):
         return (np.abs(drivers.values["u"]) ** (1.0 + p["a"])).reshape(-1, 1)
 
 
+class Quadratic(Good):
+    gains = (Gain("gain", "um/K2", (0, 10), "any", "k"),)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return (drivers.values["u"] ** 2 * p["a"]).reshape(-1, 1)
+
+
+class QuadraticBesideAnother(Quadratic):
+    needs = (Need("u", "temperature"), Need("around", "temperature", optional=True))
+    gains = (Gain("gain", "um/K", (0, 10), "any", "k"), Gain("g2", "um/K^2", (0, 10), "any", "k of the square"))
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        u = drivers.values["u"] - drivers.values.get("around", 0.0 * drivers.t_s)
+        return np.column_stack([u * p["a"], u**2])
+
+
+class Above(Good):
+    params = (Param("a", "K", 3.0, 1.0, 9.0, "from so much on it grows"),)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        return np.maximum(drivers.values["u"] - p["a"], 0.0).reshape(-1, 1)
+
+
+class LinearThatSaysSquare(Good):
+    gains = (Gain("gain", "um/K2", (0, 10), "any", "k"),)
+
+
 class KelvinForgotten(Good):
     gains = (Gain("gain", "um", (0, 10), "any", "k"),)
 
@@ -159,6 +186,11 @@ def test_a_good_effect_passes() -> None:
     kit.check_effect(Lawful())
 
 
+@pytest.mark.parametrize("sound", [Quadratic, QuadraticBesideAnother, Above])
+def test_an_effect_need_not_be_linear_in_what_drives_it(sound: type[Good]) -> None:
+    assert kit.faults(sound()) == {}
+
+
 @pytest.mark.parametrize(
     ("broken", "rule"),
     [
@@ -181,6 +213,7 @@ def test_a_good_effect_passes() -> None:
         (CountsSamples, kit.it_says_the_same_on_any_grid),
         (StopsInGaps, kit.a_gap_that_was_filled_right_changes_nothing),
         (NotLinearInKelvin, kit.its_gains_have_the_units_of_what_drives_them),
+        (LinearThatSaysSquare, kit.its_gains_have_the_units_of_what_drives_them),
         (KelvinForgotten, kit.its_gains_have_the_units_of_what_drives_them),
         (Promises, kit.its_law_is_its_basis),
     ],

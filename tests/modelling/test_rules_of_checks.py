@@ -264,3 +264,10 @@ def test_one_step_of_a_coarse_sensor_moves_the_prediction_by_a_um(resolution: fl
     assert found.passed is passed
     assert found.value == pytest.approx(10 * resolution)
     assert checks._ripple(response, term(gain=-10.0), [a_test()]) == []
+
+
+@pytest.mark.parametrize(("param", "end"), [(TAU, "bound 100 min:"), (EXPONENT, "bound 2:")])
+def test_a_bound_is_told_with_its_unit_where_it_has_one(param: Param, end: str) -> None:
+    effect = Straight(params=(param,))
+    [told] = bound_checks.at_bounds(UM, term(effect, {param.name: param.upper}))
+    assert end in told.advice

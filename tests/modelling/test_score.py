@@ -12,7 +12,7 @@ from thermodata.modelling.phases import activity, phases
 from thermodata.modelling.result import make_result, model_id
 from thermodata.modelling.score import IN_SAMPLE, figures, peak_sum, scores, share_removed
 from thermodata.modelling.table import prediction_columns, prediction_tables
-from thermodata.view.dataset import Dataset
+from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import EFFECTS, Change, Spec
 
@@ -34,6 +34,8 @@ def test_fit_is_the_papers_and_is_not_clipped() -> None:
     assert peak_sum(np.array([3.0, 5.0])) == 8.0
     assert share_removed(y, y / 10, np.ones(4, bool)) == pytest.approx(0.9)
     assert set(figures(y[:0], y[:0]).values()) == {None}
+    assert set(figures(y[:1], y[:1]).values()) == {None}, "its offset is taken from it"
+    assert figures(y[:2], np.array([-1.0, 1.0]))["rmse_um"] == 1.0
 
 
 def test_locked_tests_are_scored_only_when_asked(world: Dataset, spec: Spec) -> None:
@@ -126,3 +128,23 @@ def test_the_result_is_what_the_commands_print(world: Dataset, spec: Spec) -> No
     result = make_result(fitted, world, "abc", parent="xyz")
     assert (result.model, result.parent, result.response, result.before) == ("abc", "xyz", "dZ", None)
     assert result.model_validate_json(result.model_dump_json()) == result
+
+
+@pytest.mark.parametrize(
+    ("counted", "told"), [(0, "none of its samples counts"), (1, "which gives its offset"), (2, "")]
+)
+def test_a_test_that_scores_nothing_has_no_error_and_a_check(
+    world: Dataset, spec: Spec, counted: int, told: str
+) -> None:
+    def few(test: TestData) -> TestData:
+        good = np.zeros(len(test.t_s), bool)
+        good[100 : 100 + counted] = True
+        return replace(test, valid={**test.valid, "dZ": good})
+
+    data = replace(world, tests=tuple(few(t) if t.test == "t5" else t for t in world.tests))
+    result = make_result(fit_model(spec(*EFFECTS), data), data, "m")
+    score = next(s for s in result.scores if s.test == "t5" and s.phase == "all")
+    assert score.n == counted
+    assert (score.rmse_um is None) == (score.max_um is None) == bool(told)
+    checks = [c for c in result.checks if c.name == "not_scored:c/t5"]
+    assert [told in c.advice and not c.passed for c in checks] == [True] * bool(told)

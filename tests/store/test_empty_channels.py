@@ -67,3 +67,32 @@ def test_rows_whose_times_stand_still_are_told_and_asked(store: Store, tmp_path:
     assert bool(asked) is told
     assert all("table: {time: {period: ...}}, which is about 4.6 s" in note for note in notes)
     assert all("table: {time: {period: 5 s}}" in question for question in asked)
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ("zero: {over: 100 h}", "a: zero is the mean over 100 h, and the test lasts 0.65 h: the mean of all of it"),
+        ("zero: {over: 10 min}", ""),
+        ("phases: {late: [2 h, 3 h]}", "a: the phase 'late' begins at 2 h, and the recording ends at 0.65 h"),
+        ("phases: {most: [0 h, 3 h]}", ""),
+    ],
+)
+def test_times_behind_the_end_of_the_recording_are_told(store: Store, tmp_path: Path, keys: str, said: str) -> None:
+    path = write(tmp_path / "lab", {"a": "3000", "b": "6000"})
+    path.write_text(path.read_text().replace("{id: a,", f"{{id: a, {keys},"))
+    for _ in range(2):
+        told = [n for n in ingest(store, path).notes if n.startswith("a: ")]
+        assert len(told) == bool(said)
+        assert all(n.startswith(said) for n in told)
+
+
+@pytest.mark.parametrize("history", ["test", "recording"])
+def test_a_window_behind_the_end_says_when_the_recording_has_rows(store: Store, tmp_path: Path, history: str) -> None:
+    path = write(tmp_path / "lab", {"a": "3000", "b": "6000"})
+    path.write_text(path.read_text().replace("{id: a,", f"{{id: a, window: [7 h, 9 h], history: {history},"))
+    for _ in range(2):
+        ((test, reason),) = losses(summary := ingest(store, path))
+        assert test == "a"
+        assert "window, from 7 to 9 h after the recording's start: they run from 0 to 0.65 h" in reason
+        assert (summary.losses[0]["file"], summary.losses[0]["where"]) == ("campaign.yaml", "line 9")

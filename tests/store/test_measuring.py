@@ -97,3 +97,27 @@ def test_a_channel_measures_where_another_is_in_its_range(store: Store, campaign
     ingest(store, campaign)
     found = flags(store, "dZ") & Flag.NOT_MEASURING != 0
     np.testing.assert_array_equal(found, (np.arange(1200) >= 300) & (np.arange(1200) < 400))
+
+
+def test_a_test_without_the_channel_that_says_when_it_measures_counts_nowhere(store: Store, campaign: Path) -> None:
+    declare(campaign, '"speed > 100 rpm"')
+    text = campaign.read_text().replace("{id: one,", "{id: one, channels: {speed: {absent: true}},")
+    campaign.write_text(text)
+    summary = ingest(store, campaign)
+    (told,) = [loss["reason"] for loss in summary.losses if "measuring" in loss["reason"]]
+    assert "no channel 'speed'" in told.replace('"', "'") or "'speed'" in told
+    assert "none of the test counts" in told
+    assert (flags(store, "dZ") & Flag.NOT_MEASURING != 0).all()
+    assert not (flags(store, "T_a") & Flag.NOT_MEASURING).any()
+
+
+@pytest.mark.parametrize(("measuring", "never"), [('"speed > 100000 rpm"', True), ('"speed >= 0 rpm"', False)])
+def test_a_measuring_that_never_holds_is_told_each_time(
+    store: Store, campaign: Path, measuring: str, never: bool
+) -> None:
+    declare(campaign, measuring)
+    for _ in range(2):
+        told = [n for n in ingest(store, campaign).notes if "never holds" in n]
+        assert [n.startswith("one, daq: measuring (speed > 100000 rpm) never holds: dZ") for n in told] == [
+            True
+        ] * never

@@ -11,7 +11,7 @@ from store_fakes import CAMPAIGN, times, write_campaign, write_log
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.store.ingest import campaign_files
-from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.run import checked, ingest
 from thermodata.store.raw.streams import find_reader
 
 DERIVED = '  dT: {derive: "T_a - T_b", quantity: temperature_difference}\n'
@@ -93,3 +93,56 @@ def test_a_derivation_that_gives_no_number_is_told(store: Store, tmp_path: Path)
     (loss,) = ingest(store, with_channels(tmp_path / "lab", lines)).losses
     assert "channel 'nil': its derivation 'T_a / 0' gives no number in any test" in loss["reason"]
     assert loss["where"] == "line 14"
+
+
+def measuring(folder: Path, text: str) -> Path:
+    """The campaign with a `measuring` in its first test."""
+    return write_campaign(folder, CAMPAIGN.replace("{id: one,", f"{{id: one, measuring: {text},"))
+
+
+@pytest.mark.parametrize(
+    ("text", "what", "where", "hint"),
+    [
+        ('"speedd == 0"', "no channel 'speedd'", ".measuring)", "'speed'"),
+        ('"speed = 0"', "unexpected '='", ".measuring), expression", "write '=='"),
+        ('"max(speed) < 1"', "no function 'max'", ".measuring), expression", ""),
+        ('"speed > 3 um"', "units that don't fit", ".measuring), expression", ""),
+        ('{when: "speed == 0 and T_aa > 1"}', "no channel 'T_aa'", ".measuring.when)", "'T_a'"),
+        ("{in_range: T_aa}", "no channel 'T_aa'", ".measuring.in_range)", "'T_a'"),
+        ("{in_range: {T_aa: [1 degC, 2 degC]}}", "no channel 'T_aa'", ".measuring.in_range)", "'T_a'"),
+    ],
+)
+def test_a_measuring_that_no_test_could_have(
+    store: Store, tmp_path: Path, text: str, what: str, where: str, hint: str
+) -> None:
+    error = refused(store, measuring(tmp_path / "lab", text))
+    assert what in error.what
+    line = next(i for i, x in enumerate(CAMPAIGN.splitlines(), 1) if "id: one" in x)
+    assert (error.where or "").startswith(f"campaign.yaml:{line} (tests[0]{where}")
+    assert error.expected
+    assert hint in (error.hint or "")
+
+
+@pytest.mark.parametrize("text", ["in_range", "speed == 0", '"not (speed > 10 rpm) or abs(T_a) >= 3"'])
+def test_a_measuring_of_channels_that_are_there_is_taken(store: Store, tmp_path: Path, text: str) -> None:
+    assert not any("measuring" in loss["reason"] for loss in ingest(store, measuring(tmp_path / "lab", text)).losses)
+
+
+def test_a_measuring_that_tests_from_sets_is_told_at_its_line(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").touch()
+    text = """schema: thermodata/campaign/1
+id: c
+sources: {daq: {reader: table}}
+channels: {speed: {source: daq, signal: n, quantity: rotational_speed}}
+tests_from:
+  files: "{nr}.csv"
+  set: {kind: mixed, measuring: "NAME == 0"}
+"""
+    path = tmp_path / "campaign.yaml"
+    path.write_text(text.replace("NAME", "speedd"))
+    with pytest.raises(UsageError) as caught:
+        checked(path)
+    assert (caught.value.where or "").startswith("campaign.yaml:7 (tests_from.set.measuring)")
+    assert caught.value.hint == "did you mean 'speed'?"
+    path.write_text(text.replace("NAME", "speed"))
+    assert checked(path).tests[0].measuring == "speed == 0"

@@ -23,7 +23,7 @@ _BREAK = 10.0  # a pause of so many periods ends a stretch
 
 def measuring_names(measuring: str | Measuring | None) -> frozenset[str]:
     """The channels that a `measuring` reads (empty for a bare 'in_range')."""
-    spec = _long_form(measuring)
+    spec = long_form(measuring)
     names = set() if spec.when is None else set(parse(spec.when).names)
     if isinstance(spec.in_range, str):
         names |= {spec.in_range} - {"in_range"}
@@ -45,7 +45,7 @@ def measuring_mask(
     'in_range' (of one channel by name, or of all in `flags`): in the sensor's range, and a number.
     Raises UsageError for a channel that isn't there.
     """
-    spec = _long_form(measuring)
+    spec = long_form(measuring)
     mask: Bool1D = np.ones(len(t_ns), dtype=bool)
     if spec.when is not None:
         mask &= parse(spec.when).evaluate_bool(values, units)
@@ -91,7 +91,8 @@ def stretch_means(t_ns: Int1D, values: Float1D, mask: Bool1D) -> tuple[Int1D, Fl
     return mean_t, (sums[last] - sums[first]) / n, n
 
 
-def _long_form(measuring: str | Measuring | None) -> Measuring:
+def long_form(measuring: str | Measuring | None) -> Measuring:
+    """The same with its parts by name; nothing in it where nothing is declared."""
     if isinstance(measuring, Measuring):
         return measuring
     if measuring is None:

@@ -43,6 +43,9 @@ class Band:
     label: str
 
 
+_LABEL, _ROOM = 13, 16  # [px] of a label at a line's end, and above and below all of them
+
+
 @dataclass(frozen=True, slots=True)
 class Series:
     """One curve of a panel. y: shape (n,). x: shape (n,), the chart's own where None. label: at the line's end, its
@@ -93,7 +96,8 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """Curves that share a y axis. range: fixed; else what is in sight fills the height. zero: y = 0 is drawn."""
+    """Curves that share a y axis. range: fixed; else what is in sight fills the height. zero: y = 0 is drawn. height:
+    at least; a panel is high enough for the labels at the ends of its lines."""
 
     title: str
     unit: str
@@ -104,6 +108,10 @@ class Panel:
     marks: Sequence[Marks] = ()
     limits: Sequence[Limit] = ()
     zero: bool = False
+
+    def __post_init__(self) -> None:
+        labels = sum(series.label != "" for series in self.series)
+        object.__setattr__(self, "height", max(self.height, _LABEL * labels + _ROOM))
 
 
 @dataclass(frozen=True, slots=True)

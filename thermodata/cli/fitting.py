@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -121,18 +122,24 @@ def compare_command(
         return
     if tests:
         raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")
+    from thermodata.modelling.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
-    from thermodata.store.catalogue.models import load_diagnosis
+    from thermodata.store.catalogue.models import find_model, load_diagnosis
 
     store = session.store()
     results = compare(store, named(store))
-    loaded = load(store, results[0].model)
-    weak = weak_spots_of(loaded, (load_diagnosis(store, m) for m in (loaded.parent, loaded.identity) if m))
+    unknown = [r for r in results if not_installed(find_model(store, r.model).spec)]
+    for result in unknown:
+        warnings.warn(result.notes[-1], stacklevel=2)
+    weak: dict[str, Any] = {}
+    if results[0] not in unknown:
+        loaded = load(store, results[0].model)
+        weak = weak_spots_of(loaded, (load_diagnosis(store, m) for m in (loaded.parent, loaded.identity) if m))
     payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}
     if len(results) > 1:
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
-    apart = differences_of(store, [r.model for r in results])
+    apart = [] if unknown else differences_of(store, [r.model for r in results])
     payload["differences"] = apart or None
     session.answer(
         payload,

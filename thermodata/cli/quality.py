@@ -41,8 +41,9 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
     from thermodata.report.quality.told import by_cause, by_channel, with_reason
 
     found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
-    rows = [with_reason(row) for row in found]
-    losses = _losses(session, campaign)
+    files = _files(session, campaign)
+    rows = [with_reason(row) for row in [*found, *_not_measuring(files)]]
+    losses = _losses(files)
 
     def text() -> str:
         parts = []
@@ -76,17 +77,40 @@ def _causes(rows: list[dict[str, Any]]) -> str:
     return table(rows, columns, widest=100)
 
 
-def _losses(session: Session, campaign: str | None) -> list[str]:
+def _files(session: Session, campaign: str | None) -> list[dict[str, Any]]:
+    """Rows of `file`, with what is kept of each beside its columns."""
+    query = "select campaign, test, source, source_path, losses, columns from file"
+    files = rows_of(session, f"select * from ({query} where layer <> 'superseded')", campaign, "test, source")
+    for row in files:
+        meta = json.loads(row["columns"] or "{}")
+        row["meta"] = meta if isinstance(meta, dict) else {}
+    return files
+
+
+def _not_measuring(files: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little."""
+    return [
+        {
+            **{key: row[key] for key in ("campaign", "test", "source")},
+            **dict.fromkeys(("stream", "channel", "from_s", "to_s")),
+            "flag": "not_measuring",
+            "n": n,
+            "detail": "outside of the test's measuring",
+        }
+        for row in files
+        if (n := row["meta"].get("flags", {}).get("not_measuring", 0))
+    ]
+
+
+def _losses(files: list[dict[str, Any]]) -> list[str]:
     """What could not be read or made, a line a cause."""
     from thermodata.report.causes import losses_in_words
 
-    query = "select campaign, test, source, source_path, losses, columns from file"
     found: list[dict[str, Any]] = []
-    for row in rows_of(session, f"select * from ({query} where layer <> 'superseded')", campaign, "test, source"):
+    for row in files:
         place = {"test": row["test"] or None, "source": row["source"] or None, "file": row["source_path"]}
         found += [{**place, **loss} for loss in json.loads(row["losses"] or "[]")]
-        meta = json.loads(row["columns"] or "{}")
-        found += [{**place, "reason": p} for p in (meta.get("problems", []) if isinstance(meta, dict) else [])]
+        found += [{**place, "reason": p} for p in row["meta"].get("problems", [])]
     once = list({json.dumps(x, sort_keys=True, default=str): x for x in found}.values())
     names = {str(x[k]) for x in once for k in ("test", "source") if x.get(k)}
     lines = losses_in_words(once, names)

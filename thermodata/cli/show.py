@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +13,13 @@ from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
-from thermodata.report.words import duration, number
+from thermodata.report.words import duration, number, probability_text
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from thermodata.modelling.seen import Seen, SeenPath
+    from thermodata.store.catalogue.models import StoredModel
 
 DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
 
@@ -33,13 +37,19 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
     constants, gain at rest, state space; and what the residual of the calibration tests still tells: its
     autocorrelation with Ljung-Box, and how it goes with each state. --json has the curves too.
     """
+    from thermodata.modelling.not_installed import not_installed
     from thermodata.modelling.run import load
     from thermodata.modelling.seen import see
+    from thermodata.store.catalogue.models import find_model
 
     if png is not None and png.suffix.lower() != ".png":
         raise UsageError("a picture is a PNG", expected="FILE.png", got=str(png))
     store = session.store()
-    loaded = load(store, resolve(store, model))
+    stored = find_model(store, resolve(store, model))
+    if lacking := not_installed(stored.spec):
+        _as_stored(session, stored, lacking)
+        return
+    loaded = load(store, stored.model)
     seen = [_only(s, effects) for s in see(loaded.fitted, loaded.data)]
     if png is not None:
         from thermodata.report.system_png import draw
@@ -50,6 +60,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
         "name": loaded.fitted.spec.name,
         "picture": None if png is None else str(png),
         "responses": [_payload(s) for s in seen],
+        "stored": None,
     }
 
     def text() -> str:
@@ -57,6 +68,23 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
         return "\n\n".join(parts + ([str(png)] if png is not None else []))
 
     session.answer(payload, text)
+
+
+def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) -> None:
+    """What the fit stored of a model that can't be run here; it has no system to show."""
+    from thermodata.cli.common import plain
+    from thermodata.modelling.not_installed import as_stored
+    from thermodata.report.fit_text import fit_text
+
+    warnings.warn(as_stored(lacking, stored.name), stacklevel=2)
+    payload = {
+        "model": stored.model,
+        "name": stored.name,
+        "picture": None,
+        "responses": [],
+        "stored": plain(stored.result),
+    }
+    session.answer(payload, lambda: fit_text(stored.result))
 
 
 def _only(seen: Seen, effects: tuple[str, ...]) -> Seen:
@@ -165,7 +193,7 @@ def _residual(seen: Seen) -> str:
     lines = [f"residual of the calibration tests: {seen.count} samples; autocorrelation {remembered or '-'}"]
     for one in seen.ljung_box:
         white = "white" if one.p_value > 0.05 else "not white"
-        lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, p {one.p_value:.2g}: {white}")
+        lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, {probability_text(one.p_value)}: {white}")
     if seen.states:
         rows = [
             {"state": s.state, "r": f"{s.correlation:+.2f}", "slope": f"{number(s.slope)} {_per(seen.unit, s.unit)}"}

@@ -37,8 +37,8 @@ def _bounds(term: FittedTerm) -> list[Check]:
                             value=value,
                             threshold=end,
                             passed=False,
-                            advice=f"{param.meaning} stands at its bound {end:g} {param.unit}: another effect may be "
-                            f"behind it, or the bound is wrong{_wider(param, end)}",
+                            advice=f"{param.meaning} stands at its bound {_with_unit(end, param)}: another effect may "
+                            f"be behind it, or the bound is wrong{_wider(param, end)}",
                         )
                     )
     return rows
@@ -58,11 +58,16 @@ def _undetermined(term: FittedTerm) -> list[Check]:
                         value=values.params[param.name],
                         threshold=None,
                         passed=False,
-                        advice=f"{param.meaning} is not determined: these tests allow all from {low:g} to {high:g} "
-                        f"{param.unit}; fix it, or add a test in which its driver moves",
+                        advice=f"{param.meaning} is not determined: these tests allow all from {low:g} to "
+                        f"{_with_unit(high, param)}; fix it, or add a test in which its driver moves",
                     )
                 )
     return rows
+
+
+def _with_unit(value: float, param: Param) -> str:
+    """'100 min'; of a number without a unit the number alone."""
+    return f"{value:g}" if param.unit == "1" else f"{value:g} {param.unit}"
 
 
 def _wider(param: Param, end: float) -> str:

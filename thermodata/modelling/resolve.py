@@ -12,6 +12,7 @@ from thermodata.effect.places import holds, shown
 from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
 from thermodata.modelling import nested, prediction, shaped, transfer
 from thermodata.modelling.bound import BoundResponse, BoundTerm
+from thermodata.modelling.driver_quantity import refuse_another_quantity
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.make_effect import make_effect, refuse_unknown_effects
 from thermodata.modelling.nuisance import known_weights
@@ -126,6 +127,7 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
         raise SpecError(
             f"several displacements are {wanted}",
             where=f"response, campaign {campaign}",
+            expected="one of them",
             got=", ".join(f"{n} (at {moving[n].at})" for n in hits),
             hint=f"name one: response: {{channel: {hits[0]}}}",
         )
@@ -205,6 +207,7 @@ def bind(
         if role not in needs:
             raise unknown_name("driver role", role, list(needs), where=where)
         binding[role] = _driver(driver, needs[role].quantity, channels, where)
+        refuse_another_quantity(effect, needs[role], binding[role], channels, where)
     rest = tuple(n for n in effect.needs if n.role not in binding)
     if not rest or (binding and all(n.optional for n in effect.needs)):
         return binding

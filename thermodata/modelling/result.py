@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.score import scores
+from thermodata.modelling.score import ALL, FEWEST, scores
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -51,6 +52,7 @@ def make_result(
         Check(name=f"skipped:{test}", value=None, threshold=None, passed=False, advice="; ".join(why))
         for test, why in lacking.items()
     ]
+    rows = scores(fitted, data, identity, locked=locked)
     return FitResult(
         model=identity,
         name=fitted.spec.name,
@@ -58,8 +60,8 @@ def make_result(
         campaigns=list(fitted.spec.campaign_ids),
         response=names[0] if len(names) == 1 else names,
         parameters=fitted.parameters(),
-        scores=scores(fitted, data, identity, locked=locked),
-        checks=[*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked)],
+        scores=rows,
+        checks=[*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)],
         before=before,
     )
 
@@ -77,3 +79,20 @@ def _not_predicted(fitted: FittedModel, data: Dataset, locked: bool) -> list[Che
                 Check(name=f"not_predicted:{name}", value=None, threshold=None, passed=False, advice="; ".join(reasons))
             )
     return rows
+
+
+def _not_scored(rows: Sequence[Score]) -> list[Check]:
+    """Tests that the model predicts and that say nothing of it: too few of their samples count."""
+    return [
+        Check(
+            name=f"not_scored:{row.campaign}/{row.test}"
+            + ("" if len({r.response for r in rows}) == 1 else f":{row.response}"),
+            value=float(row.n),
+            threshold=float(FEWEST),
+            passed=False,
+            advice=("one of its samples counts, which gives its offset: " if row.n else "none of its samples counts: ")
+            + "the model's phases, the test's measuring, or flags leave no more",
+        )
+        for row in rows
+        if row.phase == ALL and row.n < FEWEST
+    ]

@@ -39,7 +39,8 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
             if taken.setdefault(key, name) != name:
                 raise SpecError(
                     f"test '{'/'.join(key)}' has two roles",
-                    where=f"model '{spec.name}'",
+                    where=f"{name}, model '{spec.name}'",
+                    expected=f"it in one of {taken[key]} and {name}",
                     got=f"{taken[key]} and {name}",
                     hint="a locked or verification test is not fitted to",
                 )
@@ -54,7 +55,7 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
     if not named[0]:
         raise SpecError(
             "no test to calibrate on",
-            where=f"model '{spec.name}'",
+            where=f"calibrate_on, model '{spec.name}'",
             expected="calibrate_on: [...], or tests with role: calibration",
             got=", ".join(f"{t.test} ({t.role})" for t in data.tests) or "no tests at all",
         )

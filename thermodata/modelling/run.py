@@ -14,6 +14,7 @@ from thermodata.modelling.candidate import with_candidate, with_effect
 from thermodata.modelling.differences import TestDifference, differences
 from thermodata.modelling.fit import fit_model
 from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.not_installed import as_stored, not_installed, refuse_not_installed
 from thermodata.modelling.orders import Tried
 from thermodata.modelling.portability import Portability, portability
 from thermodata.modelling.profiles import Profiles, profiles_of
@@ -47,6 +48,7 @@ def load(store: Store, ref: str, *, uncertainty: bool = False) -> Loaded:
     from thermodata.store.catalogue.models import find_model
 
     stored = find_model(store, ref)
+    refuse_not_installed(stored.spec, stored.model)
     data = load_data(store, stored.spec)
     return Loaded(stored.model, stored.parent, fit_alone(stored.spec, data, uncertainty=uncertainty), data)
 
@@ -113,9 +115,17 @@ def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
-    """Each model's parameters, scores and checks on the store's data as it is now."""
+    """Each model's parameters, scores and checks on the store's data as it is now; as its fit stored them, with a note,
+    where an effect of it is not installed."""
+    from thermodata.store.catalogue.models import find_model
+
     results = []
     for ref in refs:
+        stored = find_model(store, ref)
+        if lacking := not_installed(stored.spec):
+            note = as_stored(lacking, stored.name)
+            results.append(stored.result.model_copy(update={"notes": [*stored.result.notes, note]}))
+            continue
         model = load(store, ref, uncertainty=True)
         results.append(make_result(model.fitted, model.data, model.identity, parent=model.parent))
     return results

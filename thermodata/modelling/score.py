@@ -18,6 +18,7 @@ from thermodata.schema.result import Score
 from thermodata.view.dataset import Dataset, TestData
 
 ALL = "all"
+FEWEST = 2  # samples that a test needs for an error: the first gives its offset
 IN_SAMPLE = "verification (in-sample)"
 
 
@@ -61,8 +62,9 @@ def score_test(response: FittedResponse, test: TestData, model_id: str, role: st
 
 
 def figures(measured: Float1D, residual: Float1D) -> dict[str, float | None]:
-    """fit [%], rmse, peak to peak (max - min) of both, largest absolute residual; None where nothing was measured."""
-    if not len(measured):
+    """fit [%], rmse, peak to peak (max - min) of both, largest absolute residual; None where nothing is scored: the one
+    sample that its offset is taken from says nothing of the model."""
+    if len(measured) < FEWEST:
         return dict.fromkeys(("fit", "rmse_um", "ptp_um", "ptp_residual_um", "max_um"))
     return {
         "fit": fit_percent(measured, residual),

@@ -8,12 +8,15 @@ from pathlib import Path
 from thermodata.errors import PluginError, ThermodataError
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
 from thermodata.reader.heeded import Watched
+from thermodata.reader.regular import refuse_what_never_ends
 from thermodata.reader.rules import RECORDING_RULES, broken_rule, sentence
 
 
 def described(reader: Reader, path: Path, source: Source) -> Recording:
     """The reader's description, held against the rules. PluginError for a broken rule or an exception that is
-    none of ours: a plugin's bug, with the file named; UsageError for a declared sheet that the reader ignores."""
+    none of ours: a plugin's bug, with the file named; UsageError for a declared sheet that the reader ignores, and for
+    what is no file: a reader would wait for ever."""
+    refuse_what_never_ends(path)
     watched = Watched(source)
     try:
         recording = reader.describe(path, watched.source)

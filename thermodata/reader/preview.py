@@ -15,6 +15,7 @@ from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Sou
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
+from thermodata.reader.regular import refuse_what_never_ends
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
@@ -136,7 +137,8 @@ def preview(
 
 def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bool]:
     """(who reads a file for a look at it, whether that is all of it): the first rows alone where the reader can do that
-    and the file is large."""
+    and the file is large. FormatError for what is no file."""
+    refuse_what_never_ends(path)
     begin = getattr(reader, "beginning", None)
     first: Reader | None = None if begin is None else begin(path, source)
     return (reader, True) if first is None else (first, False)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError, UsageError, unknown_name
 from thermodata.plugin import HEAD_BYTES, Head, Reader
+from thermodata.reader.regular import opened
 
 GROUP = "thermodata.reader"
 INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"
@@ -104,9 +105,9 @@ def reader(name: str) -> Reader:
 
 
 def head(path: Path) -> Head:
-    """A file's first 64 KiB; UsageError where it cannot be read."""
+    """A file's first 64 KiB; UsageError where it cannot be read, or is none: a pipe, a device."""
     try:
-        with path.open("rb") as file:
+        with opened(path) as file:
             start = file.read(HEAD_BYTES)
         return Head(path.name, path.stat().st_size, start)
     except OSError as error:

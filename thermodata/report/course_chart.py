@@ -7,19 +7,23 @@ import numpy as np
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.spec import Axis, Chart, Panel, Series
 from thermodata.plugin import Float1D, Int1D
+from thermodata.report.pieces import names_of_pieces
 from thermodata.schema.candidate import Candidate, CandidateCourse
 
 PAUSE = 3.0  # steps as on either side of it: no sample counts for so long, and no line is drawn over it
 
 
 def course_chart(c: Candidate, unit: str) -> Chart:
-    """A panel a test. unit: of the response."""
+    """A panel a test, or part of one. unit: of the response."""
     length = max((run.t_s[-1] / 3600 for run in c.courses if run.t_s), default=1.0)
     return Chart(
         f"What the model leaves over in each test, and what {c.id} would take of it",
         Axis("time", "h", range=(0.0, length)),
         np.empty(0),
-        [Panel(run.test, unit, _curves(run, c.effect, unit), height=110, zero=True) for run in c.courses],
+        [
+            Panel(name, unit, _curves(run, c.effect, unit), height=110, zero=True)
+            for name, run in zip(names_of_pieces(c.courses), c.courses, strict=True)
+        ],
     )
 
 

@@ -83,7 +83,7 @@ def part_chart(
         title = (
             f"contributions of the effects{f', {SHADED}' if any(c.sd is not None for c in part.contributions) else ''}"
         )
-        panels.append(Panel(title, unit, curves, height=_by_labels(_MIDDLE, curves)))
+        panels.append(Panel(title, unit, curves, height=_MIDDLE))
     if part.drivers:
         panels.append(_drivers(part.drivers, size))
     panels += [_lane(c, hours, size) for c in part.lanes]
@@ -109,11 +109,6 @@ def _noise_limits(noise_um: float | None, step_s: float, unit: str) -> list[Limi
     return [Limit(noise_um, label), Limit(-noise_um, "")]
 
 
-def _by_labels(height: int, curves: Sequence[Series]) -> int:
-    """A panel high enough for the labels at the ends of its lines."""
-    return max(height, 13 * len(curves) + 16)
-
-
 def _drivers(drivers: Sequence[Curve], size: int) -> Panel:
     from thermodata.chart import effect_styles
 
@@ -122,7 +117,7 @@ def _drivers(drivers: Sequence[Curve], size: int) -> Panel:
         Series(c.name, c.unit, block_mean(c.values, size), styles[c.name][0], dash=styles[c.name][1], width=1.3)
         for c in drivers
     ]
-    return Panel("drivers", drivers[0].unit, curves, height=_by_labels(120, curves))
+    return Panel("drivers", drivers[0].unit, curves, height=120)
 
 
 def _lane(lane: Curve, hours: Float1D, size: int) -> Strip:

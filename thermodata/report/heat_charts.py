@@ -7,12 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.chart import Axis, Chart, Panel, Series
+from thermodata.report.pieces import names_of_pieces
 from thermodata.schema.missing_heat import HeatCourse
 
 
 def heat_charts(courses: Sequence[HeatCourse], unit: str, one_way: bool) -> list[Chart]:
     """One chart a test, all on the same scales for comparison. one_way: the source is never negative."""
-    return [_chart(c, _reach(courses), _source_range(courses, one_way), unit) for c in courses]
+    reach, source = _reach(courses), _source_range(courses, one_way)
+    return [_chart(c, name, reach, source, unit) for c, name in zip(courses, names_of_pieces(courses), strict=True)]
 
 
 def _reach(courses: Sequence[HeatCourse]) -> tuple[float, float]:
@@ -30,12 +32,12 @@ def _source_range(courses: Sequence[HeatCourse], one_way: bool) -> tuple[float, 
     return 1.08 * min(low, 0.0), 1.08 * high
 
 
-def _chart(course: HeatCourse, reach: tuple[float, float], source: tuple[float, float], unit: str) -> Chart:
+def _chart(course: HeatCourse, name: str, reach: tuple[float, float], source: tuple[float, float], unit: str) -> Chart:
     step_h, from_h = course.step_s / 3600, course.from_s / 3600
     residual = np.array([np.nan if x is None else x for x in course.residual_um], dtype=np.float64)
     n = len(residual)
     return Chart(
-        f"Test {course.test}: what the model leaves over, what the estimated source gives, and the source",
+        f"Test {name}: what the model leaves over, what the estimated source gives, and the source",
         Axis("time", "h", range=(from_h, from_h + step_h * n)),
         np.asarray(from_h + step_h * (np.arange(n) + 0.5)),  # a step's value stands in its middle
         [

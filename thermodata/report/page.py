@@ -19,9 +19,10 @@ from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
+from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import beside, probability, told, verdict_sentence
-from thermodata.report.words import base_role, change, duration, heat_lines, number, typeset
+from thermodata.report.words import base_role, change, duration, heat_lines, number, probability_text, typeset
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
@@ -67,6 +68,8 @@ def render(data: ReportData) -> str:
         waterfall=waterfall(data.versions),
         faults=log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
         heat=heat,
+        probability_text=probability_text,
+        heat_names=names_of_pieces(heat.courses) if heat else [],
         heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
         weak=[(rank, w, _box(data, w)) for rank, w in spots],
         headline=typeset(headline(data)),

@@ -13,6 +13,7 @@ import numpy as np
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
+from thermodata.report.words import probability_text
 
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
@@ -97,7 +98,7 @@ def _correlation(axes: Any, seen: Seen) -> None:
     band = BAND / math.sqrt(max(seen.count, 1))
     axes.axhspan(-band, band, color="#f0b429", alpha=0.35, linewidth=0)
     axes.axhline(0.0, color="0.3", linewidth=0.6)
-    told = "; ".join(f"{one.lags} lags p {one.p_value:.2g}" for one in seen.ljung_box)
+    told = "; ".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)
     axes.set(
         title=f"Autocorrelation of the residual (Ljung-Box: {told or 'too short'})",
         xlabel="lag [h]",

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from thermodata.schema.result import Score
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
+_SMALLEST = 1e-10  # probability that is told as a number
 
 
 def number(value: Any, digits: int = 3) -> str:
@@ -36,6 +37,11 @@ def typeset(text: str) -> str:
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
     text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)  # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
+
+
+def probability_text(p: float) -> str:
+    """'p 0.031'; of one too small for a number 'p below 1e-10': no test of samples says that it is 0."""
+    return f"p {p:.2g}" if p >= _SMALLEST else f"p below {_SMALLEST:.0e}"
 
 
 def duration(seconds: float | None) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from pydantic import ConfigDict, Field, field_validator
+from pydantic import Field, field_validator
 
 from thermodata.schema.campaign_channels import (
     Calibration,
@@ -33,24 +33,34 @@ from thermodata.schema.campaign_tests import (
     Tool,
     Zero,
 )
-from thermodata.schema.declared import STORED, Direction, Moment, Seconds, Strict, Um, Value, WrongKeyError
+from thermodata.schema.declared import (
+    STORED,
+    Attributed,
+    Direction,
+    Moment,
+    Seconds,
+    Strict,
+    Um,
+    Value,
+    WrongKeyError,
+    WrongValueError,
+)
 from thermodata.schema.quantity import QUANTITIES
 
 NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_]*$")
 RESERVED_NAMES = frozenset({"campaign", "test", "source", "t", "t_s"})
 
 
-class Axis(Strict):
+class Axis(Attributed):
     """`machine.axes.X`: a linear or rotary axis. Free attributes (`preload: 2.1 kN`) are conditions too.
 
     feedback: what closes the position loop; behind a scale the growth of the screw does not reach the tool
     """
 
-    model_config = ConfigDict(extra="allow", frozen=True)
     feedback: Literal["scale", "screw", "motor"] | None = None
 
 
-class Machine(Strict):
+class Machine(Attributed):
     """`machine`: the machine that was tested. Free attributes are conditions too: gains can depend on them.
 
     id: its number or name in the lab
@@ -58,7 +68,6 @@ class Machine(Strict):
     axes: its axes by letter
     """
 
-    model_config = ConfigDict(extra="allow", frozen=True)
     id: str
     description: str = ""
     axes: dict[str, Axis] = {}
@@ -97,7 +106,9 @@ class Campaign(Strict):
     @classmethod
     def _safe_id(cls, value: str) -> str:
         if not re.match(r"^[A-Za-z0-9][A-Za-z0-9._-]{0,119}$", value):
-            raise ValueError("a campaign id is letters, digits, '.', '_' and '-', at most 120 of them")
+            raise WrongValueError(
+                "no id of a campaign", expected="letters, digits, '.', '_' and '-', at most 120 of them"
+            )
         return value
 
     @field_validator("versions")

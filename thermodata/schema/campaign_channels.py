@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-from thermodata.schema.declared import Direction, Seconds, Strict, Um, Value
+from thermodata.schema.declared import Amount, At, Attributed, Direction, Seconds, Strict, Um, Value
 from thermodata.schema.quantity import Quantity
 
 MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
 
 
-class Sensor(Strict):
+class Sensor(Attributed):
     """`channels.*.sensor`: the sensor behind a channel. Free attributes are kept.
 
     serial: its number
@@ -22,10 +22,9 @@ class Sensor(Strict):
         smoothly through its steps as a driver
     """
 
-    model_config = ConfigDict(extra="allow", frozen=True)
     serial: str | None = None
-    range: tuple[Value, Value] | None = None
-    resolution: Value | None = None
+    range: tuple[Amount, Amount] | None = None
+    resolution: Amount | None = None
 
 
 class Channel(Strict):
@@ -59,8 +58,8 @@ class Channel(Strict):
     unit: str | None = None
     instead_of: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
-    at: str | None = None
-    relative_to: str | None = None
+    at: At | None = None
+    relative_to: At | None = None
     calibration: str | list[str] | None = None
     sensor: Sensor | None = None
     only_in: list[str] = Field(default=[], exclude_if=lambda tests: not tests)
@@ -121,7 +120,7 @@ class JumpCalibration(Strict):
     move_uncertainty: Um = 1.0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] | None = None
-    gain: Value | None = None
+    gain: Amount | None = None
 
 
 class ScaleCalibration(Strict):
@@ -140,11 +139,11 @@ class ScaleCalibration(Strict):
 
     kind: Literal["scale"]
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
-    gain: Value
-    offset: Value = 0
+    gain: Amount
+    offset: Amount = 0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] = "gap"
-    uncertainty: Value | None = None
+    uncertainty: Amount | None = None
 
 
 class LinearCalibration(Strict):
@@ -156,8 +155,8 @@ class LinearCalibration(Strict):
     """
 
     kind: Literal["linear"]
-    gain: Value = 1
-    offset: Value = 0
+    gain: Amount = 1
+    offset: Amount = 0
 
 
 class PlatinumCalibration(Strict):

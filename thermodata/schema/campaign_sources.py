@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from thermodata.schema.declared import Moment, Seconds, Strict
+from thermodata.schema.declared import Moment, Paths, Seconds, Strict
 
 
 class TimeColumn(Strict):
@@ -135,7 +135,7 @@ class SourceSpec(Strict):
     """
 
     reader: str
-    files: str | list[str] | None = None
+    files: Paths | None = None
     timezone: str | None = None
     encoding: str | None = None
     table: TableLayout | None = None

@@ -5,16 +5,28 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, ConfigDict, Field, field_validator
+from pydantic import BeforeValidator, Field, field_validator
 
 from thermodata.schema.campaign_channels import Sensor
-from thermodata.schema.declared import Seconds, Strict, Value, date_and_time, in_unit
+from thermodata.schema.declared import (
+    At,
+    Attributed,
+    Length,
+    Paths,
+    Position,
+    Seconds,
+    Strict,
+    Value,
+    WrongValueError,
+    date_and_time,
+    in_unit,
+)
 
 TestKind = Literal["spindle", "spectrum", "linear_axis", "rotary_axis", "etve", "cutting", "mixed", "other"]
 Role = Literal["calibration", "verification", "locked", "none"]
 
 
-class Tool(Strict):
+class Tool(Attributed):
     """`tests[].tool`: what was in the spindle. Free attributes are conditions too.
 
     id: its name or number
@@ -23,10 +35,9 @@ class Tool(Strict):
     material: of the tool
     """
 
-    model_config = ConfigDict(extra="allow", frozen=True)
     id: str | None = None
-    length: Value | None = None
-    diameter: Value | None = None
+    length: Length | None = None
+    diameter: Length | None = None
     material: str | None = None
 
 
@@ -75,8 +86,8 @@ class ChannelOverride(Strict):
     unit: str | None = None
     instead_of: str | None = None
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
-    at: str | None = None
-    relative_to: str | None = None
+    at: At | None = None
+    relative_to: At | None = None
     calibration: str | list[str] | None = None
     sensor: Sensor | None = None
     schedule: list[tuple[Value, Value]] | None = None
@@ -114,11 +125,11 @@ class Test(Strict):
     kind: TestKind = "other"
     role: Role = "none"
     conditions: dict[str, Value | bool] = {}
-    pose: dict[str, Value] = {}
+    pose: dict[str, Position] = {}
     tool: Tool | None = None
     machine: dict[str, Any] = {}
     channels: dict[str, ChannelOverride] = {}
-    files: dict[str, str | list[str]] = {}
+    files: dict[str, Paths] = {}
     clocks: dict[str, Seconds] = Field(default={}, exclude_if=lambda clocks: not clocks)
     start: Annotated[str | None, BeforeValidator(date_and_time)] = Field(
         default=None, exclude_if=lambda start: start is None
@@ -136,7 +147,9 @@ class Test(Strict):
     @classmethod
     def _safe_id(cls, value: str) -> str:
         if not value or value in (".", "..") or re.search(r"[\x00-\x1f/\\{}*?\[\]]", value) or len(value) > 120:
-            raise ValueError("a test id is a short name without / \\ { } * ? [ ]")
+            raise WrongValueError(
+                "no id of a test", expected="a short name without / \\ { } * ? [ ], of at most 120 letters"
+            )
         return value
 
 

@@ -6,10 +6,11 @@ import re
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationInfo
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationInfo, model_validator
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.quantity import value_in
+from thermodata.schema.quantity import linear_conversion, split_value, value_in
+from thermodata.schema.slips import slip_of
 
 Value = str | float | int
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z", "+A", "-A", "+B", "-B", "+C", "-C"]
@@ -25,6 +26,18 @@ class WrongKeyError(ValueError):
         self.key, self.expected, self.hint = key, expected, hint
 
 
+class WrongValueError(ValueError):
+    """What is wrong with a value, and what would be right."""
+
+    def __init__(self, what: str, *, expected: str, hint: str | None = None) -> None:
+        super().__init__(what)
+        self.expected, self.hint = expected, hint
+
+
+def _said(error: ThermodataError) -> WrongValueError:
+    return WrongValueError(error.what, expected=error.expected or "", hint=error.hint)
+
+
 def in_unit(unit: str) -> BeforeValidator:
     """Takes a number in a unit, or text with one of its own; ValueError for text that is neither."""
 
@@ -34,9 +47,57 @@ def in_unit(unit: str) -> BeforeValidator:
         try:
             return value_in(text, unit)
         except ThermodataError as error:
-            raise ValueError("; ".join(str(error).splitlines())) from None
+            raise _said(error) from None
 
     return BeforeValidator(convert, json_schema_input_type=str | float)
+
+
+def amount(*units: str, words: bool = False) -> BeforeValidator:
+    """Takes a number, or text with one and a unit, and leaves it as it is; WrongValueError for what has a unit of
+    another kind. units: of the kinds that will do; none: any. words: text without a number will do too."""
+
+    def judge(value: Any, info: ValidationInfo) -> Any:
+        if not isinstance(value, str) or info.context == STORED or (words and not re.match(r"\s*[-+.]?\d", value)):
+            return value
+        try:
+            number, written = split_value(value)
+        except ThermodataError as error:
+            raise _said(error) from None
+        if written and units and not any(_converts(written, unit) for unit in units):
+            right = " or ".join(f"'{number:g} {unit}'" for unit in units)
+            raise WrongValueError(
+                f"a value in '{written}'", expected=f"a unit of the kind of {' or '.join(units)}: {right}"
+            )
+        return value
+
+    return BeforeValidator(judge)
+
+
+def _converts(unit: str, target: str) -> bool:
+    try:
+        linear_conversion(unit, target)
+    except ThermodataError:
+        return False
+    return True
+
+
+def _as_a_path(value: Any) -> Any:
+    """A number is no path: YAML makes text of one in quotes."""
+    for one in value if isinstance(value, list) else [value]:
+        if isinstance(one, bool | int | float):
+            raise WrongValueError(
+                "a number is no path",
+                expected="a path below this file: raw/{test}.csv",
+                hint=f'files: "{one}", if it is its name',
+            )
+    return value
+
+
+def _as_a_place(value: Any) -> Any:
+    """A place begins with a letter: of `17` nobody knows where it is."""
+    if value is not None and not re.match(r"\s*[^\W\d_]", str(value)):
+        raise WrongValueError(f"'{value}' is no place", expected="a dotted place on the machine: spindle.bearing.front")
+    return value
 
 
 def _in_nanoseconds(seconds: float) -> float:
@@ -48,6 +109,11 @@ def _in_nanoseconds(seconds: float) -> float:
 
 Seconds = Annotated[float, in_unit("s"), AfterValidator(_in_nanoseconds)]
 Um = Annotated[float, in_unit("um")]
+Amount = Annotated[Value, amount()]
+Length = Annotated[Value, amount("mm")]
+Position = Annotated[Value, amount("mm", "deg", words=True)]
+Paths = Annotated[str | list[str], BeforeValidator(_as_a_path)]
+At = Annotated[str, BeforeValidator(_as_a_place)]
 # YAML makes a date of what looks like one
 Moment = Annotated[Value, BeforeValidator(lambda x: x.isoformat(" ") if isinstance(x, datetime) else x)]
 
@@ -69,3 +135,25 @@ class Strict(BaseModel):
     """Base of all that users write. Unknown keys are refused; the loader names the nearest right one."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True, coerce_numbers_to_str=True)
+
+
+class Attributed(Strict):
+    """Base of what takes attributes of the user's own beside its keys. One that is a slip away from a key is asked."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_slip(cls, value: Any, info: ValidationInfo) -> Any:
+        if isinstance(value, dict) and info.context != STORED:
+            known = {field.alias or name for name, field in cls.model_fields.items()}
+            for key in value:
+                meant = None if key in known or key in cls.model_fields else slip_of(str(key), known - set(value))
+                if meant is not None:
+                    raise WrongKeyError(
+                        str(key),
+                        f"unknown key '{key}'",
+                        expected=f"one of {', '.join(sorted(known))}, or an attribute that is called by none like them",
+                        hint=f"did you mean '{meant}'?",
+                    )
+        return value

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from thermodata.errors import SpecError, nearest
-from thermodata.schema.declared import WrongKeyError
+from thermodata.schema.declared import WrongKeyError, WrongValueError
+from thermodata.schema.explain_types import wanted
 from thermodata.schema.lines import Document, Place, at_place, dotted_place
 
 M = TypeVar("M", bound=BaseModel)
@@ -45,7 +46,7 @@ def _problems(model: type[BaseModel], document: Document, error: ValidationError
     in_list: Counter[tuple[Place, str]] = Counter()
     found: list[tuple[tuple[Place, str] | None, SpecError]] = []
     # a misspelt key is why another is missing: say it first
-    details = sorted(error.errors(), key=lambda detail: detail["type"] != "extra_forbidden")
+    details = sorted(_once(error.errors()), key=lambda detail: detail["type"] != "extra_forbidden")
     for detail in details:
         place, tags = _real_place(document.data, detail["loc"], detail["type"])
         value = at_place(document.data, place)
@@ -73,6 +74,12 @@ def _problems(model: type[BaseModel], document: Document, error: ValidationError
         yield _one(model, document, place, detail, tags)
 
 
+def _once(details: Sequence[Any]) -> list[Any]:
+    """Without what a list lacks before its last value: that one tells how many it should have."""
+    last = {d["loc"][:-1]: d for d in details if d["type"] == "missing" and isinstance(d["loc"][-1], int)}
+    return [d for d in details if not (d["type"] == "missing" and d["loc"][:-1] in last) or d is last[d["loc"][:-1]]]
+
+
 def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, tags: tuple[str, ...]) -> SpecError:
     where, kind = document.where(place), detail["type"]
     name = place[-1] if place else ""
@@ -85,6 +92,16 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
             expected="one of " + ", ".join(keys),
             got=str(name),
             hint=f"did you mean '{close}'?" if close else None,
+        )
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        return _tag(document, place, detail)
+    if kind == "missing" and isinstance(name, int):
+        found = at_place(document.data, place[:-1])
+        return SpecError(
+            f"'{dotted_place(place[:-1])}': too few values",
+            where=document.where(place[:-1]),
+            expected=f"{name + 1} values",
+            got=_short(found),
         )
     if kind == "missing":
         return SpecError(
@@ -112,7 +129,36 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
             got=repr(value),
             hint=f"did you mean '{close}'?" if close else None,
         )
-    return SpecError(f"'{name}': {message}" if name != "" else message, where=where, got=_short(value))
+    expected: str | None = None
+    hint: str | None = None
+    if isinstance(fault, WrongValueError):
+        expected, hint = fault.expected, fault.hint
+    else:
+        of_model = kind in ("model_type", "model_attributes_type")
+        expected = wanted(kind, detail.get("ctx", {}), _keys_at(model, place, tags) if of_model else ())
+        if expected is not None and expected.startswith(("a ", "{")):
+            message = "no mapping" if expected.startswith("{") else f"no {expected.partition(':')[0]}"
+    return SpecError(
+        f"'{name}': {message}" if name != "" else message, where=where, expected=expected, got=_short(value), hint=hint
+    )
+
+
+def _tag(document: Document, place: Place, detail: Any) -> SpecError:
+    """Of a value whose kind is told by one of its keys: the key is missing, or its word is none of those known."""
+    key = str(detail["ctx"]["discriminator"]).strip("'")
+    if detail["type"] == "union_tag_not_found":
+        return SpecError(
+            f"the key '{key}' is missing", where=document.where(place), expected=f"{dotted_place((*place, key))}: ..."
+        )
+    choices = [word.strip("' ") for word in str(detail["ctx"]["expected_tags"]).split(",")]
+    close = nearest(str(detail["ctx"]["tag"]), choices)
+    return SpecError(
+        f"'{key}' is not one of the allowed words",
+        where=document.where((*place, key)),
+        expected=", ".join(choices),
+        got=repr(detail["ctx"]["tag"]),
+        hint=f"did you mean '{close}'?" if close else None,
+    )
 
 
 def _short(value: Any) -> str:

@@ -12,10 +12,13 @@ _EFFECT = re.compile(r"effect '([^']+)'")
 
 
 def located(error: ThermodataError, path: Path) -> ThermodataError:
-    """The same error with file and line in its `where`, if the refused word (`got`) stands in the file once read; the
-    error as it is where it doesn't, or names a file already."""
-    if not error.got or path.name in (error.where or ""):
+    """The same error with file and line in its `where`, if that begins with a place of the file, or the refused word
+    (`got`) stands in the file once read; the error as it is where neither does, or it names a file already."""
+    if path.name in (error.where or ""):
         return error
+    by_place = placed(error, path)
+    if by_place is not error or not error.got:
+        return by_place
     try:
         document = read_document(path)
     except (ThermodataError, OSError):

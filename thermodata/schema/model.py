@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
+from thermodata.schema.declared import WrongKeyError, WrongValueError
 from thermodata.schema.printed import PrintedNumber
 
 # a model written as JSON is a model file again, and there a time has a unit
@@ -28,7 +29,9 @@ class Response(Strict):
     @model_validator(mode="after")
     def _one_way(self) -> Response:
         if (self.channel is None) == (self.axis is None):
-            raise ValueError("a response is either {axis: Z, at: tcp} or {channel: name}")
+            raise WrongValueError(
+                "neither a displacement nor a channel", expected="{axis: Z, at: tcp} or {channel: name}"
+            )
         return self
 
 
@@ -169,13 +172,18 @@ class Model(Strict):
     @classmethod
     def _some(cls, value: Any) -> Any:
         if isinstance(value, list) and not value:
-            raise ValueError("a model needs at least one response")
+            raise WrongValueError("no response", expected="at least one: {axis: Z, at: tcp}")
         return value
 
     @model_validator(mode="after")
     def _campaigns(self) -> Model:
         if bool(self.campaigns) == (self.campaign is not None):
-            raise ValueError("a model names its data with either 'campaign' or 'campaigns'")
+            raise WrongKeyError(
+                "campaigns" if self.campaign is not None or "campaigns" in self.model_fields_set else "campaign",
+                "a model names its data with either 'campaign' or 'campaigns'",
+                expected="campaign: ID, or of several campaigns: [ID, ID]",
+                hint="'thermodata tests' lists the campaigns of a store",
+            )
         return self
 
     @property

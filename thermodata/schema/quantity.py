@@ -242,9 +242,13 @@ def value_in(text: str | float | int, unit: str) -> float:
             return value
         raise UsageError(
             "a value without a unit",
-            expected=f"a unit, for example '{text} {unit}'",
+            expected=f"a unit of the kind of {unit}",
             got=str(text),
             hint=f"write '{text} {unit}'",
         )
-    factor, offset = linear_conversion(written, unit)
+    try:
+        factor, offset = linear_conversion(written, unit)
+    except UsageError as error:
+        error.hint = f"write '{value:g} {unit}', if that is meant"  # nobody declares the unit of a value elsewhere
+        raise
     return factor * value + offset

@@ -9,10 +9,10 @@ from typing import Any
 
 from thermodata.errors import SpecError, ThermodataError, nearest
 from thermodata.schema.campaign import Campaign, Test, TestsFrom
-from thermodata.schema.crosscheck import inside
 from thermodata.schema.explain import validate
 from thermodata.schema.lines import Document, Place
 from thermodata.schema.quantity import split_value
+from thermodata.schema.refer import inside
 
 _FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)\}")
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import damaged_data, literal
+from thermodata.view.reserved import reserved_hint
 from thermodata.view.rows import Rows
 from thermodata.view.statements import check_statement
 from thermodata.view.units import Known, column_units, known_units
@@ -64,7 +65,8 @@ class StoreView:
             damage = damaged_data(self.path, error)
             if damage is not None:
                 raise damage from error
-            raise UsageError("the query fails", got=str(error).strip()) from error
+            hint = reserved_hint(query) if isinstance(error, duckdb.ParserException) else None
+            raise UsageError("the query fails", got=str(error).strip(), hint=hint) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
         return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation), con.interrupt)

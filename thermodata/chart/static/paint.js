@@ -116,7 +116,8 @@
 
   // [{y (device px), text, colour}] at the right of a panel, pushed apart so that each can be read
   T.endlabels = function (u, labels) {
-    const ctx = u.ctx, r = uPlot.pxRatio, gap = 12.5 * r, left = u.bbox.left + u.bbox.width;
+    const ctx = u.ctx, r = uPlot.pxRatio, left = u.bbox.left + u.bbox.width;
+    const gap = Math.min(12.5 * r, u.bbox.height / Math.max(labels.length, 1));  // none runs out of a low panel
     const top = u.bbox.top + gap / 2, bottom = u.bbox.top + u.bbox.height - gap / 2;
     labels.sort((a, b) => a.y - b.y);
     labels.forEach((l, i) => { l.at = Math.max(l.y, top, i ? labels[i - 1].at + gap : -Infinity); });

@@ -12,9 +12,9 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
+from thermodata.reader.regular import kind_of
 from thermodata.schema.campaign import Campaign, Test
 from thermodata.schema.lines import is_text
-from thermodata.store.raw.source_file import kind_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, UsageError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
-from thermodata.schema.locate import placed
+from thermodata.schema.locate import located, placed
 from thermodata.store.catalogue.store import Store, new_mark
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
@@ -32,6 +32,7 @@ from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.tidy.calibrations import evaluate
 from thermodata.store.tidy.check_derived import check_derived
+from thermodata.store.tidy.check_measuring import check_measuring
 from thermodata.store.tidy.plan import bind
 
 if TYPE_CHECKING:
@@ -109,10 +110,16 @@ def checked(path: Path) -> Campaign:
     """A campaign file as far as it can be judged by itself. SpecError, or UsageError, with its line."""
     campaign = load_campaign(path)
     try:
-        check_derived(campaign)
+        check_expressions(campaign)
     except UsageError as error:
-        raise placed(error, path) from error
+        raise located(placed(error, path), path) from error  # of `tests_from`, a test stands in no line of its own
     return campaign
+
+
+def check_expressions(campaign: Campaign) -> None:
+    """UsageError at the first expression that could be evaluated in no test."""
+    check_derived(campaign)
+    check_measuring(campaign)
 
 
 def store_for(path: Path, campaign_path: Path) -> Store:
@@ -128,7 +135,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
     campaign = checked(path) if given is None else given
     if given is not None:
-        check_derived(campaign)
+        check_expressions(campaign)
     files = CampaignFiles(store.path, path.absolute().parent, campaign, watch)
     files.survey()
     here = files.seen(path.absolute())

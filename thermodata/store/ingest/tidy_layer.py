@@ -18,6 +18,7 @@ from thermodata.schema.campaign import Campaign
 from thermodata.schema.places import is_around, is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
+from thermodata.store.ingest.beyond_the_end import beyond_the_end
 from thermodata.store.ingest.empty_channels import empty_channels
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
@@ -230,6 +231,10 @@ class _Tidier:
         said = verdict.to_json()
         key = key_of(base, json.dumps(said, sort_keys=True)) if said else base
         result = write_member(series, member, self.columns[member], key, verdict)
+        if not result.files:  # told here, for no file is there to keep it
+            self.layer.tests[name].losses += [loss_row(p, test=name, source=member[0]) for p in result.problems]
+            test.files[member] = test.events[member] = []
+            return
         self.layer.new_streams += 1
         test.files[member] = tidy_rows(campaign, name, member, result, self.store, self.now, base, said)
         test.events[member] = [
@@ -250,7 +255,9 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
         row.setdefault("added_at", now)
     _add(layer, test, "file", files)
     _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
-    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, duration_s(plan, files))])
+    lasts_s = duration_s(plan, files)
+    _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, lasts_s)])
+    note.notes += beyond_the_end(plan.test, lasts_s)
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
     _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from thermodata.errors import nearest
 from thermodata.schema.campaign import Campaign
-from thermodata.schema.campaign_channels import Channel
+from thermodata.schema.campaign_channels import Calibration, Channel
 from thermodata.schema.places import PLACES, called_here, is_known
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
@@ -37,6 +37,13 @@ def unanswered(campaign: Campaign) -> list[str]:
             f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them. A jump test tells "
             f"it, or the way the probe looks: {SIGN}"
         )
+    grows = [n for n, c in campaign.calibrations.items() if _grows_unsaid(c)]
+    if grows:
+        said.append(
+            f"increases_with is not said: {_listed(grows)}; the reading is taken to grow with the gap, as that of an "
+            "eddy-current probe. Many contact probes grow with the approach, which is the other sign: write "
+            "increases_with: gap, or approach"
+        )
     if campaign.tests and all(t.role == "none" for t in campaign.tests):
         said.append("no test has a role: write role: calibration, verification or locked, or name tests in the model")
     return said
@@ -49,6 +56,15 @@ def _unoriented(channel: Channel, campaign: Campaign) -> bool:
     named = [channel.calibration] if isinstance(channel.calibration, str) else channel.calibration or []
     own = [campaign.calibrations[n] for n in named if n in campaign.calibrations]
     return not any(c.kind == "jump" or (c.kind == "scale" and c.axis and c.facing) for c in own)
+
+
+def _grows_unsaid(calibration: Calibration) -> bool:
+    """Whether the sign of a data sheet's gain hangs on what makes the reading grow, and nobody says it."""
+    return (
+        calibration.kind == "scale"
+        and calibration.facing is not None
+        and "increases_with" not in calibration.model_fields_set
+    )
 
 
 def _listed(names: list[str]) -> str:

@@ -7,23 +7,15 @@ import hashlib
 import os
 import secrets
 import shutil
-import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import BufferedReader
 from pathlib import Path
 from typing import BinaryIO
 
-from thermodata.errors import FormatError, StoreError
+from thermodata.errors import StoreError
+from thermodata.reader.regular import opened
 
-_KINDS = (
-    (stat.S_ISDIR, "a folder"),
-    (stat.S_ISFIFO, "a pipe"),
-    (stat.S_ISSOCK, "a socket"),
-    (stat.S_ISCHR, "a device"),
-    (stat.S_ISBLK, "a device"),
-)
 _CHUNK = 1 << 20
 
 
@@ -55,24 +47,6 @@ class SourceFile:
 def mark_of(status: os.stat_result) -> tuple[int, ...]:
     """What changes with a file's content: which file it is, its length, and when it was last written."""
     return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
-
-
-def kind_of(status: os.stat_result) -> str | None:
-    """What stands in place of a file: 'a folder', 'a pipe', ...; None where it is a file."""
-    if stat.S_ISREG(status.st_mode):
-        return None
-    return next((kind for is_kind, kind in _KINDS if is_kind(status.st_mode)), "no file")
-
-
-@contextmanager
-def opened(path: Path) -> Iterator[BufferedReader]:
-    """A regular file for reading; FormatError for anything else. Never waits, as opening a pipe would."""
-    fd = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with os.fdopen(fd, "rb") as handle:
-        kind = kind_of(os.fstat(fd))
-        if kind is not None:
-            raise FormatError(f"this is {kind}", where=path.name, expected="a file", got=kind)
-        yield handle
 
 
 def settled(path: Path) -> SourceFile:

@@ -30,7 +30,7 @@ def _told(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
 
 
 def _check(campaign: Campaign, channels: Mapping[str, Channel], name: str, where: str) -> None:
-    for used in _names(channels[name].derive or "", where):
+    for used in names_in(channels[name].derive or "", where):
         if used not in campaign.channels:
             raise unknown_name("channel", used, list(campaign.channels), where=where)
     circle = _circle(channels, (name,), where, set())
@@ -48,7 +48,7 @@ def _circle(channels: Mapping[str, Channel], above: tuple[str, ...], where: str,
     """The way from a channel back to itself; empty where there is none. seen: channels that lead to none, which grows:
     several ways may lead to one."""
     text = channels[above[-1]].derive if above[-1] in channels else None
-    for name in sorted(_names(text, where)) if text is not None else ():
+    for name in sorted(names_in(text, where)) if text is not None else ():
         if name in above:
             return (*above[above.index(name) :], name)
         if name not in seen and (found := _circle(channels, (*above, name), where, seen)):
@@ -57,7 +57,8 @@ def _circle(channels: Mapping[str, Channel], above: tuple[str, ...], where: str,
     return ()
 
 
-def _names(text: str, where: str) -> frozenset[str]:
+def names_in(text: str, where: str) -> frozenset[str]:
+    """The channels of an expression; UsageError with `where` before its own place."""
     try:
         return derive.names(text)
     except UsageError as error:

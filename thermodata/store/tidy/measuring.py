@@ -9,7 +9,7 @@ from math import ceil
 
 import numpy as np
 
-from thermodata.calibration.measuring import measuring_mask, measuring_names
+from thermodata.calibration.measuring import long_form, measuring_mask, measuring_names
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.quantity import canonical
@@ -22,6 +22,15 @@ _BREAK = 10.0  # a pause of so many periods ends a stretch, as in calibration.me
 def lasts(measuring: str | Measuring | None) -> bool:
     """Whether rows count only together with others: `settle` and `for`."""
     return isinstance(measuring, Measuring) and (measuring.settle > 0 or (measuring.for_ or 0) > 0)
+
+
+def said(measuring: str | Measuring | None) -> str:
+    """As it is declared, in a sentence."""
+    spec = long_form(measuring)
+    held = f"for {spec.for_:g} s" if spec.for_ else None
+    within = spec.in_range if isinstance(spec.in_range, str) or spec.in_range is None else ", ".join(spec.in_range)
+    parts = (spec.when, within and f"in_range: {within}".replace("in_range: in_range", "in_range"), held)
+    return "; ".join(part for part in parts if part)
 
 
 def measures(chunk: Chunk, column: Column, columns: Mapping[str, Column]) -> Bool1D:

@@ -29,6 +29,11 @@ class Activity:
             self._edges.append(t_ns[changes])
         self._on = bool(mask[-1])
 
+    @property
+    def ever(self) -> bool:
+        """Whether the channel is measured at any time."""
+        return bool(self._edges)
+
     def during(self, from_ns: Array, to_ns: Array) -> Bool1D:
         """Whether the channel is measured at any time from `from_ns` to `to_ns`; shape (k,)."""
         edges = np.concatenate(self._edges) if self._edges else np.empty(0, np.int64)

@@ -21,7 +21,7 @@ from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.event import Event
 from thermodata.store.tidy.measured_alone import REPEATS, cleared
-from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures
+from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures, said
 from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.plan import SCHEDULE, Bound
 from thermodata.store.tidy.series import Member, TestSeries
@@ -52,6 +52,7 @@ class Flagged:
     _activity: dict[str, Activity] = field(default_factory=dict)
     _repeats: dict[tuple[str, str], Activity] = field(default_factory=dict)
     _timed: list[str] = field(default_factory=list)
+    _untold: bool = False  # `measuring` can't be evaluated: what it would mask is not known, so nothing counts
     _kept: dict[str, Stretches] = field(default_factory=dict)
     _moves: dict[str, tuple[int, float | None]] = field(default_factory=dict)
 
@@ -200,11 +201,10 @@ class Flagged:
         spec = self.series.plan.test.measuring
         if spec is None or self.member[0] == SCHEDULE:
             return
-        names = [b.name for b in self.bounds if b.channel.quantity in MEASURED]
+        names = self._timed = [b.name for b in self.bounds if b.channel.quantity in MEASURED]
         try:
             if names and isinstance(spec, Measuring) and lasts(spec):
                 self._kept = self._stretches(spec, names, pool)
-            self._timed = names
         except ThermodataError as error:
             self._cannot_measure(error)
 
@@ -212,13 +212,15 @@ class Flagged:
         """Where a channel is measured, shape (n,) of the chunk."""
         if self._kept:
             return self._kept[name].mask(chunk.start, chunk.t_ns)
-        return measures(chunk, columns[name], columns)
+        try:
+            if not self._untold:
+                return measures(chunk, columns[name], columns)
+        except ThermodataError as error:
+            self._cannot_measure(error)
+        return np.zeros(len(chunk.t_ns), dtype=bool)
 
     def _masks(self, chunk: Chunk, columns: Mapping[str, Column]) -> dict[str, Bool1D]:
-        try:
-            return {n: self._mask(chunk, n, columns) for n in self._timed if n in columns}
-        except ThermodataError:  # said where the flag is set
-            return {}
+        return {n: self._mask(chunk, n, columns) for n in self._timed if n in columns}
 
     def _measured(
         self, chunks: Iterator[tuple[Chunk, dict[str, Column]]]
@@ -226,12 +228,7 @@ class Flagged:
         """Adds NOT_MEASURING to the channels that are measured."""
         for chunk, columns in chunks:
             for name in [n for n in self._timed if n in columns]:
-                try:
-                    mask = self._mask(chunk, name, columns)
-                except ThermodataError as error:
-                    self._cannot_measure(error)
-                    self._timed = []
-                    break
+                mask = self._mask(chunk, name, columns)
                 own = columns[name].flags
                 self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
                 for flag in Flag(int(REPEATS)):
@@ -240,8 +237,15 @@ class Flagged:
                 columns[name].flags = own | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
             yield chunk.start, chunk.t_ns, columns
 
+    def never_measured(self) -> tuple[str, ...]:
+        """What is told once `chunks` has ended: of a `measuring` that holds at no time."""
+        never = [] if self._untold else [n for n, activity in self._activity.items() if not activity.ever]
+        spec = self.series.plan.test.measuring
+        return (f"measuring ({said(spec)}) never holds: {', '.join(never)} counts at no time",) if never else ()
+
     def _cannot_measure(self, error: ThermodataError) -> None:
-        self.problems.append("measuring: " + "; ".join(str(error).splitlines()))
+        self._untold = True
+        self.problems.append("measuring: " + "; ".join(str(error).splitlines()) + "; none of the test counts")
 
     def _stretches(self, spec: Measuring, names: Sequence[str], pool: ThreadPoolExecutor) -> dict[str, Stretches]:
         """Where each channel is measured, from a look at the whole stream."""

@@ -73,8 +73,8 @@ def write_member(
     line, rows = series.timeline(member), series.rows(member)
     result.losses += line.losses
     result.notes = line.notes
-    if rows.history == rows.stop:
-        result.problems.append(f"no rows of '{member[0]}' lie in the test's window")
+    if rows.start == rows.stop:
+        result.problems.append(f"no rows of '{member[0]}' lie in the test's window{_where_they_lie(series, member)}")
         return result
     here = [series.as_written(b) for b in series.plan.bound.values() if (b.source, b.stream) == member]
     held = tuple(b.name for b in here if b.is_held)
@@ -101,6 +101,7 @@ def write_member(
             part.add(t_ns, channels)
             if part.name == "test":
                 _count(result, channels)
+        result.notes += flagged.never_measured()
         result.events += overruled(rules, flagged.events + _passed(series, line, rows.start, rows.stop, here, verdict))
         result.files += [replace(part.finish(), held=held) for part in parts]
         result.files[-1].levels = sampler.levels()
@@ -109,6 +110,19 @@ def write_member(
             part.discard()
     result.problems = list(dict.fromkeys(result.problems))
     return result
+
+
+def _where_they_lie(series: TestSeries, member: Member) -> str:
+    """Behind 'in the test's window': which it is, and when the recording has rows."""
+    line, window = series.timeline(member), series.plan.test.window
+    if window is None or not line.rows:
+        return ""
+    ends = np.concatenate([line.times(0, 1), line.times(line.rows - 1, line.rows)])
+    first, last = ((series.t_s(ends) + window[0]) / 3600).tolist()
+    return (
+        f", from {window[0] / 3600:.4g} to {window[1] / 3600:.4g} h after the recording's start: "
+        f"they run from {first:.4g} to {last:.4g} h"
+    )
 
 
 def _as_written(series: TestSeries, member: Member, here: Sequence[Bound], rows: int) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
+from thermodata.view.reserved import reserved_hint
 
 if TYPE_CHECKING:
     import duckdb
@@ -38,7 +39,7 @@ def check_select(con: duckdb.DuckDBPyConnection, query: str) -> None:
     try:
         statements = con.extract_statements(query)
     except duckdb.Error as error:
-        raise UsageError("the query can't be read", got=str(error).strip()) from error
+        raise UsageError("the query can't be read", got=str(error).strip(), hint=reserved_hint(query)) from error
     if len(statements) != 1 or statements[0].type.name != "SELECT":
         got = ", ".join(s.type.name for s in statements) or "nothing"
         raise _refused(query, "one SELECT", got)

@@ -15,8 +15,10 @@ from thermodata.report.course_chart import course_chart
 from thermodata.report.headline import capital
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
+from thermodata.report.pieces import names_of_pieces
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
 from thermodata.report.words import heat_lines, number
+from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
@@ -86,6 +88,8 @@ def show(request: Request) -> Response:
         nothing={"title": nothing[0], "text": nothing[1]},
         charts={c.rank: script_json(course_chart(c, model.unit).as_json()) for c in shown if c.courses},
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
+        left_out={c.rank: _left_out(c) for c in shown},
+        heat_names=names_of_pieces(heat.courses) if heat else [],
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
         stumbles=STUMBLES,
@@ -97,6 +101,12 @@ def show(request: Request) -> Response:
         pair=pair,
         add_command=lambda c: command(desk.store_path, "add", model.model, c.id),
     )
+
+
+def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
+    """(name, part), the largest error first; parts of one test in order where they are alike."""
+    named = zip(names_of_pieces(candidate.left_out), candidate.left_out, strict=True)
+    return sorted(named, key=lambda one: -one[1].rmse_um_before)
 
 
 def _headline(found: Diagnosis) -> str:

@@ -1,0 +1,76 @@
+"""A stored model whose effect is no longer installed: told as its fit stored it, with a warning; never run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.effect import registry
+from thermodata.errors import UsageError
+from thermodata.modelling import make_effect, not_installed
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+@pytest.fixture
+def store(campaign: Path) -> Path:
+    return campaign / "thermodata.store"
+
+
+@pytest.fixture
+def without(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As if the plugin with spindle_bearing were gone."""
+
+    def find(name: str) -> object:
+        if name == "spindle_bearing":
+            raise UsageError(f"no effect '{name}'", hint="did you mean 'spindle_motor'?")
+        return registry.effect(name)
+
+    monkeypatch.setattr(not_installed, "find_effect", find)
+    monkeypatch.setattr(make_effect, "find_effect", find)
+
+
+def test_it_is_compared_by_what_was_stored(say: Say, store: Path, without: None) -> None:
+    said = say("--store", store, "compare", "baseline", "--json")
+    assert said.code == 0
+    assert "warning: the effect spindle_bearing of model 'baseline' is not installed" in said.err
+    answer = json.loads(said.out)
+    assert [s["test"] for s in answer["scores"] if s["phase"] == "all"] == ["heat1", "heat2", "day1"]
+    assert answer["parameters"]["spindle_bearing.gain"]["unit"] == "um/K"
+    assert (answer["weak_spots"], answer["differences"]) == ({}, None)
+    assert "spindle_bearing" in say("--store", store, "compare", "baseline").out + said.err
+
+
+def test_it_is_shown_by_what_was_stored(say: Say, store: Path, without: None) -> None:
+    said = say("--store", store, "show", "baseline", "--json")
+    assert said.code == 0
+    assert "not installed" in said.err
+    answer = json.loads(said.out)
+    assert answer["responses"] == []
+    assert answer["stored"]["name"] == "baseline"
+    assert "spindle_bearing.tau" in say("--store", store, "show", "baseline").out
+
+
+@pytest.mark.parametrize("command", ["report", "diagnose"])
+def test_what_would_have_to_run_it_says_what_is_lacking(
+    say: Say, store: Path, tmp_path: Path, without: None, command: str
+) -> None:
+    said = say("--store", store, command, "baseline", *(["-o", tmp_path / "r.html"] if command == "report" else []))
+    assert said.code == 2
+    assert "the effect spindle_bearing of model 'baseline' is not installed" in said.err
+    assert "did you mean" not in said.err
+    assert "compare, show, history and sql tell" in said.err
+
+
+def test_with_its_plugin_it_is_run(say: Say, store: Path) -> None:
+    said = say("--store", store, "show", "baseline", "--json")
+    assert said.code == 0
+    assert "not installed" not in said.err
+    answer = json.loads(said.out)
+    assert answer["stored"] is None
+    assert answer["responses"]

@@ -1,0 +1,32 @@
+"""Times of the campaign file that lie behind the end of a test's recording: what they mean is nowhere in it."""
+
+from __future__ import annotations
+
+from thermodata.schema.campaign import Test
+
+_MORE = 1.001  # an end that is written as it was planned is not behind the end
+
+
+def beyond_the_end(test: Test, duration_s: float | None) -> list[str]:
+    """Sentences for the summary of an ingest. duration_s: of the test [s]; None where nothing tells it."""
+    if not duration_s:
+        return []
+    begin = test.window[0] if test.window is not None else 0.0
+    end = begin + duration_s
+    said = []
+    if "over" in test.zero.model_fields_set and test.zero.over > _MORE * duration_s:
+        said.append(
+            f"{test.id}: zero is the mean over {_hours(test.zero.over)}, and the test lasts {_hours(duration_s)}: "
+            "the mean of all of it"
+        )
+    for name, (start, _) in test.phases.items():
+        if start >= end:
+            said.append(
+                f"{test.id}: the phase '{name}' begins at {_hours(start)}, and the recording ends at {_hours(end)}: "
+                "it has no sample"
+            )
+    return said
+
+
+def _hours(seconds: float) -> str:
+    return f"{seconds / 3600:.4g} h"
