@@ -59,11 +59,14 @@ def test_the_story_runs_and_runs_again_in_its_folder(say: Say, tmp_path: Path) -
     assert 100_000 < Path(result["report"]).stat().st_size < 1_000_000
 
     (folder / "mine.txt").write_text("kept")
-    said = say("demo", folder, "--hide", "none")
+    own = tmp_path / "own"
+    said = say("demo", folder, "--hide", "none", "--store", own)
     assert said.code == 0, said.err
     assert "7/7 report" in said.err
     assert "hidden" in said.out
     assert (folder / "mine.txt").read_text() == "kept", "only what a demo made is cleared"
+    assert (own / "catalog.duckdb").exists(), "a store that is named is the one that is used"
+    assert not (folder / "thermodata.store").exists(), "what a demo made is cleared"
 
 
 def answers_with(monkeypatch: pytest.MonkeyPatch, verdict: str, **marks: object) -> list[str]:
@@ -97,26 +100,16 @@ def test_all_claims_of_one_answer_are_added(say: Say, tmp_path: Path, monkeypatc
 @pytest.mark.usefixtures("small")
 def test_refinements_are_offered_and_not_added(say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     ids = answers_with(monkeypatch, "refine", refinement=True)
-    said = say("demo", tmp_path / "demo", "--hide", "none", "--json")
+    own = tmp_path / "own"
+    said = say("--store", own, "demo", tmp_path / "demo", "--hide", "none", "--json")
     assert said.code == 0, said.err
     result = json.loads(said.out)
+    assert result["store"] == str(own), "a store that is named is the one that is used"
+    assert (own / "catalog.duckdb").exists()
+    assert not (tmp_path / "demo" / "thermodata.store").exists()
     assert (result["claims"], result["refinements"], result["found"]) == ([], ids, None)
     assert result["rmse_um_after"] is None
     assert f"refined by           {ids[0]} and {ids[1]}".split() == summary_text(result).split("\n")[3].split()
-
-
-@pytest.mark.usefixtures("small")
-@pytest.mark.parametrize("before", [False, True])
-def test_a_store_that_is_named_is_the_one_that_is_used(
-    say: Say, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, before: bool
-) -> None:
-    answers_with(monkeypatch, "none")
-    own, words = ["--store", tmp_path / "own"], ["demo", tmp_path / "demo", "--hide", "none"]
-    said = say(*own, *words, "--json") if before else say(*words, *own, "--json")
-    assert said.code == 0, said.err
-    assert json.loads(said.out)["store"] == str(tmp_path / "own")
-    assert (tmp_path / "own" / "catalog.duckdb").exists()
-    assert not (tmp_path / "demo" / "thermodata.store").exists()
 
 
 def test_a_folder_with_other_things_is_refused_untouched(tmp_path: Path) -> None:

@@ -67,7 +67,7 @@ def lvm(path: Path) -> Source:
 def csv(path: Path) -> Source:
     head = "Měření teplot\nČas [s];T1 [°C];n (U/min);Bemerkung\n"
     rows = "".join(
-        f"{10 * i};{20 + i / 8:.3f};{100 * i};{'ok' if i % 5 else ''}\n".replace(".", ",") for i in range(25)
+        f"{10 * i};{20 + i / 8:.3f};{100 * i};{'ok' if i % 5 else ''}\n".replace(".", ",") for i in range(12)
     )
     path.write_bytes((head + rows).encode("cp1250"))
     return PRAGUE
@@ -75,7 +75,7 @@ def csv(path: Path) -> Source:
 
 def csv_dates(path: Path) -> Source:
     path.write_text(
-        "time,T1 [degC],state\n" + "".join(f"2026-03-01 08:00:{i:02}.5,{20 + i / 8:.3f},s{i:03}\n" for i in range(20))
+        "time,T1 [degC],state\n" + "".join(f"2026-03-01 08:00:{i:02}.5,{20 + i / 8:.3f},s{i:03}\n" for i in range(10))
     )
     return PRAGUE
 

@@ -12,8 +12,10 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
+from collections.abc import Callable
 from contextlib import redirect_stderr
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -284,6 +286,12 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Lab:
     return made
 
 
+@pytest.fixture(scope="module")
+def compared(lab: Lab) -> Callable[[str], Any]:
+    """The answer of `compare` to a model's name, asked for once."""
+    return cache(lambda model: lab.json("compare", model))
+
+
 def _truth(error: str) -> tuple[float, float, float]:
     """direct [um/K], at rest [um/K], tau [min] of the printed function."""
     function = FUNCTIONS[error]
@@ -291,8 +299,8 @@ def _truth(error: str) -> tuple[float, float, float]:
     return float(-function.num[1] / pole), function.gain_at_rest, float(-1 / 60 / np.log(pole))
 
 
-def test_the_printed_functions_are_found(lab: Lab) -> None:
-    found = lab.json("compare", "causes")
+def test_the_printed_functions_are_found(compared: Callable[[str], Any]) -> None:
+    found = compared("causes")
     for error, (kind, *_) in PRINTED.items():
         direct, rest, tau = _truth(error)
         name = f"d{error[0]}/{error}"
@@ -380,12 +388,12 @@ def test_what_carries_over_to_four_machines(carried: list[Carried]) -> None:
     }
 
 
-def test_the_document_has_the_functions(lab: Lab) -> None:
-    every = lab.json("compare", "causes")["parameters"]
+def test_the_document_has_the_functions(compared: Callable[[str], Any]) -> None:
+    every = compared("causes")["parameters"]
     lines: list[list[Cell]] = []
     for error, (kind, *_) in PRINTED.items():
         direct, rest, tau = _truth(error)
-        heating = lab.json("compare", f"{error[2].lower()}_{kind}")["parameters"]
+        heating = compared(f"{error[2].lower()}_{kind}")["parameters"]
         alone, whole = f"d{error[0]}/{'z' if error[0] == 'Z' else 'xy'}", f"d{error[0]}/{error}"
         line: list[Cell] = [f"{error}, {kind}"]
         line += [direct, heating[f"{alone}.direct"]["value"], every[f"{whole}.direct"]["value"], rest]
@@ -400,11 +408,11 @@ def test_the_document_has_the_functions(lab: Lab) -> None:
     hold_table("straka2021: annex 1", head, lines)
 
 
-def test_the_document_has_the_fit_of_each_input(lab: Lab) -> None:
+def test_the_document_has_the_fit_of_each_input(compared: Callable[[str], Any]) -> None:
     here: dict[tuple[str, str], dict[str, float]] = {}
     for axis in "YZ":
         for kind in INPUTS:
-            for s in lab.json("compare", f"{axis.lower()}_{kind}")["scores"]:
+            for s in compared(f"{axis.lower()}_{kind}")["scores"]:
                 if s["phase"] == "heating":
                     here.setdefault((f"{s['response'][1]}T{axis}", kind), {})[s["test"][-1]] = s["fit"]
     lines: list[list[Cell]] = []

@@ -7,6 +7,7 @@ leaves out, and they are chosen here with the same structure.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -106,8 +107,14 @@ def lab(once: Once, tmp_path_factory: pytest.TempPathFactory) -> Lab:
     return made_once(once, tmp_path_factory.mktemp("lab"), "p001", CAMPAIGN, _write)
 
 
-def test_the_functions_of_the_paper_are_found(lab: Lab) -> None:
-    found = lab.json("fit", lab.model("functions", "p001", FUNCTIONS))
+@pytest.fixture(scope="module")
+def functions(lab: Lab) -> Any:
+    """The fit of the paper's functions, which the lab's store holds from then on."""
+    return lab.json("fit", lab.model("functions", "p001", FUNCTIONS))
+
+
+def test_the_functions_of_the_paper_are_found(functions: Any) -> None:
+    found = functions
     z, y = "dZ/", "dY/"
     for axis, share in ((z, 1.0), (y, SHARE_Y)):
         for name, direct, rest, tau in (
@@ -124,8 +131,7 @@ def test_the_functions_of_the_paper_are_found(lab: Lab) -> None:
     assert fits["sp6400"] > 97.17, "the printed FIT of calibration in Z"
 
 
-def test_one_function_for_heating_and_cooling_does_worse(lab: Lab) -> None:
-    both = lab.json("fit", lab.model("functions", "p001", FUNCTIONS))
+def test_one_function_for_heating_and_cooling_does_worse(lab: Lab, functions: Any) -> None:
     one = FUNCTIONS.splitlines()
     one = [line.replace(", phases: [heating]", "") for line in one if "id: cooling" not in line]
     single = lab.json("fit", lab.model("single", "p001", "\n".join(one) + "\n"))
@@ -137,11 +143,11 @@ def test_one_function_for_heating_and_cooling_does_worse(lab: Lab) -> None:
             if (s["test"], s["response"], s["phase"]) == ("spectrum", "dZ", "all")
         )
 
-    assert left(both) < 0.5 * left(single)
+    assert left(functions) < 0.5 * left(single)
 
 
+@pytest.mark.usefixtures("functions")
 def test_the_table_against_the_linear_model_is_the_papers(lab: Lab) -> None:
-    lab.run("fit", lab.model("functions", "p001", FUNCTIONS))
     linear = LINEAR.replace("gain_by: place", "fixed: {gain: 7.0}").replace(", {axis: Y, at: tcp}]", "]")
     lab.run("fit", lab.model("linear", "p001", linear))
     rows = lab.json("compare", "functions", "--against", "linear")
@@ -168,12 +174,11 @@ def test_the_table_against_the_linear_model_is_the_papers(lab: Lab) -> None:
     assert r"\toprule" in latex
 
 
-def test_the_document_has_the_table(lab: Lab) -> None:
+def test_the_document_has_the_table(lab: Lab, functions: Any) -> None:
     """Last: it refits the linear model with the k of the control in both directions."""
-    found = lab.json("fit", lab.model("functions", "p001", FUNCTIONS))
     lines: list[list[str | float]] = []
     printed: dict[str, tuple[str, float | str]] = {"dZ": ("7", "97.17"), "dY": ("1.5", "-")}
-    fits = {(s["response"], s["test"]): s["fit"] for s in found["scores"] if s["phase"] == "heating"}
+    fits = {(s["response"], s["test"]): s["fit"] for s in functions["scores"] if s["phase"] == "heating"}
     for response, (k, fit) in printed.items():
         linear = LINEAR.replace("gain_by: place", f"fixed: {{gain: {k}}}")
         axis = response[1]

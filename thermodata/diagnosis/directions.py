@@ -65,15 +65,19 @@ def directions(problem: Problem, tau_s: float) -> Directions:
     kept = problem.kept.setdefault("directions", {})
     key = round(float(np.log(tau_s)), 9)
     if key not in kept:
-        turn, size = [], []
-        for i, free in enumerate(_left(problem)[0]):
-            correlation = np.exp(-distances(problem, i) / tau_s)
-            values, vectors = np.linalg.eigh(free.T @ correlation @ free)
-            turn.append(np.ascontiguousarray((free @ vectors).T))
-            size.append(np.maximum(values, 0.0))
-        kept[key] = Directions(tuple(turn), np.concatenate(size))
-    found: Directions = kept[key]
-    return found
+        # tests of the same samples and offsets, such as all of one plan, have the same
+        made: dict[tuple[bytes, bytes], tuple[Float2D, Float1D]] = {}
+        found = []
+        for i, (block, free) in enumerate(zip(problem.blocks, _left(problem)[0], strict=True)):
+            samples = block.t_s.tobytes(), free.tobytes()
+            if samples not in made:
+                correlation = np.exp(-distances(problem, i) / tau_s)
+                values, vectors = np.linalg.eigh(free.T @ correlation @ free)
+                made[samples] = np.ascontiguousarray((free @ vectors).T), np.maximum(values, 0.0)
+            found.append(made[samples])
+        kept[key] = Directions(tuple(turn for turn, _ in found), np.concatenate([size for _, size in found]))
+    directions: Directions = kept[key]
+    return directions
 
 
 def _left(problem: Problem) -> tuple[list[Float2D], float]:
