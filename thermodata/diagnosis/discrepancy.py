@@ -33,6 +33,10 @@ SHARE = (0.03, 3.0)
 START_TAU_S = 7200.0
 
 
+KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
+SPACES = 2  # noises whose columns are kept: what is chosen is asked in two by turns
+
+
 @dataclass(frozen=True, slots=True)
 class Noise:
     """white, slow: standard deviations in the response's unit. tau_s: memory of the slow noise. share: how much of a
@@ -86,10 +90,13 @@ def _sound(solution: Float2D, info: int) -> Float2D:
 
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
-    covariance, offsets included."""
+    covariance, offsets included. kept: what was whitened already and is asked again beside other effects, by who asks,
+    `KEPT_BYTES` at most."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
+        self.kept: dict[int, tuple[object, tuple[Float2D, ...]]] = {}
+        self._room = KEPT_BYTES
         self._chains: list[Chain] = []
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, 0.0
@@ -106,11 +113,32 @@ class Whitened:
         """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
         return self.projected(test, self._chains[test].halved(columns))
 
+    def all_of(self, who: object, columns: Sequence[Float2D]) -> tuple[Float2D, ...]:
+        """The columns of one asker, shape (m, k) a test, in units of the noise. who: lives as long as this."""
+        found = self.kept.get(id(who))
+        if found is not None and found[0] is who:
+            return found[1]
+        white = tuple(self.of(i, c) if c.any() else np.zeros_like(c) for i, c in enumerate(columns))
+        self._room -= sum(w.nbytes for w in white)
+        if self._room >= 0:
+            self.kept[id(who)] = who, white
+        return white
+
     def projected(self, test: int, white: Float2D) -> Float2D:
         """Columns in units of the noise, shape (m, k), without what an offset explains."""
         free = self._offsets[test]
         result: Float2D = white - free @ (free.T @ white)
         return result
+
+
+def whitened(problem: Problem, noise: Noise) -> Whitened:
+    """Kept with the problem: the same samples are asked again beside other effects."""
+    spaces: dict[Noise, Whitened] = problem.kept.setdefault("spaces", {})
+    found = spaces.pop(noise, None) or Whitened(problem, noise)
+    spaces[noise] = found
+    while len(spaces) > SPACES:
+        del spaces[next(iter(spaces))]
+    return found
 
 
 def _orthogonal(columns: Float2D) -> tuple[Float2D, Float1D]:

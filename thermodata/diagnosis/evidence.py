@@ -125,17 +125,12 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 
 def moments(known: Known, columns: Columns) -> Moments:
     own, with_known, with_response = [], [], []
-    for i, block in enumerate(columns.blocks):
-        m, points, c = block.shape
-        both = known.both[i]
-        if not block.any():
-            own.append(np.zeros((points, c, c)))
-            cross = np.zeros((points, c, both.shape[1]))
-        else:
-            white = known.space.of(i, block.reshape(m, points * c))
-            by_point = white.reshape(m, points, c).transpose(1, 0, 2)
-            own.append(by_point.transpose(0, 2, 1) @ by_point)
-            cross = (white.T @ both).reshape(points, c, -1)
+    points, c = columns.blocks[0].shape[1:]
+    whites = known.space.all_of(columns, [b.reshape(len(b), points * c) for b in columns.blocks])
+    for white, both in zip(whites, known.both, strict=True):
+        by_point = white.reshape(-1, points, c).transpose(1, 0, 2)
+        own.append(by_point.transpose(0, 2, 1) @ by_point)
+        cross = (white.T @ both).reshape(points, c, -1)
         with_known.append(cross[..., :-1])
         with_response.append(cross[..., -1])
     return Moments(np.stack(own), np.stack(with_known), np.stack(with_response))

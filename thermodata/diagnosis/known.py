@@ -10,7 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thermodata.diagnosis.directions import Products, Weighted, log_evidence
-from thermodata.diagnosis.discrepancy import LEAST_WHITE, Noise, Whitened, ascend, bounds_of, halved, left_over
+from thermodata.diagnosis.discrepancy import (
+    LEAST_WHITE,
+    Noise,
+    Whitened,
+    ascend,
+    bounds_of,
+    halved,
+    left_over,
+    whitened,
+)
 from thermodata.diagnosis.problem import Problem
 from thermodata.plugin import Float1D, Float2D, Int1D
 
@@ -79,7 +88,7 @@ class Known:
 
 
 def known(problem: Problem, noise: Noise) -> Known:
-    space = Whitened(problem, noise)
+    space = whitened(problem, noise)
     both = tuple(space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks))
     products = np.stack([b.T @ b for b in both])
     return Known(
