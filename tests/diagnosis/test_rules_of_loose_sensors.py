@@ -89,6 +89,15 @@ def test_a_sensor_that_came_loose_is_told_with_the_first_test_and_how_much_it_an
     assert "channels: {T_front: {absent: true}}" in told.why
 
 
+def test_a_test_in_which_the_machine_rests_tells_neither() -> None:
+    data = loosened(machine(), 0.4, 4)
+    rest = {"speed": np.zeros(N)} | dict.fromkeys(("T_front", "T_rear"), data.tests[3].values["T_hall"])
+    still = replace(data.tests[3], values={**data.tests[3].values, **rest})
+    [told] = loose_sensors(replace(data, tests=(*data.tests[:3], still, *data.tests[4:])), "dZ")
+    assert "what it did up to 't2'" in told.why
+    assert "1 between tell neither" in told.why
+
+
 def test_the_order_is_that_of_the_clocks() -> None:
     data = loosened(machine(), 0.5, 4)
     [told] = loose_sensors(replace(data, tests=data.tests[::-1]), "dZ")

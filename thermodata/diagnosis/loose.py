@@ -46,7 +46,8 @@ TOO = 0.25  # fall of the error by which another temperature did the same: then 
 class Fall:
     """A temperature that answers less from a test on. before, after: the tests that tell. ratio: of the answer after to
     that before. drop: of the squared error of left-out tests, by it; left: what remains, in shares of the temperature.
-    parted: the highest test after, in shares of the lowest before; infinite where one before goes the other way."""
+    parted: the highest test after, in shares of the lowest before; infinite where one before goes the other way.
+    between: tests between the two sides, which tell neither."""
 
     name: str
     before: tuple[TestData, ...]
@@ -55,6 +56,7 @@ class Fall:
     drop: float
     left: float
     parted: float
+    between: int = 0
 
     @property
     def plain(self) -> bool:
@@ -75,6 +77,7 @@ def loose_sensors(data: Dataset, response: str) -> list[Artefact]:
 def as_artefact(fall: Fall) -> Artefact:
     first, last = fall.after[0], fall.before[-1]
     told = f"{len(fall.after)} tests bear it out, {len(fall.before)} before"
+    told += f"; {fall.between} between tell neither" if fall.between else ""
     return Artefact(
         kind="sensor_gain",
         campaign=first.campaign,
@@ -184,7 +187,8 @@ class _Sums:
         parted = float(highest / lowest) if lowest > 0 else np.inf
         ratio = after / before if before > 0 else np.inf
         drop = 1 - left / max(plain, 1e-300)
-        return Fall(name, before_, after_, ratio, drop, left / float(energy.sum()), parted)
+        between = int(sides[1][0] - sides[0][-1]) - 1
+        return Fall(name, before_, after_, ratio, drop, left / float(energy.sum()), parted, between)
 
 
 def telling(foretold: Float1D) -> Bool1D:
