@@ -18,6 +18,7 @@ from thermodata.diagnosis.investigate import Investigation, investigate
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.left_on_locked import contradicted
 from thermodata.diagnosis.listed import candidate, explainable, listed
+from thermodata.diagnosis.loose import loose_sensors
 from thermodata.diagnosis.other_axes import OtherAxes
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.sound import sound, told
@@ -70,6 +71,7 @@ def answer(
     same = copies(fitted.tests(data, "locked"), tests, response.name)
     again = {one.key for one, _ in same}
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t) and t.key not in again]
+    loose = loose_sensors(data, response.name)
 
     def asks(
         locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
@@ -84,7 +86,7 @@ def answer(
             locked=locked,
             # a second look asks so much of the locked tests that no other axis decides
             others=None if refused else OtherAxes(asked_of.spec, response.name, data, library),
-            known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *faults),
+            known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *loose, *faults),
             refused=refused,
         )
 
