@@ -16,6 +16,7 @@ from scipy.linalg import block_diag, null_space
 from scipy.special import logsumexp
 from scipy.stats import kstest, multivariate_normal
 
+from thermodata.diagnosis import discrepancy
 from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.directions import Weighted, log_evidence
@@ -401,3 +402,26 @@ def test_weighted_directions_give_the_evidence_of_the_covariance(at_s: list[int]
         assert rows == 30 + 17 - 2 - len(at_s)
         found = log_evidence(gram, cross, energy, logdet, rows, expected.precision)
         assert found == pytest.approx(expected.log_evidence, rel=1e-9)
+
+
+@pytest.mark.parametrize("room", [0, 1 << 30])
+def test_what_is_kept_of_a_noise_changes_nothing(room: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(discrepancy, "KEPT_BYTES", room)
+    one = replace(small(), kept={})
+    base, cols = known(one, NOISE), made(small())
+    first, again = moments(base, cols), moments(base, cols)
+    white = [base.space.of(i, b.reshape(len(b), -1)) for i, b in enumerate(cols.blocks)]
+    assert bool(base.space.kept) is bool(room)
+    for i, w in enumerate(white):
+        assert np.allclose(first.known[i].reshape(w.shape[1], -1), w.T @ base.white[i], atol=1e-12)
+    for name in ("own", "known", "response"):
+        assert np.array_equal(getattr(first, name), getattr(again, name))
+
+
+def test_the_columns_of_two_noises_are_kept_and_no_more() -> None:
+    one = replace(small(), kept={})
+    noises = [replace(NOISE, white=NOISE.white * k) for k in (1.0, 2.0, 3.0)]
+    spaces = [known(one, n).space for n in noises]
+    assert known(one, noises[2]).space is spaces[2]
+    assert known(one, noises[1]).space is spaces[1]
+    assert known(one, noises[0]).space is not spaces[0]
