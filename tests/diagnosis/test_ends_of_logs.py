@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.diagnosis.ends_of_logs import Ends, OddEnds, meets
+from thermodata.diagnosis.ends_of_logs import Ends, OddEnds, is_alike, meets
 from thermodata.diagnosis.heat_balance import UNMOVED_S
 from thermodata.schema.diagnosis import ClockMoved
 
@@ -73,3 +73,26 @@ def test_clocks_agree_where_logs_begin_and_end_together() -> None:
     assert ends.agree([("c", "t0"), ("c", "t1")], {"nc", "daq"})
     assert not ends.agree([("c", "t1")], {"nc", "log"})
     assert not ends.agree([("c", "t0")], {"nc", "daq"})
+
+
+@pytest.mark.parametrize(
+    ("other", "alike"),
+    [
+        ([move("t1", source="log"), move("t2", source="log")], True),
+        ([move("t1", -SHIFT_S + UNMOVED_S, "log"), move("t2", -SHIFT_S + UNMOVED_S, "log")], True),
+        ([move("t1", -SHIFT_S + UNMOVED_S + 1, "log"), move("t2", -SHIFT_S + UNMOVED_S + 1, "log")], False),
+        ([move("t1", source="log")], False),
+    ],
+)
+def test_logs_that_stand_elsewhere_in_the_same_tests_by_the_same_are_moved_together(
+    other: list[ClockMoved], alike: bool
+) -> None:
+    """Then the clock of the response is off, and one log without commands would be left behind."""
+    assert is_alike([move("t1"), move("t2")], other) is alike
+
+
+def test_where_heat_moved_what_the_ends_tell_too_nothing_is_said_of_it_twice() -> None:
+    """The response is in neither log."""
+    ends = Ends((odd("t1"),))
+    assert ends.artefacts("other", [move("t1", -SHIFT_S + 100.0)]) == []
+    assert len(ends.artefacts("other", [])) == 1

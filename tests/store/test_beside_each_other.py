@@ -108,3 +108,11 @@ def test_a_log_that_agrees_with_one_and_not_with_another_tells_nothing() -> None
     assert together(rows) == {}
     assert together({"d0": [row("daq", 1e9, 18_000.0)]}) == {}
     assert together({"d0": [row("daq", 1e9, 18_000.0), row("nc", 1e9, 18_000.0, step_s=None)]}) == {}
+
+
+def test_logs_in_seconds_from_nowhere_tell_nothing_of_clocks() -> None:
+    rows = {f"d{i}": [row("daq", 0.0, 18_000.0), row("nc", 0.0, 18_000.0)] for i in range(5)}
+    relative = {test: [{**r, "clock": "relative"} for r in some] for test, some in rows.items()}
+    assert len(together(rows)) == 5
+    assert together(relative) == {}
+    assert odd_clocks({t: [{**r, "clock": "relative"} for r in some] for t, some in days().items()}) == []

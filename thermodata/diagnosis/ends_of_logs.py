@@ -108,6 +108,12 @@ def meets(some: Sequence[ClockMoved], clocks: Sequence[ClockMoved]) -> bool:
     )
 
 
+def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
+    """Whether two logs stand elsewhere in the same tests by the same: then it is the response's own that does."""
+    tests = [{(m.campaign, m.test) for m in each} for each in (some, others)]
+    return tests[0] == tests[1] and abs(some[0].moved_s - others[0].moved_s) <= UNMOVED_S
+
+
 def ends_of_logs(store: Store, model: Loaded) -> Ends:
     """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared."""
     from thermodata.store.ingest.beside_each_other import odd_clocks, together
@@ -136,8 +142,10 @@ def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:
     found: dict[str, list[dict[str, object]]] = {}
     with store.reader() as con:
         rows = con.execute(
-            "select test, source, start_ns, step_s, rows from source where campaign = ? order by rowid", [campaign]
+            "select test, source, start_ns, step_s, rows, clock from source where campaign = ? order by rowid",
+            [campaign],
         ).fetchall()
-    for test, source, start_ns, step_s, count in rows:
-        found.setdefault(test, []).append({"source": source, "start_ns": start_ns, "step_s": step_s, "rows": count})
+    names = ("source", "start_ns", "step_s", "rows", "clock")
+    for test, *of_source in rows:
+        found.setdefault(test, []).append(dict(zip(names, of_source, strict=True)))
     return found

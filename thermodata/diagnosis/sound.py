@@ -17,7 +17,7 @@ from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.compressed import compressed
 from thermodata.diagnosis.confirm import on_all_open
 from thermodata.diagnosis.declared_clocks import Declared
-from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, meets
+from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, is_alike, meets
 from thermodata.diagnosis.problem import TARGET_ROWS
 from thermodata.diagnosis.turned import turned_probes
 from thermodata.modelling.fit import fit_model
@@ -61,10 +61,11 @@ def sound(
     """
     found = _fitted_to(fitted, data, tests)
     if not tests:
-        return found
+        return _with_ends_told(found, index, ends)
     asked, found = found, _clocks_right(_with_ends_right(found, index, ends), index, ends)
     if ends.is_met(found.put_right.clocks):  # heat tells of one test what the ends of the logs tell of all of them
         found = _clocks_right(_with_ends_right(asked, index, ends, met=found.put_right.clocks), index, ends)
+    found = _with_ends_told(found, index, ends)
     turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library)
     if not turned:
         return found
@@ -87,12 +88,19 @@ def _with_ends_right(found: Sound, index: int, ends: Ends, met: Sequence[ClockMo
     """By how logs begin and end beside each other, which is exact, where heat bears it out. met: what heat alone moved,
     a test each."""
     response, data = found.fitted.responses[index].name, found.data
-    home, clocks = data.channels[response].source, list[ClockMoved]()
-    if alike := ends.moves(home):
-        logs = compared(found.tests, data.channels, response, data.step_s)
-        clocks = [move for some in alike if meets(some, met) or logs.bears_out(some) for move in some]
-    found = replace(found, faults=tuple(ends.artefacts(home, clocks)))
+    alike = ends.moves(data.channels[response].source)
+    if not alike:
+        return found
+    logs = compared(found.tests, data.channels, response, data.step_s)
+    borne_out = [some for some in alike if meets(some, met) or logs.bears_out(some)]
+    clocks = [move for some in alike if some in borne_out or any(is_alike(some, o) for o in borne_out) for move in some]
     return _moved(found, clocks) if clocks else found
+
+
+def _with_ends_told(found: Sound, index: int, ends: Ends) -> Sound:
+    """With what the ends of the logs say, once it is known what was moved."""
+    home = found.data.channels[found.fitted.responses[index].name].source
+    return replace(found, faults=(*found.faults, *ends.artefacts(home, found.put_right.clocks)))
 
 
 def _moved(found: Sound, clocks: Sequence[ClockMoved]) -> Sound:
@@ -110,7 +118,9 @@ def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     problem = compressed(response, found.data, found.tests, TARGET_ROWS)
     known = timings(problem, found.data.channels)
     word = Declared.of(found.data, response.name)
-    by_ends = {(c.campaign, c.test): frozenset({c.source}) for c in found.put_right.clocks}
+    by_ends: dict[tuple[str, str], frozenset[str]] = {}
+    for c in found.put_right.clocks:
+        by_ends[c.campaign, c.test] = by_ends.get((c.campaign, c.test), frozenset()) | {c.source}
     in_one = {key: (sources - word.of_all) | by_ends.get(key, frozenset()) for key, sources in word.in_one.items()}
     order = in_order([*found.tests, *found.fitted.tests(found.data, "locked")])
     off = [t for t in known.off(order, in_one) if t.source not in word.of_clock(t.campaign, t.test)]

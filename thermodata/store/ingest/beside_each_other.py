@@ -114,10 +114,10 @@ def _odd(apart: Float2D) -> tuple[list[int], float] | None:
 
 
 def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:
-    """Of each source of a test that logs at even steps."""
+    """Of each source of a test that logs at even steps, on a clock: seconds from nowhere begin at 0 in every log."""
     found: dict[str, list[_Ends]] = defaultdict(list)
     for row in rows:
-        if row["start_ns"] is not None and row["step_s"] and row["rows"]:
+        if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
             first = row["start_ns"] / 1e9
             found[row["source"]].append(_Ends(first, first + row["step_s"] * (row["rows"] - 1)))
     return {s: _Ends(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
