@@ -5,6 +5,7 @@ Each block is drafted as a test: the part of the file that its `window` cuts out
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -33,6 +34,7 @@ _CALLED = frozenset(
     )
 )
 _IF_NUMBERED = frozenset(_split("run runs lauf"))  # alone they say that something runs
+_BEFORE_NUMBERS = frozenset(["", "v", "t", "nr", "no"])
 _BESIDE = frozenset(_split("id name nr no num number nummer label code bezeichnung kod key"))
 _MOST, _FEWEST = 200, 5  # tests of a file, and rows of each
 _SWITCH = {"0", "1"}
@@ -136,6 +138,12 @@ def _is_called_test(signal: Signal) -> bool:
     beside = said & _BESIDE
     called = said & (_CALLED | _IF_NUMBERED if beside else _CALLED)
     return bool(called) and said == called | beside and signal.dtype != "bool"
+
+
+def is_test_number(name: str) -> bool:
+    """Whether a name says no more than the number of a test: 'Test 3', 'Messung_12', 'V2', '07'."""
+    said = re.fullmatch(r"([^\W\d]*)[\W_]*\d+", name.strip())
+    return said is not None and said[1].strip("_").casefold() in _CALLED | _IF_NUMBERED | _BEFORE_NUMBERS
 
 
 def _read(who: Reader, full: Path, file: RawFile) -> tuple[list[Block], bool]:
