@@ -87,12 +87,14 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             try:
                 whole = described_file(who, full, path, encoding)
                 found = sheet_by_sheet(who, full, whole)
+                looked = Watch()
                 if len(found) == 1 and is_of_series(whole):
-                    found = _not_as_series(who, full, path, encoding, whole) or found
+                    found = _not_as_series(who, full, path, encoding, whole, _SAMPLES_S - spent) or found
                 elif len(found) == 1:
-                    found = by_tests(who, full, whole)
+                    found = by_tests(who, full, whole, left_s=_SAMPLES_S - spent)
+                spent += looked.spent_s
             except _UNREAD as error:
-                tests = _not_as_series(who, full, path, encoding, None)
+                tests = _not_as_series(who, full, path, encoding, None, _SAMPLES_S - spent)
                 if tests is None:
                     failed.append((str(path), who.name))
                     said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
@@ -138,10 +140,10 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
 
 
 def _not_as_series(
-    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None, left_s: float
 ) -> list[RawFile] | None:
     try:
-        return not_as_series(who, full, path, encoding, whole)
+        return not_as_series(who, full, path, encoding, whole, left_s)
     except _UNREAD:
         return None
 
