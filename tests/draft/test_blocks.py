@@ -136,3 +136,28 @@ def test_tests_that_stand_in_another_order_than_their_dates_are_asked(tmp_path: 
     (tmp_path / "all.csv").write_text(turned + "\n", encoding="utf-8")
     assert [(t.id, t.window) for t in drafted(tmp_path, say).tests] == [("all", None)]
     assert "? 'test' may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("column", ["Mesure", "Messung", "Meting"])
+@pytest.mark.parametrize("reading", [lambda i: f"{i / 7:.3f}", lambda i: f"{i % 50}.0", str])
+def test_readings_that_are_called_as_tests_are_no_names(
+    tmp_path: Path, say: Say, column: str, reading: Callable[[int], str]
+) -> None:
+    times = (BEGAN + timedelta(seconds=10 * i) for i in range(600))
+    rows = "".join(f"{t.isoformat(' ')},{reading(i)},20.{i % 7}\n" for i, t in enumerate(times))
+    (tmp_path / "all.csv").write_text(f"time,{column},T_front\n{rows}", encoding="utf-8")
+    campaign = drafted(tmp_path, say)
+    assert [t.window for t in campaign.tests] == [None]
+    assert "may name tests" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+def test_whole_numbers_in_few_blocks_are_names_of_tests(tmp_path: Path, say: Say) -> None:
+    table(tmp_path / "all.csv", "Messung", ("1.0", "2.0", "3.0"))
+    assert [t.id for t in drafted(tmp_path, say).tests] == ["1", "2", "3"]
+
+
+def test_a_file_for_which_no_time_is_left_is_asked(tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("thermodata.draft.scan._SAMPLES_S", -1.0)
+    table(tmp_path / "all.csv", "test", ("A", "B"))
+    assert [t.window for t in drafted(tmp_path, say).tests] == [None]
+    assert "may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from thermodata.draft.sheets import recordings_in
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said
-from .labs import tdms
+from .labs import tdms, workbook
 
 Say = Callable[..., Said]
 BEGAN = datetime(2026, 3, 2, 8, tzinfo=UTC)
@@ -101,3 +101,43 @@ def test_two_days_of_two_rates_are_asked(tmp_path: Path, say: Say) -> None:
 @pytest.mark.parametrize(("rows", "last", "one"), [(300, 3600, True), (101, 3600, False), (300, 3500, False)])
 def test_without_dates_equal_ends_at_other_rates_tell(rows: int, last: int, one: bool) -> None:
     assert bool(recordings_in([None, None], [ran(0, 3600, 100), ran(0, last, rows)])) is one
+
+
+def logged(step_s: int, rows: int) -> list[list[object]]:
+    head: list[object] = ["Time [s]", "T_front [degC]", "n [rpm]", "dZ [um]"]
+    return [head, *([i * step_s, 20 + 0.01 * i, 4000 if i > 5 else 0, 0.1 * i] for i in range(rows))]
+
+
+@pytest.mark.parametrize(
+    ("names", "tests"),
+    [
+        (["S4000", "S8000", "S6000"], True),
+        (["Test 1", "Test 2", "Test 3"], True),
+        (["2026-03-02", "2026-03-03", "2026-03-04"], True),
+        (["Slow", "Fast", "Middle"], False),
+        (["Logger1", "Logger2", "Logger3"], False),
+    ],
+)
+def test_sheets_of_seconds_that_end_alike_are_told_apart_by_name_or_asked(
+    tmp_path: Path, say: Say, names: list[str], tests: bool
+) -> None:
+    rows = [logged(10, 361), logged(30, 121), logged(10, 361)]
+    workbook(tmp_path / "book.xlsx", dict(zip(names, rows, strict=True)))
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    assert len(load_campaign(path).tests) == (3 if tests else 1)
+    assert ("loggers or rates of one test, or a test each?" in path.read_text()) is not tests
+
+
+@pytest.mark.parametrize(
+    ("names", "tests"), [(("Left", "Right"), ["cold", "warm"]), (("S4000", "S8000"), ["S4000", "S8000"])]
+)
+def test_undated_groups_that_are_in_every_file_are_no_tests(
+    tmp_path: Path, say: Say, names: tuple[str, str], tests: list[str]
+) -> None:
+    for test in ("warm", "cold"):
+        workbook(tmp_path / f"{test}.xlsx", dict(zip(names, [logged(10, 361), logged(10, 361)], strict=True)))
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    assert sorted(t.id for t in load_campaign(path).tests) == tests
+    assert ("'Left', 'Right' are in every file, and have no dates" in path.read_text()) is ("Left" in names)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from thermodata.draft.guess import guess
-from thermodata.draft.values import values_of
+from thermodata.draft.sample import _take
+from thermodata.draft.values import Values, values_of
+from thermodata.plugin import Block
 
 ON_OFF = values_of(np.tile([0.0, 0.0, 1.0, 1.0], 20))
 
@@ -43,3 +45,20 @@ def test_a_switch_whose_name_does_not_say_where_is_asked(name: str, at: str | No
     said = guess(name, None, "float64", ON_OFF)
     assert (said.quantity, said.at, said.sure) == ("state", at, False)
     assert said.questions[0].startswith(asked)
+
+
+@pytest.mark.parametrize(("empty", "switch"), [(None, True), ("", True), (float("nan"), True), ("none", False)])
+def test_an_empty_cell_keeps_no_words_from_being_a_switch(empty: object, switch: bool) -> None:
+    found = values_of(np.array(["ON", empty, "OFF", "ON"] * 20, dtype=object))
+    assert (found is not None and found.text and found.switch) is switch
+
+
+@pytest.mark.parametrize("block", [("ON", None, "OFF"), (None, None, None)])
+def test_a_block_of_empty_cells_keeps_no_words_from_being_a_switch(block: tuple[object, ...]) -> None:
+    values: dict[tuple[str, str], Values] = {}
+    worded: set[tuple[str, str]] = set()
+    for cells in (("ON", "OFF", "ON"), block, ("OFF", "ON", "ON")):
+        made = {"pump": np.array(cells, dtype=object)}
+        _take(Block("main", np.arange(3), made), values, {}, set(), worded)
+    assert values["main", "pump"].switch
+    assert not worded

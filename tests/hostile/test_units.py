@@ -73,6 +73,19 @@ def test_temperatures_of_parts_keep_their_zero(lab: Lab) -> None:
     np.testing.assert_allclose(lab.values("dT")[1], [20.0] * 40 + [86.0 / 1.8] * 40)
 
 
+@pytest.mark.parametrize(("second", "code"), [("temperature_difference", 3), ("temperature", 0)])
+def test_two_channels_of_one_signal_of_parts_are_read_alike_or_the_second_is_refused(
+    lab: Lab, second: str, code: int
+) -> None:
+    for name, unit, value, hour in (("a", "degC", "20", "08"), ("b", "degF", "86", "09")):
+        body = "".join(f"{t};{value}\n" for t in TIMES).replace(" 08:", f" {hour}:")
+        lab.write(f"raw/{name}.csv", f"time;T1 [{unit}]\n{body}")
+    said = lab.ingest({"T1": {"signal": "T1", "quantity": "temperature"}, "T2": {"signal": "T1", "quantity": second}})
+    assert said.code == code, said.out + said.err
+    assert ("'T1' has it otherwise" in said.out + said.err) is (code == 3)
+    np.testing.assert_allclose(lab.values("T1")[1], [20.0] * 40 + [30.0] * 40)
+
+
 @pytest.mark.parametrize("heads", [True, False], ids=["in names", "in a row"])
 def test_parts_whose_units_have_nothing_in_common_are_not_joined(lab: Lab, heads: bool) -> None:
     two_parts(lab, ("kW", "bar"), ("2.5", "2.5"), heads)

@@ -33,3 +33,29 @@ def test_a_status_that_ends_in_words_is_no_loss_where_no_channel_reads_it(lab: L
 def test_words_in_a_column_of_qualities_concern_the_values(lab: Lab) -> None:
     log(lab, "T1.Quality", "192", 1)
     assert lab.ingest({"T1": T1}).code == 3
+
+
+@pytest.mark.parametrize(("signal", "code"), [("dZ [mm]", 3), ("dZ", 3), ("dX [mm]", 0)])
+def test_a_loss_in_a_part_that_has_a_channel_in_another_unit_is_one(lab: Lab, signal: str, code: int) -> None:
+    for name, unit, hour in (("a", "mm", "08"), ("b", "um", "16")):
+        rows = [f"{t.replace(' 08:', f' {hour}:')};20.5;1.{i % 10};2" for i, t in enumerate(TIMES[:300])]
+        if name == "b":
+            rows[200] = rows[200].replace(f";1.{200 % 10};", ";Logged;")
+        lab.write(f"raw/{name}.csv", "\n".join([f"time;T1;dZ [{unit}];dX [{unit}]", *rows, ""]))
+    said = lab.ingest({"T1": T1, "d": {"signal": signal, "quantity": "displacement", "at": "tcp", "axis": "Z"}})
+    assert said.code == code, said.out + said.err
+    assert ("no channel reads that column" in said.out + said.err) is (code == 0)
+
+
+@pytest.mark.parametrize("first", [True, False])
+@pytest.mark.parametrize(("reads", "code"), [("End Of File", 3), ("T1", 0)])
+def test_a_loss_of_a_file_of_two_sources_is_one_where_either_reads_it(
+    lab: Lab, first: bool, reads: str, code: int
+) -> None:
+    log(lab, "End Of File", "0", 1)
+    names = ["log", "other"] if first else ["other", "log"]
+    sources = {name: {"reader": "table", "files": "raw/*"} for name in names}
+    channel = T1 if reads == "T1" else {"signal": reads, "quantity": "state"}
+    said = lab.ingest({"T1": T1, "end": {**channel, "source": "other"}}, sources=sources)
+    assert said.code == code, said.out + said.err
+    assert ("no channel reads that column" in said.out + said.err) is (code == 0)

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.draft.guess import guess_of
 from thermodata.draft.quantity import Guess
-from thermodata.draft.values import Values, joined, values_of
+from thermodata.draft.values import Values, bare_word, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.guard import guarded
@@ -146,7 +146,7 @@ def _take(
     for name, column in block.values.items():
         key = (block.stream, name)
         seen = values_of(column)
-        if seen is None and column.dtype.kind in "OUS" and any(str(word).strip() for word in column.tolist()):
+        if seen is None and column.dtype.kind in "OUS" and any(map(bare_word, column.tolist())):
             worded.add(key)
         if key in worded:
             values.pop(key, None)

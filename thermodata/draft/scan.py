@@ -14,9 +14,9 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.file_copies import copies_in, unfinished_in
 from thermodata.draft.lent_names import with_lent_names
-from thermodata.draft.raw_file import Asked, RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
+from thermodata.draft.of_one_time import in_every_file, of_one_time
+from thermodata.draft.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.sample import SMALL, Watch, short
-from thermodata.draft.sheets import recordings_in
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.counted import counted
@@ -52,6 +52,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     ignored: list[tuple[str, str]] = []
     failed: list[tuple[str, str]] = []
     shapes: dict[str, RawFile] = {}
+    apart: dict[str, tuple[RawFile, list[RawFile]]] = {}
     copies, unfinished = copies_in(folder, paths), unfinished_in(paths)
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
@@ -86,12 +87,14 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             try:
                 whole = described_file(who, full, path, encoding)
                 found = sheet_by_sheet(who, full, whole)
+                looked = Watch()
                 if len(found) == 1 and is_of_series(whole):
-                    found = _not_as_series(who, full, path, encoding, whole) or found
+                    found = _not_as_series(who, full, path, encoding, whole, _SAMPLES_S - spent) or found
                 elif len(found) == 1:
-                    found = by_tests(who, full, whole)
+                    found = by_tests(who, full, whole, left_s=_SAMPLES_S - spent)
+                spent += looked.spent_s
             except _UNREAD as error:
-                tests = _not_as_series(who, full, path, encoding, None)
+                tests = _not_as_series(who, full, path, encoding, None, _SAMPLES_S - spent)
                 if tests is None:
                     failed.append((str(path), who.name))
                     said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
@@ -101,12 +104,14 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
                 own = Watch()
                 found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
-                if (once := _of_one_time(whole, found)) is not None:
+                if (once := of_one_time(whole, found)) is not None:
                     found = [replace(once, sample=sample_of_file(full, once))]
                 spent += own.spent_s
-            elif (once := _of_one_time(whole, found)) is not None:
+            elif (once := of_one_time(whole, found)) is not None:
                 found = [once]
             ignored += [(str(path), why) for why in found[0].besides]
+            if found[0].sheet:
+                apart[str(path)] = (whole, found)
             for made in found:
                 key = str(path) if made.part is None else f"{path}/{made.part}"
                 logs[key] = shapes[_shape(path)] = made
@@ -115,6 +120,8 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 ignored.append((str(path), f"{who.name}: it holds no signal"))
         except _UNREAD as error:
             ignored.append((str(path), short(error)))
+    for one, whole in in_every_file(apart).items():
+        logs = {key: made for key, made in logs.items() if str(made.path) != one} | {one: whole}
     sampled = _sampled(folder, logs, tell)
     ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
@@ -132,25 +139,11 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     )
 
 
-def _of_one_time(whole: RawFile, found: Sequence[RawFile]) -> RawFile | None:
-    """The whole file where its sheets or groups ran at once, and are no tests; with a question where they did so more
-    than once. None where they are tests."""
-    if not all(f.sheet for f in found):
-        return None
-    recordings = recordings_in([f.start_ns for f in found], [f.sample for f in found])
-    if recordings < 2:
-        return whole if recordings else None
-    asked = (
-        f"it holds {recordings} recordings of several loggers or rates: a test each? then write each with its window"
-    )
-    return replace(whole, asked=(*whole.asked, Asked(asked, {})))
-
-
 def _not_as_series(
-    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None, left_s: float
 ) -> list[RawFile] | None:
     try:
-        return not_as_series(who, full, path, encoding, whole)
+        return not_as_series(who, full, path, encoding, whole, left_s)
     except _UNREAD:
         return None
 

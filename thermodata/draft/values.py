@@ -92,12 +92,17 @@ def values_of(column: Array) -> Values | None:
 
 def _switched(column: Array) -> Float1D | None:
     """The words of a switch as 0 and 1, as ingest counts them; None where others stand among them. shape (n,)."""
-    bare = {word: str(word).strip().lower() for word in set(column.tolist())}
+    bare = {word: bare_word(word).lower() for word in set(column.tolist())}
     said = {word: b for word, b in bare.items() if b}
     if not said or not TRUE_WORDS.union(FALSE_WORDS).issuperset(said.values()):
         return None
     numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
     return np.array([numbers.get(word, np.nan) for word in column.tolist()])
+
+
+def bare_word(cell: object) -> str:
+    """A cell of words without blanks around it; '' where it is empty."""
+    return "" if cell is None or cell != cell else str(cell).strip()
 
 
 def _readings(x: Float1D) -> Float1D:

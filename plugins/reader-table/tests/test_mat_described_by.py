@@ -92,11 +92,13 @@ def test_one_unit_is_that_of_all_columns_of_its_matrix(tmp_path: Path) -> None:
         ({"T": A, "T_unit": "min"}, True),  # a temperature in minutes is asked of it, not of the time
         ({"T": A, "T_unit": "degC", "t_unit": "min"}, False),
         ({"X": TIME, "X_unit": "um", "time_unit": "min"}, False),
+        ({"X": TIME, "X_unit": "um", "T_unit": "min"}, False),
+        ({"X": TIME, "X_unit": "um", "T_unit": "degC"}, True),
     ],
 )
 def test_a_unit_of_a_large_t_is_none_of_the_time(tmp_path: Path, variables: dict[str, Any], note: bool) -> None:
     found = described(tmp_path, **variables)
-    assert found.signals[0].unit == variables.get("T_unit", variables.get("X_unit"))
+    assert found.signals[0].unit == variables.get("X_unit", variables.get("T_unit"))
     assert not [n for n in found.notes if "is none of time" in n]
     assert bool([n for n in found.notes if "taken as seconds" in n]) is note
 
@@ -107,3 +109,11 @@ def test_the_unit_of_the_time_is_taken_whatever_its_spelling(tmp_path: Path) -> 
         scipy.io.savemat(path, {"t": TIME, "T": A, name: "min"})
         blocks = list(Reader().blocks(path, Source()))
         assert blocks[0].t_ns[-1] == (N - 1) * 60_000_000_000  # type: ignore[union-attr]
+
+
+def test_a_unit_of_a_large_t_without_a_variable_t_is_that_of_the_time_where_it_is_one_of_time(tmp_path: Path) -> None:
+    for unit, step_s in (("min", 60), ("Min ", 60), ("degC", 1)):
+        path = tmp_path / "x.mat"
+        scipy.io.savemat(path, {"t": TIME, "X": A, "T_unit": unit})
+        blocks = list(Reader().blocks(path, Source()))
+        assert blocks[0].t_ns[-1] == (N - 1) * step_s * 1_000_000_000  # type: ignore[union-attr]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Loss
+from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Campaign, JumpCalibration
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.in_parts import find_signal
@@ -54,6 +55,35 @@ def unread_signals(campaign: Campaign, source: str, raws: Iterable[RawStream]) -
     for name in wanted - {None}:
         try:
             read.add(find_signal(raws, str(name))[1].name)
-        except UsageError:
-            continue
+        except UsageError:  # another file of the test may have it in another unit
+            read |= {s.name for r in raws for s in r.signals if _bare(s.name) == _bare(str(name))}
     return {s.name for r in raws for s in r.signals} - read
+
+
+def _bare(name: str) -> str:
+    return split_unit(name)[0].casefold()
+
+
+def tell(
+    raws: Iterable[RawStream],
+    unread: Collection[str],
+    own: Said,
+    every: Iterable[Said],
+    *,
+    again: bool,
+    test: str,
+    source: str,
+    file: str,
+) -> None:
+    """Says of a test what a file lost. unread: signals that the source's channels do not read; own: of the test; every:
+    of all tests; again: the file was told of before, and what its other sources did not miss may be missed now."""
+    for loss in (x for r in raws for x in r.losses):
+        note = f"{loss.where}: {loss.reason}; no channel reads that column"
+        noted = [said for said in every if note in said.notes]
+        if loss.signal in unread:
+            if not again:
+                own.notes.append(note)
+        elif noted or not again:
+            for said in noted:
+                said.notes.remove(note)
+            own.losses.append(loss_row(loss.reason, test=test, source=source, file=file, loss=loss))

@@ -14,7 +14,7 @@ from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
 from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, Said, loss_row, unread_signals
+from thermodata.store.ingest.losses import Losses, Said, loss_row, tell, unread_signals
 from thermodata.store.ingest.progress import counted
 from thermodata.store.ingest.resolve import file_inside, natural
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
@@ -204,13 +204,9 @@ class RawIngest:
         self.files.done(path)
         fresh = {r.key for r in raws} - self._told  # of a workbook each sheet is raw data of its own
         self._told |= fresh
-        if fresh:
-            unread = unread_signals(self.files.campaign, source, raws)
-            for loss in (x for r in raws for x in r.losses):
-                if loss.signal in unread:
-                    self.notes.append(f"{loss.where}: {loss.reason}; no channel reads that column")
-                else:
-                    self.losses.append(loss_row(loss.reason, test=test, source=source, file=path, loss=loss))
+        if any(r.losses for r in raws):
+            unread, every = unread_signals(self.files.campaign, source, raws), list(self.said.values())
+            tell(raws, unread, self.said[self._test], every, again=not fresh, test=test, source=source, file=path)
         return raws
 
     def _copy(self, path: str, before: list[RawStream], reader: Reader, declaration: Source) -> list[RawStream]:

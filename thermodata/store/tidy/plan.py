@@ -13,7 +13,7 @@ from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.campaign_channels import MEASURED
 from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import schedule
-from thermodata.store.tidy.in_parts import InPart, find_in_parts
+from thermodata.store.tidy.in_parts import Found, InPart, find_in_parts
 from thermodata.store.tidy.on_change import step_beside
 
 SCHEDULE = "schedule"
@@ -149,6 +149,7 @@ def bind(plan: TestPlan) -> None:
     """Finds the signal of every channel; what can't be found becomes a problem with the nearest right name. Derived
     channels are those of a campaign that passed `check_derived`."""
     channels = effective(plan.campaign, plan.test)
+    read: dict[tuple[str, str, str], tuple[str, Found]] = {}
     for name, channel in channels.items():
         if channel.schedule is not None:
             try:
@@ -171,6 +172,13 @@ def bind(plan: TestPlan) -> None:
                 continue
             except UsageError as error:
                 plan.problems.append(f"channel '{name}': " + "; ".join(str(error).splitlines()))
+                continue
+            before, as_before = read.setdefault((source.name, found.raw.stream, found.signal.name), (name, found))
+            if as_before.parts != found.parts:
+                plan.problems.append(
+                    f"channel '{name}': '{found.signal.name}' is in another unit in some files, and '{before}' has it "
+                    "otherwise of them; try: a source of its own for one of both, with the same files"
+                )
                 continue
             source.parts |= found.parts
             if found.note is not None:

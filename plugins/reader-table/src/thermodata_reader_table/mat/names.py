@@ -173,16 +173,16 @@ def names_units(name: str) -> bool:
     return squeezed(name) in _UNITS or squeezed(name).endswith("units")
 
 
-def unit_of(name: str, known: Collection[str] = ()) -> str | None:
+def unit_of(name: str, known: Collection[str] = (), unit: str | None = None) -> str | None:
     """The variable whose unit one holds that is called after it: T1_unit, unit_T1, T1Unit; None for another one.
-    known: the variables beside it: of two that differ by case alone each has its own."""
+    known: the variables beside it: of two that differ by case alone each has its own; unit: what it holds."""
     match = _UNIT_OF.fullmatch(name)
     if match is None:
         return None
     other = match["a"] or match["b"] or match["c"]
     if other in known:
         return str(other)
-    return None if names_time_unit(name) or squeezed(other) in _GENERAL else str(other)
+    return None if names_time_unit(name, unit) or squeezed(other) in _GENERAL else str(other)
 
 
 def listed_of(name: str, known: Collection[str]) -> str:
@@ -196,11 +196,12 @@ def listed_of(name: str, known: Collection[str]) -> str:
     return alike[0] if len(alike) == 1 else "" if squeezed(other) in _GENERAL else other
 
 
-def names_time_unit(name: str) -> bool:
-    """Whether a variable holds the unit of the time; T_unit, with a large T, is that of a temperature."""
-    return squeezed(name) in ("timeunit", "timeunits", "unittime", "xunit") or (
-        squeezed(name) == "tunit" and not name.startswith("T")
-    )
+def names_time_unit(name: str, unit: str | None = None) -> bool:
+    """Whether a variable holds the unit of the time; T_unit, with a large T, only where that is a unit of time, for it
+    may be that of a temperature. unit: what it holds."""
+    if squeezed(name) in ("timeunit", "timeunits", "unittime", "xunit"):
+        return True
+    return squeezed(name) == "tunit" and (not name.startswith("T") or (unit or "").strip().lower() in SECONDS)
 
 
 def names_step(name: str) -> bool:

@@ -71,11 +71,11 @@ def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, i
     lines = lines_of(node)
     if lines is None:
         _cells(plan, scope, path, node, inner)
-    elif len(lines) == 1 and (of := say.unit_of(name, scope.known)) is not None:
+    elif len(lines) == 1 and (of := say.unit_of(name, scope.known, lines[0])) is not None:
         scope.unit_of.setdefault(of, lines[0])
         scope.properties[name] = lines[0][:500]
     elif len(lines) == 1:
-        if say.names_time_unit(name):
+        if say.names_time_unit(name, lines[0]):
             scope.time_unit = lines[0]
         if say.names_names(name) and not say.names_units(name):
             scope.names.append(_listed(scope, name, lines))
