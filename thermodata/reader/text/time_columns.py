@@ -17,7 +17,7 @@ from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.spans import are_spans
-from thermodata.reader.text.time_cells import part_question, with_parts, zoned_beside
+from thermodata.reader.text.time_cells import part_question, with_parts, zone_notes, zoned_beside
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -82,7 +82,8 @@ def time_of(
             if parts is not None:
                 every = with_parts(parts[0], names, data)
                 shown = ", ".join(f"'{names[i]}'" for i in every)
-                return every, None, parts[1], [f"the time stands in {len(every)} columns: {shown}"]
+                noted = [f"the time stands in {len(every)} columns: {shown}", *zone_notes(every, names, data)]
+                return every, None, parts[1], noted
         try:
             columns = find_time(names, units, data, where, likely)
         except FormatError:
@@ -106,7 +107,7 @@ def time_of(
             raise open_part
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
-    notes: list[str] = []
+    notes = zone_notes(columns, names, data)
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
         form = said_clock(name, units[columns[0]], cells)
