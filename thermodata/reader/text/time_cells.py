@@ -8,15 +8,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cell import Cell, is_empty, is_number, is_stamp, mostly
+from thermodata.reader.text.cell import Cell, is_empty, is_number, is_stamp
 from thermodata.reader.text.clock_pattern import is_half, needs_half
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_pattern import TimeFormat
-from thermodata.reader.text.zone_words import SEVERAL, is_zone, offset_ns, stated_zone
+from thermodata.reader.text.zone_words import SEVERAL, is_zone, offset_ns
 
 _HOUR_NS = 3600 * 1_000_000_000
 _NAMELESS = re.compile(r"column \d+|Unnamed: \d+")
-_ZONED = re.compile(r":\d\d(?:[.,]\d+)?\s*(?:Z|UTC|[+-]\d\d:?\d\d)$")
 _HALF_NAME = re.compile(
     r"(?i)a\.?m\.?\s*[/|_]?\s*p\.?m\.?|am_or_pm|tageszeit|meridi[ae]m|half ?day|上午/下午|午前/午後"
 )
@@ -166,21 +165,3 @@ def part_question(
         declare=said,
         meanwhile=said,
     )
-
-
-def zoned_beside(first: int, dates: Sequence[int], names: Sequence[str], filled: Sequence[Sequence[Cell]]) -> int:
-    """The column of the time: another one that says where it stands from UTC, where that of the local time beside it
-    does not. dates: columns that tell the hour too."""
-
-    def says_zone(i: int) -> bool:
-        return stated_zone([names[i]]) is not None or mostly(filled[i], _ends_in_zone, 0.9, len(filled[i]))
-
-    if says_zone(first):
-        return first
-    many = len(set(filled[first]))
-    others = (i for i in dates if i != first and len(set(filled[i])) >= many)
-    return next((i for i in others if says_zone(i)), first)
-
-
-def _ends_in_zone(cell: Cell) -> bool:
-    return isinstance(cell, str) and _ZONED.search(cell.strip()) is not None

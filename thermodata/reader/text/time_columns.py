@@ -17,7 +17,7 @@ from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.spans import are_spans
-from thermodata.reader.text.time_cells import part_question, with_parts, zone_notes, zoned_beside
+from thermodata.reader.text.time_cells import part_question, with_parts, zone_notes
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -31,6 +31,7 @@ from thermodata.reader.text.time_questions import (
     worded_time,
     zone_question,
 )
+from thermodata.reader.text.zoned_beside import beside_note, zoned_beside
 from thermodata.reader.time_units import SECONDS, check_unit
 
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
@@ -108,6 +109,8 @@ def time_of(
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes = zone_notes(columns, names, data)
+    if wanted is None:
+        notes += beside_note(columns[0], names, data)
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
         form = said_clock(name, units[columns[0]], cells)
@@ -159,7 +162,7 @@ def find_time(
     dates = [i for i in dates if i not in standing]
     if dates:
         of_hours = [i for i in dates if _tell_the_hour(filled[i])]
-        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, filled)
+        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, data)
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])
