@@ -70,3 +70,16 @@ def test_a_row_of_words_without_a_time_is_lost_alone(tmp_path: Path) -> None:
     data = read(tmp_path, HEAD + ";°C;mm", ";pause;V")
     assert data.t_ns["table"].size == 60
     assert "expected a time" in data.losses[0].reason
+
+
+@pytest.mark.parametrize("row", [";21.5;0.1", ";;", ";pause;"])
+def test_a_row_without_a_time_is_no_header_where_the_time_has_no_name(tmp_path: Path, row: str) -> None:
+    data = read(tmp_path, ";T_vorn;dZ", row)
+    assert data.t_ns["table"].size == 60
+    assert not any("another header" in loss.reason for loss in data.losses)
+
+
+def test_names_are_compared_where_one_of_two_columns_of_the_time_has_none(tmp_path: Path) -> None:
+    row = "2026-03-02;{h:02d}:{m:02d}:00;2{m}.5;0.{m}"
+    data = read(tmp_path, "Datum;;T_vorn;dZ", "Datum;;dZ;T_vorn", row)
+    assert data.t_ns["table"].size == 30

@@ -53,8 +53,9 @@ def begins_another(layout: Layout, cells: Sequence[str], shown: str) -> str:
 
 def names_again(layout: Layout, cells: Sequence[str]) -> bool:
     """Whether a line names the time as the header does."""
-    time = layout.groups[0].time
-    return bool(time) and all(i < len(cells) and (cells[i] or f"column {i + 1}") == layout.names[i] for i in time)
+    said = [(cells[i], layout.names[i], i) for i in layout.groups[0].time if i < len(cells)]
+    named = len(said) == len(layout.groups[0].time) and any(cell for cell, _, _ in said)  # an empty cell names nothing
+    return named and all((cell or f"column {i + 1}") == name for cell, name, i in said)
 
 
 def other_units(layout: Layout, cells: Sequence[str]) -> str:
