@@ -10,7 +10,7 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import Cell, is_dated, is_empty
-from thermodata.reader.text.declared_names import declared_names
+from thermodata.reader.text.declared_names import declared_names, unused_note
 from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.first_data import first_data, width_of
 from thermodata.reader.text.head_interval import with_interval
@@ -116,9 +116,12 @@ def find(
     if between is not None and header is None:
         lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
-    if said.get("names") is not None and not any(heads):
-        heads = declared_names(said["names"], width, where)
-        units = [split_unit(name)[1] for name in heads]
+    unused = None
+    if said.get("names") is not None and list(said["names"]) != heads:
+        unused = unused_note(heads, below)
+        if unused is None:
+            heads = declared_names(said["names"], width, where)
+            units = [split_unit(name)[1] for name in heads]
     names = unique(heads)
     described, listed = descriptions([texts_of(r) for r in above], heads)
     units = [u or v for u, v in zip(units, listed, strict=True)]
@@ -130,7 +133,7 @@ def find(
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     except QuestionError as question:
         raise with_interval(question, map(texts_of, above)) from None
-    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking) if note))
+    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused) if note))
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
 
 
