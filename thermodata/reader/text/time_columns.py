@@ -32,7 +32,7 @@ from thermodata.reader.text.time_questions import (
     zone_question,
 )
 from thermodata.reader.text.zoned_beside import beside_note, zoned_beside
-from thermodata.reader.time_units import SECONDS, check_unit
+from thermodata.reader.time_units import SECONDS, check_unit, with_step
 
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 
@@ -116,7 +116,7 @@ def time_of(
         form = said_clock(name, units[columns[0]], cells)
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = unit or units[columns[0]] or unit_of_time(name)
+    text = with_step(unit or units[columns[0]] or unit_of_time(name))
     if text is None:
         if (fraction := fraction_question(columns[0], names, data, where)) is not None:
             raise fraction
