@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
-from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, to_ns
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, to_ns, with_step
 from thermodata.reader.zone import NAT
 
 T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
@@ -41,6 +41,13 @@ def test_a_fraction_keeps_its_digits_and_what_is_no_number_is_no_time() -> None:
 )
 def test_units_of_time_in_other_words(text: str, unit: str) -> None:
     assert check_unit(text, "here") == unit
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"), [("epoch", None), ("[Unix time]", None), (None, None), ("unix", "unix"), ("unix ms", "unix ms")]
+)
+def test_a_count_since_1970_may_leave_its_step_open(text: str | None, unit: str | None) -> None:
+    assert with_step(text) == unit
 
 
 def test_a_unit_that_is_none_of_time_is_refused() -> None:

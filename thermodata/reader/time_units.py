@@ -90,6 +90,7 @@ _ALSO = {
     "unix s": "unix",
     "unix ms": "unix_ms",
 }
+_WITHOUT_STEP = ("epoch", "unix time")
 _REACH_S = 9e9
 
 
@@ -98,6 +99,12 @@ def known_unit(text: str) -> str | None:
     low = text.strip().strip("[]()").strip().lower()
     low = _ALSO.get(low, low)
     return low if low in SECONDS or low in EPOCHS else None
+
+
+def with_step(text: str | None) -> str | None:
+    """A unit of time; None where it names a count since 1970 and leaves open in what, so that its size has to tell:
+    'epoch' is in seconds, ms or µs."""
+    return None if text is not None and text.strip().strip("[]()").strip().lower() in _WITHOUT_STEP else text
 
 
 def check_unit(text: str, where: str) -> str:

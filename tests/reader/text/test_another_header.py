@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pytest
 from thermodata_reader_table import Reader
 
 from thermodata.plugin import Source
+from thermodata.reader.text.lines import chunks
 from thermodata.testing.reader import Data, load
 
 
@@ -70,3 +72,39 @@ def test_a_row_of_words_without_a_time_is_lost_alone(tmp_path: Path) -> None:
     data = read(tmp_path, HEAD + ";°C;mm", ";pause;V")
     assert data.t_ns["table"].size == 60
     assert "expected a time" in data.losses[0].reason
+
+
+@pytest.mark.parametrize("row", [";21.5;0.1", ";;", ";pause;"])
+def test_a_row_without_a_time_is_no_header_where_the_time_has_no_name(tmp_path: Path, row: str) -> None:
+    data = read(tmp_path, ";T_vorn;dZ", row)
+    assert data.t_ns["table"].size == 60
+    assert not any("another header" in loss.reason for loss in data.losses)
+
+
+def test_names_are_compared_where_one_of_two_columns_of_the_time_has_none(tmp_path: Path) -> None:
+    row = "2026-03-02;{h:02d}:{m:02d}:00;2{m}.5;0.{m}"
+    data = read(tmp_path, "Datum;;T_vorn;dZ", "Datum;;dZ;T_vorn", row)
+    assert data.t_ns["table"].size == 30
+
+
+@pytest.mark.parametrize("row", [";;;A", ";;;%", "-;-;-;-", ";°F;mm;", ";;;S1"])
+def test_a_mark_in_the_shape_of_units_is_none_but_below_a_repeated_header(tmp_path: Path, row: str) -> None:
+    head = "Zeit;T_vorn;dZ;Marke\n"
+    lines = "2026-03-02 {h:02d}:{m:02d}:00;2{m}.5;0.{m};"
+    data = read(tmp_path, head + ";°C;mm;", row, lines)
+    assert data.t_ns["table"].size == 60
+    assert not any("other units" in loss.reason for loss in data.losses)
+    assert read(tmp_path, head + ";°C;mm;", head + ";°F;mm;", lines).t_ns["table"].size == 30
+
+
+def test_a_dash_is_no_unit_below_a_repeated_header(tmp_path: Path) -> None:
+    assert read(tmp_path, HEAD + ";°C;mm", HEAD + "-;°C;-").t_ns["table"].size == 60
+
+
+def test_units_below_a_header_at_the_end_of_the_piece_before_are_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    head, row = "Zeit;T_vorn;dZ\n;°C;mm", "2026-03-02 {h:02d}:{m:02d}:00;2{m}.5;0.{m}"
+    size = len("\n".join([head, *[row.format(h=8, m=m) for m in range(10, 40)], HEAD]).encode()) + 2
+    monkeypatch.setattr("thermodata.reader.text.delimited.chunks", partial(chunks, size=size))
+    assert read(tmp_path, head, HEAD + ";°F;µm").t_ns["table"].size == 30

@@ -54,3 +54,24 @@ def test_a_date_and_a_time_of_day_in_one_number_each_are_offered(tmp_path: Path,
     assert read(tmp_path, rows, Source(table=asked.value.declare))[1] == [SEVEN + i * 60 * 10**9 for i in range(60)]
     with pytest.raises(QuestionError, match="no unit"):
         read(tmp_path, [r.replace(",07", ",77") for r in rows], Source())
+
+
+@pytest.mark.parametrize("word", ["epoch", "unix time"])
+@pytest.mark.parametrize("each_ns", [10**9, 10**6, 10**3])
+@pytest.mark.parametrize("declared", [False, True])
+def test_an_epoch_is_in_what_its_size_says(tmp_path: Path, word: str, each_ns: int, declared: bool) -> None:
+    head = "Time" if declared else f"Time [{word}]"
+    rows = [f"{head};T1 [degC]", *(f"{(SEVEN + i * 10**9) // each_ns};2{i % 9}.5" for i in range(60))]
+    source = Source(table={"time": {"column": 1, "unit": word}} if declared else None)
+    said, times, losses = read(tmp_path, rows, source)
+    assert (said.clock, losses) == ("absolute", [])
+    assert times == [SEVEN + i * 10**9 for i in range(60)]
+    assert any("by its size it is unix" in note for note in said.notes)
+
+
+def test_an_epoch_of_no_size_is_asked(tmp_path: Path) -> None:
+    rows = ["Time [epoch];T1 [degC]", *(f"{i * 10};2{i % 9}.5" for i in range(60))]
+    with pytest.raises(QuestionError) as asked:
+        read(tmp_path, rows, Source())
+    assert asked.value.declare == {"time": {"unit": "unknown"}}
+    assert read(tmp_path, rows, Source(table={"time": {"column": 1, "unit": "s"}}))[0].clock == "relative"

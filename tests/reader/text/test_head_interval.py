@@ -6,7 +6,6 @@ import pytest
 
 from thermodata.errors import QuestionError
 from thermodata.reader.text.layout import find
-from thermodata.reader.text.time_columns import find_time
 
 ROWS = [[str(k), f"{21 + k / 10:.1f}", "0.5"] for k in range(1, 40)]
 HEAD = [["Scan", "T front", "dZ"]]
@@ -35,24 +34,3 @@ def test_what_says_no_interval_leaves_the_question_open(line: list[str]) -> None
     with pytest.raises(QuestionError) as asked:
         find([["Logger XY"], line, *HEAD, *ROWS], None, "here")
     assert asked.value.declare == {"time": {"period": "unknown"}}
-
-
-LOCAL = [f"2026-03-02 08:{m:02d}:00" for m in range(40)]
-UTC = [f"2026-03-02 07:{m:02d}:00" for m in range(40)]
-
-
-@pytest.mark.parametrize(
-    ("names", "stamps", "column"),
-    [
-        (["Local time", "UTC time"], (LOCAL, UTC), 1),
-        (["UTC time", "Local time"], (UTC, LOCAL), 0),
-        (["Time", "Server time"], (LOCAL, [f"{c}Z" for c in UTC]), 1),
-        (["Time", "Server time"], (LOCAL, UTC), 0),
-        (["Time", "Saved UTC"], (LOCAL, UTC[:1] * 20 + UTC[20:21] * 20), 0),  # not of each row
-    ],
-)
-def test_a_time_in_utc_beside_a_local_one_is_the_time(
-    names: list[str], stamps: tuple[list[str], ...], column: int
-) -> None:
-    data = [[*pair, "21.5"] for pair in zip(*stamps, strict=True)]
-    assert find_time([*names, "T"], [None] * 3, data, "here") == (column,)

@@ -82,9 +82,11 @@ def test_names_stand_over_their_columns_where_the_cells_of_the_time_tell(head: s
         ("Time [s] T front [degC] Z [um]", "{s} {T} 0.0"),
         ("time T_front", "{s} {T} 0.0"),
         ("time dZ", "{n} {T} {s}"),  # what rises from 21 is no time behind numbers of rows
-        ("time,T_front,T_hall,dZ", "{s},{T},20.0"),
-        ("time;T_front;T_hall;dZ", "{day} {at};{T};20.0"),
-        ("Zeit;T_vorn;T_Halle;dZ\ns;°C;°C;µm", "{s};{T};20.0"),
+        ("time T_front T_hall dZ", "{s} {T} 20.0"),
+        ("No;T_front;time;dZ", "{s};{T};20.0"),
+        ("No;time;T_front;dZ", "{day} {at};{T};20.0"),
+        ("T_front;T_hall;T_motor;dZ", "{T};{T};20.0"),
+        ("time;T_front;T_hall;dX;dZ", "{s};{T};20.0"),
     ],
 )
 def test_names_that_nothing_puts_over_columns_are_refused(head: str, row: str) -> None:
@@ -93,6 +95,22 @@ def test_names_that_nothing_puts_over_columns_are_refused(head: str, row: str) -
     assert "cells than the rows below it" in refused.value.what
     assert refused.value.where.startswith("a.txt line 1, rows from line")
     assert "names: [...]" in str(refused.value.hint)
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("time,T_front,T_hall,Comment", "{s},{T},20.0"),
+        ("time;T_front;T_hall;Comment", "{day} {at};{T};20.0"),
+        ("time\tT_front\tT_hall\tComment", "{s}\t{T}\t20.0"),
+        ("Zeit;T_front;T_hall;Comment\ns;°C;°C;", "{s};{T};20.0"),
+        ("Date;Time;T_front;T_hall;Comment", "{day};{at};{T};20.0"),
+    ],
+)
+def test_a_last_name_without_a_column_is_told(head: str, row: str) -> None:
+    found = table(head, row)
+    assert [name for name, _ in columns(found)] == ["T_front", "T_hall"]
+    assert any("the last name of the header has no column" in n and "'Comment'" in n for n in found.notes)
 
 
 def test_the_way_out_of_the_refusal_names_the_columns() -> None:

@@ -100,7 +100,42 @@ def test_a_zone_in_a_cell_of_its_own_is_part_of_the_time(tmp_path: Path, zone: s
     data = load(Reader(), tmp_path / "a.csv", Source())
     assert data.t_ns["table"][0] == np.datetime64("2026-07-14T06:00:00", "ns").astype(np.int64)
     assert [name for _, name in data.values] == ["T"]
-    assert not any("UTC" in note for note in data.recording.notes)
+    assert not any("taken as UTC" in note for note in data.recording.notes)
+    (noted,) = [note for note in data.recording.notes if "the zone in" in note]
+    assert noted.endswith("is used, not the declared one")
+
+
+@pytest.mark.parametrize(("name", "cells"), [("", ("CET",)), ("Zone", ("CET",)), ("UTC", ("Z",)), ("Zeitzone", ("Z",))])
+def test_a_zone_is_taken_under_its_name_or_under_none(tmp_path: Path, name: str, cells: tuple[str, ...]) -> None:
+    found, notes = beside(tmp_path, name, cells)
+    assert found == ["T"]
+    assert f"the zone in '{name or 'column 3'}' is used, not the declared one" in notes
+
+
+@pytest.mark.parametrize(
+    ("name", "cells"),
+    [
+        ("Axis", ("Z",)),
+        ("", ("Z",)),
+        ("Tool", ("EST",)),
+        ("dX", ("+01:30",)),
+        ("Offset", ("+0100",)),
+        ("", ("+01:30", "-00:45")),
+        ("TZ", ("+01:00", "+02:00", "+03:00")),
+    ],
+)
+def test_a_channel_in_the_shape_of_a_zone_is_kept(tmp_path: Path, name: str, cells: tuple[str, ...]) -> None:
+    found, notes = beside(tmp_path, name, cells)
+    assert found == [name or "column 3", "T"]
+    assert not any("the zone in" in note for note in notes)
+
+
+def beside(tmp_path: Path, name: str, cells: tuple[str, ...]) -> tuple[list[str], tuple[str, ...]]:
+    """The channels beside a time, and the notes."""
+    rows = [f"2026-03-02;08:{m:02d}:00;{cells[m % len(cells)]};{m}.5" for m in range(30)]
+    (tmp_path / "a.csv").write_text("\n".join([f"Date;Time;{name};T", *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="Europe/Prague"))
+    return [channel for _, channel in data.values], data.recording.notes
 
 
 def test_a_zone_that_changes_within_the_file_is_followed(tmp_path: Path) -> None:

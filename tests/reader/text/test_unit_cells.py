@@ -22,16 +22,30 @@ def read(tmp_path: Path, row: str, **options: object) -> Data:
     ("row", "column"),
     [("2026-03-02 08:{m:02d}:00,21.{m} °C,6000", "T front"), ("2026-03-02 08:{m:02d}:00,21.{m},{m}00 rpm", "Speed")],
 )
-def test_a_column_of_such_cells_is_refused_beside_plain_ones(tmp_path: Path, row: str, column: str) -> None:
-    with pytest.raises(FormatError) as refused:
-        read(tmp_path, row)
-    assert refused.value.what == "cells that hold their units beside their numbers"
-    assert refused.value.where == f"a.csv column '{column}'"
-    data = read(tmp_path, row, text=[column])  # the way out that is named
+def test_a_column_of_such_cells_is_told_beside_plain_ones(tmp_path: Path, row: str, column: str) -> None:
+    data = read(tmp_path, row)
     assert data.values["table", column].dtype == object
+    (told,) = [note for note in data.recording.notes if "hold their unit beside their numbers" in note]
+    assert told.startswith(f"column '{column}' is read as words")
+    quiet = read(tmp_path, row, text=[column])  # the way out that is named
+    assert not any("hold their unit" in note for note in quiet.recording.notes)
 
 
 @pytest.mark.parametrize("word", ["spindle on", "S1 6000 rpm", "12 pieces left", "10 sec"])
 def test_words_are_read(tmp_path: Path, word: str) -> None:
     data = read(tmp_path, "2026-03-02 08:{m:02d}:00,21.{m}," + word)
     assert data.values["table", "Speed"].tolist() == [word] * 30
+
+
+@pytest.mark.parametrize("words", [["100%", "80%"], ["1F", "0C"], ["12V"], ["10 mm"], ["0T", "1T"], ["8 bar", "G1"]])
+def test_a_few_words_in_the_shape_of_units_are_no_values(tmp_path: Path, words: list[str]) -> None:
+    rows = [f"2026-03-02 08:{m:02d}:00,21.{m},{words[m % len(words)]}" for m in range(30)]
+    (tmp_path / "a.csv").write_text("\n".join(["Time,T front,State", *rows, ""]), encoding="utf-8")
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert data.values["table", "State"].tolist() == [words[m % len(words)] for m in range(30)]
+    assert not any("hold their unit" in note for note in data.recording.notes)
+
+
+def test_a_table_of_such_cells_only_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="cells that hold their units beside their numbers"):
+        read(tmp_path, "2026-03-02 08:{m:02d}:00,21.{m} °C,{m}00 rpm")

@@ -17,44 +17,58 @@ from thermodata.schema.unit_spelling import spelled
 _SHOWN = 120  # letters of a line
 
 
-def another_header(table: Table, lines: Iterable[tuple[int, str]]) -> tuple[int, str] | None:
-    """(number, what to tell) of the first line that begins another table. lines: those that are no rows of it."""
+def another_header(table: Table, lines: Iterable[tuple[int, str]], repeated: int = -1) -> tuple[int, str] | None:
+    """(number, what to tell) of the first line that begins another table. lines: those that are no rows of it;
+    repeated: the number of the last line before them that repeats the header."""
     for number, text in lines:
         if table.repeats_header(text):
+            repeated = number
             continue
         cells = [clean(c) for c in fields(text, table.delimiter, table.quoted)]
-        if reason := begins_another(table.layout, cells, text):
+        if reason := begins_another(table.layout, cells, text, number == repeated + 1):
             return number, reason
     return None
+
+
+def last_repeated(table: Table, lines: Sequence[tuple[int, str]]) -> int:
+    """The number of the last line that repeats the header, -1 where none does."""
+    return next((number for number, text in reversed(lines) if table.repeats_header(text)), -1)
 
 
 def another_in_sheet(
     layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]
 ) -> tuple[int, str] | None:
     """The same of the rows of a sheet, counted from 0. head: the rows above them."""
-    above = [texts_of(row) for row in head]
+    above = [cells for row in head if any(cells := texts_of(row))]
+    repeated = -1
     for number, row in enumerate(rows):
         if all(isinstance(c, str) or c is None for c in row):
             cells = texts_of(row)
-            if cells not in above and (reason := begins_another(layout, cells, "; ".join(filter(None, cells)))):
+            if cells in above:
+                repeated = number
+                continue
+            shown = "; ".join(filter(None, cells))
+            if reason := begins_another(layout, cells, shown, 0 < number == repeated + 1):
                 return number, reason
     return None
 
 
-def begins_another(layout: Layout, cells: Sequence[str], shown: str) -> str:
-    """Why a row begins another table; '' where it does not."""
+def begins_another(layout: Layout, cells: Sequence[str], shown: str, below: bool) -> str:
+    """Why a row begins another table; '' where it does not. below: it stands directly below a row that repeats the
+    header, else what looks like units is a mark, or a channel's word."""
     if layout.fit is not None:
         cells = [str(c) for c in layout.fit.over(cells)]
     if names_again(layout, cells):
         return f"another header begins here, nothing after it is read: '{shown[:_SHOWN]}'; split the file there"
-    other = other_units(layout, cells)
+    other = other_units(layout, cells) if below else ""
     return f"other units begin here, nothing after it is read: {other}; split the file there" if other else ""
 
 
 def names_again(layout: Layout, cells: Sequence[str]) -> bool:
     """Whether a line names the time as the header does."""
-    time = layout.groups[0].time
-    return bool(time) and all(i < len(cells) and (cells[i] or f"column {i + 1}") == layout.names[i] for i in time)
+    said = [(cells[i], layout.names[i], i) for i in layout.groups[0].time if i < len(cells)]
+    named = len(said) == len(layout.groups[0].time) and any(cell for cell, _, _ in said)  # an empty cell names nothing
+    return named and all((cell or f"column {i + 1}") == name for cell, name, i in said)
 
 
 def other_units(layout: Layout, cells: Sequence[str]) -> str:
@@ -69,7 +83,7 @@ def other_units(layout: Layout, cells: Sequence[str]) -> str:
     changed = [
         (i, unit, was)
         for i, (unit, was) in said
-        if unit and i not in layout.dated and _plain(unit) != _plain(was or "")
+        if unit and unit.strip("-–") and i not in layout.dated and _plain(unit) != _plain(was or "")
     ]
     return ", ".join(f"'{layout.names[i]}' in {unit}, in {was or 'no unit'} before" for i, unit, was in changed)
 

@@ -26,7 +26,7 @@ from thermodata.reader.text.quality_columns import quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
-from thermodata.reader.text.unit_cells import refuse_units_in_cells
+from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.zone_named import zones_said
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.zone import NAT
@@ -151,10 +151,10 @@ def find_table(
             kinds.append(dtype_of(column, name, unit))
     if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
-    words = [i for i, kind in enumerate(kinds) if kind == "str" and i not in times]
-    if strict or not any(kind and i not in times and i not in words for i, kind in enumerate(kinds)):
-        for name in (layout.names[i] for i in words if layout.names[i] not in forced):
-            refuse_units_in_cells(cells_of[name], where, name)
+    words = [n for i, n in enumerate(layout.names) if kinds[i] == "str" and i not in times and n not in forced]
+    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
+        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
+    units_noted = [unit_note(cells_of[name], name) for name in words]
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
     declared = said.get("decimal")
     if declared == UNKNOWN:
@@ -177,7 +177,7 @@ def find_table(
     else:
         doubt = unused_start(declared_start(said))
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
-    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, doubt, open_zone]
+    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, *units_noted, doubt, open_zone]
     return Table(
         name=where,
         sample=first,

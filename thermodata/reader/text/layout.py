@@ -10,6 +10,7 @@ from typing import Any, Literal
 from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cell import Cell, is_dated, is_empty
+from thermodata.reader.text.declared_names import declared_names, unused_note
 from thermodata.reader.text.described import descriptions
 from thermodata.reader.text.first_data import first_data, width_of
 from thermodata.reader.text.head_interval import with_interval
@@ -111,12 +112,16 @@ def find(
     row_of_units = None if units_row is None else int(units_row) - 1 - skip
     below = rows[first : first + 200]
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
+    lacking = None
     if between is not None and header is None:
-        refuse_misfit(above, below, width, row_of_units, skip, between, where)
+        lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
-    if said.get("names") is not None and not any(heads):
-        heads = _declared_names(said["names"], width, where)
-        units = [split_unit(name)[1] for name in heads]
+    unused = None
+    if said.get("names") is not None and list(said["names"]) != heads:
+        unused = unused_note(heads, below)
+        if unused is None:
+            heads = declared_names(said["names"], width, where)
+            units = [split_unit(name)[1] for name in heads]
     names = unique(heads)
     described, listed = descriptions([texts_of(r) for r in above], heads)
     units = [u or v for u, v in zip(units, listed, strict=True)]
@@ -128,21 +133,8 @@ def find(
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     except QuestionError as question:
         raise with_interval(question, map(texts_of, above)) from None
-    noted = (*notes, *lost, *([fit.note] if fit and fit.note else []))
+    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused) if note))
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
-
-
-def _declared_names(names: Sequence[str], width: int, where: str) -> list[str]:
-    """What the columns of a file without a header are called."""
-    if len(names) != width:
-        raise FormatError(
-            "a file without a header has other columns than are declared",
-            where=where,
-            expected=f"{len(names)} columns: {', '.join(names)}",
-            got=f"{width} columns",
-            hint="a source of its own for it, with table: {names: [...]} that names each of its columns",
-        )
-    return list(names)
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_empty, is_number, mostly, number_of
+from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_empty, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.clock_pattern import says_the_hour
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.header_rows import place_of_names, says_time, texts_of
@@ -77,18 +77,24 @@ def refuse_misfit(
     skip: int,
     delimiter: str,
     where: str,
-) -> None:
-    """FormatError where the names are fewer or more than the columns. above, rows: as `line_up` left them; skip: lines
+) -> str | None:
+    """FormatError where the names are fewer or more than the columns; but a note where the last name alone is too many
+    and the others stand over their columns by the cells of the time. above, rows: as `line_up` left them; skip: lines
     before them; delimiter: as messages show it."""
     place = place_of_names(above, width, units_row)
     if place is None or not rows:
-        return
+        return None
     names = texts_of(above[place])
     said, columns = _filled(names), width - _empty_at_the_end(rows, width)
     if len(names) == width or said in (width, columns) or 2 * said <= width:
-        return
+        return None
     if said > width and any(len(r) >= said for r in rows[:1]):
-        return  # groups of columns that ended
+        return None  # groups of columns that ended
+    if delimiter != "blanks" and said - 1 == width == columns and _stand_over_the_time(names, rows, columns):
+        return (
+            f"the last name of the header has no column, for rows have {columns} cells: '{names[said - 1]}'; "
+            "the others are taken to stand over theirs"
+        )
     few = said < width
     first = skip + len(above) + 1
     at = skip + place + 1
@@ -127,6 +133,19 @@ def _fit(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int, wid
         of = [*[()] * before, *((i,) for i in range(run[0])), *padded, *behind, *[()] * (width - columns)]
         return Fit(len(names), tuple(of), NUMBERED if before else None)
     return None
+
+
+def _stand_over_the_time(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int) -> bool:
+    """Whether the names for the time stand over its cells: dates and times of day, or numbers that rise."""
+    run = _names_of_time(names)
+    if run is None or run[-1] >= columns:
+        return False
+    cells = [[r[i] for r in rows if i < len(r) and not is_empty(r[i])] for i in range(columns)]
+    stamped = [i for i, c in enumerate(cells) if c and mostly(c, is_stamp, _ENOUGH, len(c))]
+    if stamped:
+        return run[0] == stamped[0] and all(i in stamped or belongs_to_time(cells[i]) for i in run)
+    values = [v for c in cells[run[0]] if is_number(c) and (v := number_of(c)) is not None]
+    return len(values) == len(cells[run[0]]) > 1 and all(a < b for a, b in pairwise(values))
 
 
 def _names_of_time(names: Sequence[str]) -> list[int] | None:

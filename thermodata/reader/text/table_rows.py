@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
-from thermodata.reader.text.another_header import another_header
+from thermodata.reader.text.another_header import another_header, last_repeated
 from thermodata.reader.text.arrow import values
 from thermodata.reader.text.begin import Begin
 from thermodata.reader.text.date_parts import column_times
@@ -57,6 +57,7 @@ class RowReader:
         self.stopped = False
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
+        self._repeated = -1  # the last line that repeats the header
 
     def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
         """The blocks and losses of one chunk."""
@@ -120,8 +121,9 @@ class RowReader:
         if not suspects:
             return rows, told
         lines = data.split(b"\n")
-        texts = ((n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects))
-        found = another_header(self.table, texts)
+        texts = [(n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects)]
+        found = another_header(self.table, texts, self._repeated)
+        self._repeated = last_repeated(self.table, texts)
         if found is None:
             return rows, told
         self.stopped = True

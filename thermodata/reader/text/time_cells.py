@@ -8,13 +8,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.cell import Cell, is_empty, is_number, is_stamp, mostly
+from thermodata.reader.text.cell import Cell, is_empty, is_number, is_stamp
 from thermodata.reader.text.clock_pattern import is_half, needs_half
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.time_pattern import TimeFormat
-from thermodata.reader.text.zone_words import SEVERAL, is_offset, is_zone, stated_zone
+from thermodata.reader.text.zone_words import SEVERAL, is_zone, offset_ns
 
-_ZONED = re.compile(r":\d\d(?:[.,]\d+)?\s*(?:Z|UTC|[+-]\d\d:?\d\d)$")
+_HOUR_NS = 3600 * 1_000_000_000
+_NAMELESS = re.compile(r"column \d+|Unnamed: \d+")
 _HALF_NAME = re.compile(
     r"(?i)a\.?m\.?\s*[/|_]?\s*p\.?m\.?|am_or_pm|tageszeit|meridi[ae]m|half ?day|上午/下午|午前/午後"
 )
@@ -44,19 +45,29 @@ def are_halves(cells: Sequence[Cell]) -> bool:
     return bool(full) and all(isinstance(c, str) and is_half(c) for c in full)
 
 
-def are_zones(cells: Sequence[Cell], header: str = "") -> bool:
-    """Whether all cells that hold anything say a zone; '+0100' without a colon is a number too, but for its header, or
-    where all of them are one."""
+def are_zones(cells: Sequence[Cell]) -> bool:
+    """Whether all cells that hold anything say a zone."""
     full = {str(c).strip() for c in cells if not is_empty(c)}
-    if not full or not all(map(is_zone, full)):
+    return bool(full) and all(map(is_zone, full))
+
+
+def is_zone_column(cells: Sequence[Cell], header: str) -> bool:
+    """Whether zones are those of the time beside them, not an axis 'Z', a tool 'EST' or a direction '+01:30': their
+    header names them, or there is none; and they are one, or two an hour apart."""
+    if not are_zones(cells):
         return False
-    unnamed = re.fullmatch(r"column \d+", header) is not None
-    return unnamed or names_zone(header) or not all(map(is_offset, full)) or all(":" in c for c in full)
+    full = {str(c).strip() for c in cells if not is_empty(c)}
+    offsets = {offset_ns(c) for c in full}
+    if len(offsets) > 2 or max(offsets) - min(offsets) not in (0, _HOUR_NS):
+        return False
+    name = split_unit(header)[0].strip(" .:").casefold()
+    named = names_zone(header) or name == "zone" or (name == "offset" and all(":" in c for c in full))
+    return named or (_NAMELESS.fullmatch(header) is not None and "Z" not in full)
 
 
-def belongs_to_time(cells: Sequence[Cell], header: str = "") -> bool:
-    """Whether a column beside a time of day is part of it."""
-    return are_halves(cells) or are_zones(cells, header)
+def belongs_to_time(cells: Sequence[Cell], header: str | None = None) -> bool:
+    """Whether a column beside a time of day is part of it. header: None where it is known to be one of the time."""
+    return are_halves(cells) or (are_zones(cells) if header is None else is_zone_column(cells, header))
 
 
 def with_parts(columns: tuple[int, ...], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
@@ -79,12 +90,19 @@ def with_parts(columns: tuple[int, ...], names: Sequence[str], data: Sequence[Se
     return out
 
 
+def zone_notes(columns: Sequence[int], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> list[str]:
+    """What is told of the columns of a time that hold its zone."""
+    rows = [r for r in data if any(is_stamp(r[i]) for i in columns)]
+    zones = [names[i] for i in columns[1:] if are_zones([r[i] for r in rows])]
+    return [f"the zone in '{name}' is used, not the declared one" for name in zones]
+
+
 def runs(columns: Sequence[Sequence[Cell]]) -> list[list[int]]:
     """Which columns of a time are read together: each alone, but those that belong to a time of day with it."""
     found: list[list[int]] = []
     for k, cells in enumerate(columns):
         leads = bool(found) and found[-1] == [k - 1] and k > 1 and are_halves(columns[k - 1])
-        if found and (leads or (k and belongs_to_time(cells, "column 1") and not _leads(columns, k))):
+        if found and (leads or (k and belongs_to_time(cells) and not _leads(columns, k))):
             found[-1].append(k)
         else:
             found.append([k])
@@ -147,21 +165,3 @@ def part_question(
         declare=said,
         meanwhile=said,
     )
-
-
-def zoned_beside(first: int, dates: Sequence[int], names: Sequence[str], filled: Sequence[Sequence[Cell]]) -> int:
-    """The column of the time: another one that says where it stands from UTC, where that of the local time beside it
-    does not. dates: columns that tell the hour too."""
-
-    def says_zone(i: int) -> bool:
-        return stated_zone([names[i]]) is not None or mostly(filled[i], _ends_in_zone, 0.9, len(filled[i]))
-
-    if says_zone(first):
-        return first
-    many = len(set(filled[first]))
-    others = (i for i in dates if i != first and len(set(filled[i])) >= many)
-    return next((i for i in others if says_zone(i)), first)
-
-
-def _ends_in_zone(cell: Cell) -> bool:
-    return isinstance(cell, str) and _ZONED.search(cell.strip()) is not None

@@ -17,7 +17,7 @@ from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.odd_clocks import clock_question
 from thermodata.reader.text.spans import are_spans
-from thermodata.reader.text.time_cells import part_question, with_parts, zoned_beside
+from thermodata.reader.text.time_cells import part_question, with_parts, zone_notes
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_pattern import part_of_a_second
 from thermodata.reader.text.time_questions import (
@@ -31,7 +31,8 @@ from thermodata.reader.text.time_questions import (
     worded_time,
     zone_question,
 )
-from thermodata.reader.time_units import SECONDS, check_unit
+from thermodata.reader.text.zoned_beside import beside_note, zoned_beside
+from thermodata.reader.time_units import SECONDS, check_unit, with_step
 
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 
@@ -82,7 +83,8 @@ def time_of(
             if parts is not None:
                 every = with_parts(parts[0], names, data)
                 shown = ", ".join(f"'{names[i]}'" for i in every)
-                return every, None, parts[1], [f"the time stands in {len(every)} columns: {shown}"]
+                noted = [f"the time stands in {len(every)} columns: {shown}", *zone_notes(every, names, data)]
+                return every, None, parts[1], noted
         try:
             columns = find_time(names, units, data, where, likely)
         except FormatError:
@@ -106,13 +108,15 @@ def time_of(
             raise open_part
     cells = [row[columns[0]] for row in data]
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
-    notes: list[str] = []
+    notes = zone_notes(columns, names, data)
+    if wanted is None:
+        notes += beside_note(columns[0], names, data)
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
         form = said_clock(name, units[columns[0]], cells)
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = unit or units[columns[0]] or unit_of_time(name)
+    text = with_step(unit or units[columns[0]] or unit_of_time(name))
     if text is None:
         if (fraction := fraction_question(columns[0], names, data, where)) is not None:
             raise fraction
@@ -158,7 +162,7 @@ def find_time(
     dates = [i for i in dates if i not in standing]
     if dates:
         of_hours = [i for i in dates if _tell_the_hour(filled[i])]
-        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, filled)
+        first = zoned_beside(next((i for i in dates if i in words), dates[0]), of_hours, names, data)
         sample = filled[first][0]
         has_clock = says_the_hour(sample) if isinstance(sample, str) else not clocks or _tell_the_hour(filled[first])
         found: tuple[int, ...] = (first,) if has_clock or not clocks else (first, clocks[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 
 from thermodata.errors import FormatError
@@ -10,22 +11,38 @@ from thermodata.reader.text.cell import Cell
 from thermodata.reader.text.header import looks_like_unit
 from thermodata.reader.time_units import known_unit
 
-_WITH_UNIT = re.compile(r"^[+-]?\d[\d.,]*\s?(?P<unit>[^\d\s].{0,7})$")
+_WITH_UNIT = re.compile(r"^(?P<number>[+-]?\d[\d.,]*)\s?(?P<unit>[^\d\s].{0,7})$")
+_NEARLY_ALL = 0.9  # of a column's cells
+_MANY = 8  # numbers that differ: words such as '0T', '1T', '100%', 'T 10 mm' are fewer
 
 
-def refuse_units_in_cells(cells: Sequence[Cell], where: str, name: str = "") -> None:
-    """FormatError where most cells of a table's values, its times left out, are such ones. name: the column that they
-    are of, '' for all."""
+def refuse_units_in_cells(cells: Sequence[Cell], where: str) -> None:
+    """FormatError where most cells of a table's values, its times left out, are such ones."""
     full = [str(c).strip() for c in cells if c not in ("", None)]
     shown = [c for c in full if (m := _WITH_UNIT.match(c)) and looks_like_unit(m["unit"])]
-    if name:  # '10 sec' among others is a length of time
-        shown = [c for c in shown if known_unit(c.lstrip("+-0123456789., ")) is None]
     if 2 * len(shown) > len(full):
-        as_text = f"; or options: {{text: ['{name}']}} in the source, where they are words" if name else ""
         raise FormatError(
             "cells that hold their units beside their numbers",
-            where=f"{where} column '{name}'" if name else where,
+            where=where,
             expected="numbers, with their unit in the header",
             got=shown[0],
-            hint=f"export the values without their units (raw values), or take these out of the cells{as_text}",
+            hint="export the values without their units (raw values), or take these out of the cells",
         )
+
+
+def unit_note(cells: Sequence[Cell], name: str) -> str | None:
+    """What is told of a column of words, nearly all of which are numbers with one unit; None of others."""
+    full = [str(c).strip() for c in cells if c not in ("", None)]
+    found = [m for c in full if (m := _WITH_UNIT.match(c))]
+    if not full or len(found) < _NEARLY_ALL * len(full):
+        return None
+    ((unit, many),) = Counter(m["unit"].strip() for m in found).most_common(1)
+    numbers = {m["number"] for m in found if m["unit"].strip() == unit}
+    if many < _NEARLY_ALL * len(full) or len(numbers) <= _MANY or not looks_like_unit(unit):
+        return None
+    if known_unit(unit) is not None:  # '10 sec' is a length of time
+        return None
+    return (
+        f"column '{name}' is read as words, for its cells hold their unit beside their numbers ('{full[0]}'): "
+        f"export the values without '{unit}', or options: {{text: ['{name}']}} in the source where they are words"
+    )

@@ -180,7 +180,7 @@ class Table:
             self.notes.append(NOTE)
             order = group.form if group.form in ORDERS else None
             return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
-        worded = any(belongs_to_time(cells, "column 1") for cells in columns[1:])
+        worded = any(belongs_to_time(cells) for cells in columns[1:])
         joined = [_of_words(cells) if worded else _joined(cells) for cells in zip(*columns, strict=True)]
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]

@@ -102,7 +102,7 @@ class Clocked:
     def _unit(self, time: TimeVector) -> str:
         assert time.load is not None
         declared = one_time(self.source.table, self.where).get("unit")
-        text = declared or time.unit
+        text = time_units.with_step(declared or time.unit)
         if text is not None:
             try:
                 return time_units.check_unit(str(text), f"{self.where} {time.path}")

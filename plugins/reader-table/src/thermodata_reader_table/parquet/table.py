@@ -23,7 +23,7 @@ from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.time_questions import no_time
-from thermodata.reader.time_units import check_unit, found_epoch, to_ns
+from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
 from thermodata_reader_table.parquet.footer_check import check_footer
@@ -145,7 +145,7 @@ class Table:
             )
         if pt.is_duration(kind):
             return column, "duration"
-        text = unit or units[column] or unit_of_time(self.names[column])
+        text = with_step(unit or units[column] or unit_of_time(self.names[column]))
         if text is None:
             found = next(self.batches(1000), None)
             values = np.zeros(0) if found is None else numbers(found.column(column))
