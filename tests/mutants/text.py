@@ -211,8 +211,8 @@ MUTANTS = [
         "self._is_footer(text)",
         "repeated headers are losses",
     ),
-    text("table_rows.py", "            self.stopped = True\n", "", "two tables are one"),
-    text("table_rows.py", "            rows = rows.before(number)\n", "", "rows of another table are read"),
+    text("table_rows.py", "        self.stopped = True\n", "", "two tables are one"),
+    text("table_rows.py", "return rows.before(number), [", "return rows, [", "rows of another table are read"),
     text("table_rows.py", "waiting[waiting < last_whole]", "waiting[:0]", "torn rows of groups are no loss"),
     text(
         "table_rows.py",

@@ -30,15 +30,20 @@ def located(error: ThermodataError, path: Path) -> ThermodataError:
 
 
 def placed(error: ThermodataError, path: Path) -> ThermodataError:
-    """The same error with file and line, if its `where` begins with a place of the file, such as `calibrations.jump_z`;
-    the error as it is where it doesn't."""
+    """The same error with file and line, if its `where` begins with a place of the file, such as `calibrations.jump_z`:
+    of the refused word (`got`) where that stands below it; the error as it is where it doesn't."""
     dotted, comma, rest = (error.where or "").partition(", ")
     try:
         document = read_document(path)
     except (ThermodataError, OSError):
         return error
     place = next((p for p in document.line if p and dotted_place(p) == dotted), None)
-    return error if place is None else error.at(document.where(place) + comma + rest)
+    if place is None:
+        return error
+    word = (error.got or "").strip("'")
+    below = [p for p in document.line if p[: len(place)] == place and p != place]
+    refused = [p for p in below if _plain(at_place(document.data, p)) and str(at_place(document.data, p)) == word]
+    return error.at(document.where(next(iter(refused), place)) + comma + rest)
 
 
 def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place | None:
