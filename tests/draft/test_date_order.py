@@ -67,3 +67,26 @@ def test_a_source_with_other_dates_tells_it_where_one_order_fits(tmp_path: Path,
     assert source.table == {"time": {"format": order if agrees else "unknown"}}
     (beside,) = [s.name for s in found.values() if not s.table]
     assert source.told == ((f"dates {order}: it fits the dates of '{beside}'",) if agrees else ())
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
+@pytest.mark.parametrize(
+    ("days", "asked"),
+    [
+        (((4, 3), (4, 5), (5, 4), (6, 8), (7, 18)), False),
+        (((4, 3), (4, 5), (8, 5), (6, 8), (7, 18)), True),  # 5 August in the row of its names is 8 May
+        (((4, 3), (4, 5), (11, 5), (6, 8), (7, 18)), True),
+        (((4, 3), (8, 5), (4, 5), (3, 8), (7, 18)), False),  # they do not ascend anyway
+        (((4, 5), (4, 5), (7, 18)), True),  # two at once: one may be of 4 May
+        (((4, 4), (4, 4), (7, 18)), False),  # at once either way
+        (((4, 5), (4, 5), (7, 18), (7, 18)), False),  # two loggers, in each test
+    ],
+)
+def test_a_file_that_leaves_the_row_of_the_others_is_asked(
+    tmp_path: Path, order: str, days: tuple[tuple[int, int], ...], asked: bool
+) -> None:
+    for name, (month, day) in zip("abcde", days, strict=False):
+        log(tmp_path / f"{name}.csv", datetime(2025, month, day, 8, ord(name) % 7), ORDERS[order])
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown" if asked else order}}
+    assert any("dmy or mdy" in q for q in source.questions) is asked

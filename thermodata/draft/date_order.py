@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from thermodata.draft.group import tests_of
-from thermodata.draft.hints import fitting_others
+from thermodata.draft.hints import fitting_others, swapped
 from thermodata.draft.raw_file import Asked, RawFile, merged, sample_of_file
 from thermodata.draft.sources import Group, sources_of
 from thermodata.errors import ThermodataError
@@ -18,6 +19,8 @@ from thermodata.reader.registry import reader
 
 _ORDERS = ("dmy", "mdy")
 _EITHER = "format of the dates: dmy or mdy?"
+_DAY_NS = 86_400_000_000_000
+_LEAST_IN_ROW = 3  # files by whose names one more stands out of place
 _LOOKED_AT = 40  # files of a source, each once for either order
 
 
@@ -30,6 +33,8 @@ def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ..
     for group in groups:
         files = [f for f in (*group.files, *group.calibrations) if _is_open(f)]
         told = _settled(folder, group, groups) if files else None
+        if told is not None and _out_of_place(group, told[0]):
+            told = None
         if told is not None:
             made |= {id(f): _told(folder, f, *told) for f in files}
     return tuple(made.get(id(f), f) for f in logs)
@@ -49,6 +54,48 @@ def _settled(folder: Path, group: Group, groups: Sequence[Group]) -> tuple[str, 
     order = next(iter(only or near))
     why = f"{only[order].path.name} can only be" if only else f"it fits the dates of '{near[order]}'"
     return order, f"dates {order}: {why}"
+
+
+def _out_of_place(group: Group, order: str) -> bool:
+    """Whether a file that leaves the order open is of another computer: it ran while another did, as no others, or
+    stands out of the row of files that ascend else, and does not with day and month the other way round. Asked, for
+    one order is declared for all."""
+    files = [f for f in group.files if f.start_ns is not None]
+    spans = [_span(f, order) for f in files]
+    other = [_span(f, next(o for o in _ORDERS if o != order)) for f in files]
+
+    def other_way(n: int) -> list[tuple[int, int]]:
+        return [*spans[:n], other[n], *spans[n + 1 :]]
+
+    by_time = sorted(range(len(files)), key=spans.__getitem__)
+    at_once = [(a, b) for a, b in pairwise(by_time) if spans[b][0] < spans[a][1]]
+    if len(at_once) == 1 and any(_is_open(files[n]) and not _overlap(other_way(n)) for n in at_once[0]):
+        return True
+    back = _back(spans)
+    return (
+        len(files) > _LEAST_IN_ROW
+        and len(back) in (1, 2)
+        and any(
+            _is_open(files[n]) and not _back([*spans[:n], *spans[n + 1 :]]) and not _back(other_way(n))
+            for n in {n + beside for n in back for beside in (0, 1)}
+        )
+    )
+
+
+def _span(file: RawFile, order: str) -> tuple[int, int]:
+    """(first, last time) of a file [ns]; of one that leaves the order open, which is read as dmy meanwhile, by it."""
+    start = file.start_ns or 0
+    begin = swapped(start) if _is_open(file) and order == "mdy" else start
+    return begin, begin + max((file.sample.last_ns or 0) - (file.sample.first_ns or 0), 0)
+
+
+def _overlap(spans: Sequence[tuple[int, int]]) -> bool:
+    return any(b[0] < a[1] for a, b in pairwise(sorted(spans)))
+
+
+def _back(spans: Sequence[tuple[int, int]]) -> list[int]:
+    """The places after which one begins days before that."""
+    return [n for n, (a, b) in enumerate(pairwise(spans)) if b[0] < a[0] - _DAY_NS]
 
 
 def _order_of(folder: Path, file: RawFile) -> str | None:

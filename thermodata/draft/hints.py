@@ -60,7 +60,7 @@ def fitting_others(group: Group, groups: Sequence[Group], files: Sequence[RawFil
         for test, own in group.tests.items():
             there = [f.start_ns for f in other.tests.get(test, ()) if f.start_ns is not None and not f.asked]
             for start in (f.start_ns for f in own if id(f) in open_files and f.start_ns is not None):
-                for order, ns in (("dmy", start), ("mdy", _swapped(start))):
+                for order, ns in (("dmy", start), ("mdy", swapped(start))):
                     fits[order] += any(abs(ns - at) < _DAY_NS for at in there)
         best = [order for order, many in fits.items() if many]
         if len(best) == 1:
@@ -68,7 +68,7 @@ def fitting_others(group: Group, groups: Sequence[Group], files: Sequence[RawFil
     return found
 
 
-def _swapped(ns: int) -> int:
+def swapped(ns: int) -> int:
     """A time whose day and month are taken for each other; the same where they can't be."""
     moment = datetime.fromtimestamp(ns // 10**9, UTC)
     if moment.day > 12:
