@@ -20,6 +20,7 @@ BESIDE = {
     "sudden.py": ("steps", "decays"),
     "confirm.py": ("the_locked_tests",),
     "discrepancy.py": ("the_noise",),
+    "ends_of_logs.py": ("ends_of_logs",),
     "evidence.py": ("the_noise",),
     "foretold.py": ("the_locked_tests",),
     "heat_balance.py": ("clocks_by_heat",),
@@ -678,6 +679,14 @@ MUTANTS = [
     diagnosis("commanded.py", "hole & told", "hole", "a warm room excuses every slip that nobody saw"),
     diagnosis("heat_balance.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),
     diagnosis("heat_balance.py", "TWO_HOURS_S, ABOUT_S = 7200.0", "TWO_HOURS_S, ABOUT_S = 0.0", "two hours pass"),
+    diagnosis(
+        "heat_balance.py", "_mean_over(air[rows], over))", "np.zeros((len(both[0]), 0)))", "the air moves a clock"
+    ),
+    diagnosis("clocks_by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 1.1", "a log switched on late is moved"),
+    diagnosis("clocks_by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 0.6", "a wrong clock stays where it is"),
+    diagnosis("ends_of_logs.py", "self.late, -self.shift_s", "self.late, self.shift_s", "a late log is moved later"),
+    diagnosis("ends_of_logs.py", "tests[0] == tests[1] and", "", "logs of other tests are moved together"),
+    diagnosis("judge.py", "(*OUTWEIGHED, *few)", "OUTWEIGHED", "one of two tests shuts the lock"),
     diagnosis("clocks_by_heat.py", "if of.warmed == home:", "if False:", "the right log is moved"),
     diagnosis("clocks_by_heat.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
     diagnosis("clocks_by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
