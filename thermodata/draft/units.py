@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from thermodata.draft.values import Values
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
+from thermodata.schema.quantity import converts as converts_to
 from thermodata.schema.unit_scale import scaled_unit
 from thermodata.schema.unit_spelling import bare_unit
 
@@ -171,8 +172,4 @@ def is_inclination(unit: str) -> bool:
 
 def converts(unit: str, quantity: str) -> bool:
     """Whether values in this unit can be values of this quantity."""
-    try:
-        linear_conversion(unit, CANONICAL_UNIT[quantity])
-    except UsageError:
-        return False
-    return True
+    return converts_to(unit, CANONICAL_UNIT[quantity])

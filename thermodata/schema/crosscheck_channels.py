@@ -8,7 +8,7 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.schema.campaign import Campaign, Channel, Sensor
 from thermodata.schema.declared import Value
 from thermodata.schema.lines import Document, Place
-from thermodata.schema.quantity import canonical, linear_conversion, split_value, value_in
+from thermodata.schema.quantity import canonical, converts, split_value, value_in
 from thermodata.schema.refer import must_be
 
 
@@ -49,7 +49,7 @@ def _readings(channel: Channel, sensor: Sensor, document: Document, place: Place
         for value in values:
             unit = "" if value is None else split_value(value)[1]
             # what the file says of its unit is not known here
-            if unit and channel.unit and not any(_converts(unit, u) for u in units):
+            if unit and channel.unit and not any(converts(unit, u) for u in units):
                 raise SpecError(
                     f"a reading of this channel is not in {unit}",
                     where=document.where((*place, key)),
@@ -91,11 +91,3 @@ def _in_order(schedule: Sequence[tuple[Value, Value]], document: Document, place
                 got=str(at),
             )
         before = now
-
-
-def _converts(unit: str, target: str) -> bool:
-    try:
-        linear_conversion(unit, target)
-    except UsageError:
-        return False
-    return True

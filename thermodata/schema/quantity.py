@@ -178,6 +178,15 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
     return (at_1 - at_0) * scale / goal_scale, at_0 / goal_scale
 
 
+def converts(unit: str, target: str) -> bool:
+    """Whether values in one unit can be given in another."""
+    try:
+        linear_conversion(unit, target)
+    except UsageError:
+        return False
+    return True
+
+
 def delta_factor(unit: str, target: str) -> float:
     """Factor of a difference: 1 K is 1 degC, 1 degF is 0.556 K. UsageError where they don't convert."""
     return linear_conversion(unit, target)[0]

@@ -9,8 +9,8 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
-from thermodata.schema.quantity import linear_conversion
-from thermodata.store.raw.streams import RawStream
+from thermodata.schema.quantity import converts, linear_conversion
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.in_parts import find_signal
 from thermodata.store.tidy.source_clock import Clock, build
@@ -109,7 +109,7 @@ def _jump_data(
         or written
         or "V"
     )
-    unit = "V" if _converts(written, "V") else written
+    unit = "V" if converts(written, "V") else written
     probe = _scaled(store, line, raw, signal.name, written, unit)
     others: dict[str, Array] = {}
     for channel in probes_across(campaign, spec):
@@ -118,7 +118,7 @@ def _jump_data(
         except ThermodataError:  # the jump test's file need not hold every probe
             continue
         other_unit = channel.unit or other_unit or unit
-        if other.name != signal.name and other.name not in others and _converts(other_unit, unit):
+        if other.name != signal.name and other.name not in others and converts(other_unit, unit):
             others[other.name] = _scaled(store, line, raw, other.name, other_unit, unit)
     return line.t_ns, probe, others, unit
 
@@ -134,14 +134,6 @@ def probes_across(campaign: Campaign, spec: JumpCalibration) -> list[Channel]:
         and c.signal
         and (c.axis is None or c.axis != spec.axis or c.signal == spec.signal)
     ]
-
-
-def _converts(unit: str, target: str) -> bool:
-    try:
-        linear_conversion(unit, target)
-    except UsageError:
-        return False
-    return True
 
 
 def _scaled(store: Path, line: Timeline, raw: RawStream, name: str, unit: str, target: str) -> Array:
