@@ -15,8 +15,9 @@ from thermodata.store.ingest.progress import Progress
 from thermodata.store.ingest.resolve import SourceFiles, resolve
 from thermodata.store.ingest.unchanged import Seen, seen
 from thermodata.store.ingest.worker import Task
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import SourceFile, settled
-from thermodata.store.raw.streams import RAW_VERSION, RawStream, declared, find_reader, raw_key, version_of
+from thermodata.store.raw.streams import RAW_VERSION, declared, find_reader, raw_key, version_of
 from thermodata.store.tidy.keys import TIDY_VERSION
 from thermodata.version import __version__
 

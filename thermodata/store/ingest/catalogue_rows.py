@@ -14,7 +14,7 @@ from thermodata.schema.campaign import Campaign, Measuring
 from thermodata.schema.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
 from thermodata.store.ingest.inventory import Row
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_to_json
 from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan
 from thermodata.store.tidy.source_clock import Clock, Span, is_relative

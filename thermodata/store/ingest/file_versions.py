@@ -14,7 +14,8 @@ from typing import Any, cast
 from thermodata.errors import UsageError
 from thermodata.plugin import Reader, Source
 from thermodata.store.ingest.inventory import Inventory, Row
-from thermodata.store.raw.streams import RawStream, raw_key
+from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.raw.streams import raw_key
 
 SUPERSEDED = "superseded"
 

@@ -10,7 +10,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Campaign, JumpCalibration
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.in_parts import find_signal
 
 Losses = list[dict[str, Any]]

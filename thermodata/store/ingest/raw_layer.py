@@ -19,8 +19,9 @@ from thermodata.store.ingest.progress import counted
 from thermodata.store.ingest.resolve import file_inside, natural
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
 from thermodata.store.ingest.worker import Task
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
-from thermodata.store.raw.streams import RawStream, declared, raw_key, read_raw
+from thermodata.store.raw.streams import declared, raw_key, read_raw
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 
 

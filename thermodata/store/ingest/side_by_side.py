@@ -15,7 +15,7 @@ from queue import SimpleQueue
 
 from thermodata.errors import FormatError
 from thermodata.store.ingest.worker import Done, Ready, Samples, Task
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 
 _START = "from thermodata.store.ingest.worker import main; main()"
 MOST = 8

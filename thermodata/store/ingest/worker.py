@@ -23,8 +23,9 @@ from thermodata.errors import FormatError, PluginError, UsageError
 from thermodata.plugin import Reader, Source
 from thermodata.store.base.files import drop_unfinished
 from thermodata.store.ingest.progress import TextProgress, counted
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile
-from thermodata.store.raw.streams import RawStream, find_reader, raw_key, read_raw
+from thermodata.store.raw.streams import find_reader, raw_key, read_raw
 
 _TELL_S, _ENDING_S = 0.2, 5.0
 

@@ -14,7 +14,7 @@ from thermodata.reader.match import match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.campaign import Channel
 from thermodata.schema.quantity import delta_factor, is_unit, linear_conversion
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.store.raw.order import by_time, find_order, in_order
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
-from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.timeline import Timeline
 
 

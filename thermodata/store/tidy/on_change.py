@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.timeline import Timeline
 
 # what is commanded, and what follows a command at once

@@ -12,8 +12,8 @@ from thermodata.plugin import Array, Int1D, Loss
 from thermodata.schema.flag import Flag
 from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, in_order
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import pieces
-from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy.in_parts import InPart, Parts, joined_parts
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again

@@ -11,8 +11,8 @@ from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.file_versions import SUPERSEDED
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import settled
-from thermodata.store.raw.streams import RawStream
 from thermodata.store.tidy import derive
 from thermodata.store.trace.replan import read_campaign
 from thermodata.store.trace.reread import reread

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.schema.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_from_json
 from thermodata.store.tidy.plan import SourcePlan, TestPlan, bind
 from thermodata.store.tidy.series import Member, TestSeries

@@ -10,7 +10,8 @@ from thermodata.plugin import Block
 from thermodata.reader.guard import guarded
 from thermodata.reader.locate import locate
 from thermodata.schema.campaign import SourceSpec
-from thermodata.store.raw.streams import RawStream, declared, find_reader
+from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.raw.streams import declared, find_reader
 
 
 def reread(path: Path, raw: RawStream, row: int, signal: str, source: str, spec: SourceSpec) -> dict[str, Any]:

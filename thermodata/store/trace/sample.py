@@ -12,7 +12,7 @@ from thermodata.errors import UsageError
 from thermodata.schema.flag import Flag
 from thermodata.store.base.connection import fetch, quoted
 from thermodata.store.raw.columns import read_column
-from thermodata.store.raw.streams import RawStream
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import SCHEDULE
 from thermodata.store.tidy.series import Member, TestSeries
