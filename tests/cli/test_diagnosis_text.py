@@ -88,7 +88,7 @@ def test_parts_of_tests_are_not_called_tests() -> None:
     part = {"campaign": "c", "test": "a", "from_s": 0.0, "to_s": 1.0, "acts": True}
     parts = [{**part, "rmse_um_before": 2.0, "rmse_um_after": 1.0}] * 2
     said = text("effect", candidate(1, "screw", left_out=parts)).splitlines()[-1]
-    assert said.startswith("left-out: each open test in turn, foretold by a fit to the others; ")
+    assert said.startswith("left-out: parts of the open tests in turn, foretold by a fit to the others; ")
     assert "1 open test is too few to leave one out, so 2 parts of it are" in said
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.could_hide import could_hide
 from thermodata.report.fit_text import spots_text
-from thermodata.report.glossary import explained
+from thermodata.report.glossary import PARTS, explained
 from thermodata.report.left_over import noise_words
 from thermodata.report.log_faults import log_faults
 from thermodata.report.table import table
@@ -118,7 +118,8 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
         parts.append(f"next test: {found.next_test}")
     words = explained("left-out", *(["locked"] if any(c.locked_rmse_um_after for c in found.candidates) else []))
     left_out, *others = words.splitlines()
-    parts.append("\n".join(["; ".join(filter(None, [left_out, in_parts(found)])), *others]))
+    told_of_parts = in_parts(found)
+    parts.append("\n".join([f"left-out: {PARTS}; {told_of_parts}" if told_of_parts else left_out, *others]))
     return "\n\n".join(parts)
 
 
