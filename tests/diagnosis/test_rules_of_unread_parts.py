@@ -49,6 +49,33 @@ def test_a_temperature_tells_its_part_from_those_that_have_a_sensor() -> None:
     assert unread(NUT, OTHER)["feed_screw:T_nut_x"] == ("axis.x.guide",), "each axis for itself"
 
 
+def test_a_guideway_is_the_lesser_part_where_no_sensor_reads_its_screw() -> None:
+    def lesser(*logged: ChannelInfo, has: tuple[Present, ...] = ()) -> set[str]:
+        return {c.id for c in candidates(effects(), {c.name: c for c in logged}, has, "dZ") if c.lesser}
+
+    assert lesser(GUIDE) == {"guideway:T_guide", "lag:T_guide"}
+    assert lesser(GUIDE, OTHER) == {"guideway:T_guide", "lag:T_guide"}, "the screw of another axis"
+    assert lesser(GUIDE, HOUSE) == set()
+    assert lesser(GUIDE, has=(Present("feed_screw", frozenset({"T_gone"}), "feed_z"),)) == {
+        "guideway:T_guide",
+        "lag:T_guide",
+    }
+    assert lesser(GUIDE, FEED, has=(Present("feed_screw", frozenset({"v"}), "feed_z"),)) == set(), "the model has it"
+    assert lesser(NUT) == set(), "the screw is the greater part"
+    assert lesser(MOTOR, FEED) == set()
+
+
+@pytest.mark.parametrize(("evidence", "claimed"), [(2000.0, False), (2200.0, True)])
+def test_the_lesser_part_is_claimed_where_its_timing_is_very_sharp(evidence: float, claimed: bool) -> None:
+    """1 / (1 + exp(-2.45 - 2.2 log10(sharpness) - 1.1 * 0.6 + 0.9 + 2.3)): 65 % at 2.1 a sample."""
+    beside = on_axis(evidence, "axis.z.nut")
+    lesser = replace(beside, candidate=replace(beside.candidate, lesser=True))
+    assert blunt(beside) is None
+    assert (blunt(lesser) is None) == claimed
+    if not claimed:
+        assert "what it reads does not tell it from heat at axis.z.nut" in str(blunt(lesser))
+
+
 def test_a_motor_warms_with_both() -> None:
     assert unread(MOTOR)["feed_motor:T_motor"] == ("axis.z.nut", "axis.z.guide")
     assert unread(MOTOR, NUT)["lag:T_motor"] == ("axis.z.guide",)

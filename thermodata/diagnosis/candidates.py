@@ -19,7 +19,7 @@ from thermodata.diagnosis.present import (
     modes,
     stands_for,
 )
-from thermodata.diagnosis.unread import is_holder, is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
 from thermodata.modelling.candidate import with_effect
@@ -51,7 +51,8 @@ class CandidateEffect:
     where they can. unread: places of other parts that it may be (`diagnosis.unread`). around: whether it reads nothing
     but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
     of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
-    working space."""
+    working space. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
+    other."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -65,6 +66,7 @@ class CandidateEffect:
     around: bool = False
     of_motion: bool = False
     of_holder: bool = False
+    lesser: bool = False
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -180,6 +182,7 @@ def candidates(
                     around=around,
                     of_motion=of_motion,
                     of_holder=all(is_holder(usable[n]) for n in names),
+                    lesser=is_lesser(effect, names, usable, other),
                 )
             )
     named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}

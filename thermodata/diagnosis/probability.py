@@ -12,9 +12,9 @@ from thermodata.diagnosis.scored import Scored
 
 # that a sound candidate is the cause: a logistic curve over the logarithm of its evidence a sample, the fall of the
 # error where it acts, whether it is the air beside something sharper, whether it is passive, whether another part may
-# be what it stands for, whether the model reads it already, together with others, and whether it reads what
-# holds the probes (docs/method.md#probability)
-PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2)
+# be what it stands for, whether the model reads it already, together with others, whether it reads what
+# holds the probes, and whether it is a guideway whose screw may be it as well (docs/method.md#probability)
+PROBABILITY = (2.45, 2.2, 1.1, -1.8, -2.65, -0.9, -2.6, -1.2, -2.3)
 # and, where another axis misses the same, this share of the odds that it is what is missing there; other axes are asked
 # of what is so probable without them at least
 BORNE_OUT, WORTH_ASKING = 0.5, 0.3
@@ -58,10 +58,10 @@ def at_best(scored: Scored, samples: int) -> float:
 
 
 def _log_odds(a_sample: float, drop: float, of: CandidateEffect, *, beaten: bool = False) -> float:
-    level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder = PROBABILITY
+    level, sharp, fall, air_beaten, by_casting, by_another_part, by_one_of_several, by_holder, by_lesser = PROBABILITY
     odds = level + sharp * np.log10(max(a_sample, 1e-4)) + fall * float(np.clip(drop, *FALLS))
     odds += air_beaten * (beaten and of.around) + by_casting * of.passive + by_another_part * bool(of.unread)
-    return float(odds + by_one_of_several * (of.kin == "part") + by_holder * of.of_holder)
+    return float(odds + by_one_of_several * (of.kin == "part") + by_holder * of.of_holder + by_lesser * of.lesser)
 
 
 def _share(log_odds: float) -> float:

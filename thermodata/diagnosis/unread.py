@@ -34,6 +34,7 @@ class Part:
 # of each kind of heat its parts, and the places that read them, the one to log first
 RUBS: Mapping[str, tuple[str, ...]] = {"screw": ("nut", "screw", "bearing"), "guide": ("guide",)}
 HOLDER = "holder"
+LESSER, GREATER = "guide", "screw"  # of what one axis rubs: what moves the tool less as a rule, and what more
 STANDS_IN_AIR: Mapping[str, tuple[str, ...]] = {"frame": ("hall", "outside"), HOLDER: ("fixture", "probe")}
 # what is in the working space, and so warms what holds the probes there: by place, and what the spindle does to a part
 IN_WORKING_SPACE = ("coolant", "workpiece")
@@ -80,6 +81,13 @@ def unread(
     ]
     # a motion of no part in particular is the only one that is left
     return tuple(others) if own or len(others) > 1 else ()
+
+
+def is_lesser(effect: Effect, names: Collection[str], channels: Mapping[str, Described], other: Collection[str]) -> bool:
+    """Whether it is the lesser part of what rubs, while the greater one may be it as well. other: `unread` of it."""
+    own = {part.name for part in parts_of(effect, names, channels)}
+    greater = (part_of(place) for place in other)
+    return own == {LESSER} and any(part is not None and part.name == GREATER for part in greater)
 
 
 def reads(channels: Mapping[str, Described], place: str) -> bool:
