@@ -16,7 +16,7 @@ from thermodata.errors import FormatError, StoreError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
 from thermodata.store.ingest.run import IngestSummary, ingest
-from thermodata.store.raw.source_file import ChangedError, frozen, settled
+from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
 
 
 class LineReader:
@@ -210,3 +210,92 @@ def test_any_file_name_that_a_disk_takes_is_read(store: Store, campaign: Path, n
             "select source_path from file where layer = 'raw' and test = 'one' and source = 'daq'"
         ).fetchone() or ("",)
     assert path.encode("utf-8", "replace")[:8] == b"raw/one_"
+
+
+class Choosy(LineReader):
+    """It describes no file that begins with a blank."""
+
+    described = 0
+
+    def describe(self, path: Path, source: Source) -> Recording:
+        type(self).described += 1
+        if self.meddle:
+            type(self).meddle()
+        with path.open("rb") as file:
+            if file.read(1) == b" ":
+                raise FormatError("it begins with a blank", where=path.name)
+        return super().describe(path, source)
+
+    def blocks(self, path: Path, source: Source) -> Iterator[Block]:
+        type(self).meddle = None
+        return super().blocks(path, source)
+
+
+@pytest.fixture
+def choosy(lines: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The same, read by a reader that refuses some files, and where any file is a huge one."""
+    from thermodata.store.ingest import campaign_files
+
+    monkeypatch.setattr(campaign_files, "find_reader", lambda name: Choosy())
+    monkeypatch.setattr(campaign_files, "_HUGE", 1)
+    monkeypatch.setattr(Choosy, "meddle", None)
+    monkeypatch.setattr(Choosy, "described", 0)
+    return lines
+
+
+@pytest.fixture
+def hashed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The names of the files that are hashed."""
+    from thermodata.store.ingest import campaign_files
+
+    found: list[str] = []
+
+    def told(path: Path) -> SourceFile:
+        found.append(path.name)
+        return settled(path)
+
+    monkeypatch.setattr(campaign_files, "settled", told)
+    return found
+
+
+def test_a_huge_file_that_its_reader_refuses_is_not_hashed(store: Store, choosy: Path, hashed: list[str]) -> None:
+    log = choosy.parent / "raw/one.txt"
+    good = log.read_text()
+    log.write_text(" " + good)
+    summary = ingest(store, choosy)
+    assert any("it begins with a blank" in loss["reason"] for loss in summary.losses)
+    assert (hashed, Choosy.described) == ([], 1)
+    log.write_text(good)
+    assert not ingest(store, choosy).losses
+    assert (hashed, len(hashes(store))) == (["one.txt"], 1)
+    log.write_text(" " + good)  # what was read before stands, and whether that are these bytes is asked
+    summary = ingest(store, choosy)
+    assert any("the version that was read before is used" in note for note in summary.notes)
+    assert hashed == ["one.txt", "one.txt"]
+
+
+def test_a_smaller_file_is_hashed_and_looked_at_once(
+    store: Store, choosy: Path, hashed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.store.ingest import campaign_files
+
+    monkeypatch.setattr(campaign_files, "_HUGE", 1 << 30)
+    assert not ingest(store, choosy).losses
+    assert (hashed, Choosy.described) == (["one.txt"], 1)
+
+
+def test_a_huge_file_that_changes_while_it_is_looked_at_is_not_refused_for_that(
+    store: Store, choosy: Path, hashed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log = choosy.parent / "raw/one.txt"
+    good = log.read_text()
+    log.write_text(" " + good)
+
+    def end() -> None:
+        Choosy.meddle = None
+        log.write_text(good)
+        raise FormatError("half of a file", where=log.name)
+
+    monkeypatch.setattr(Choosy, "meddle", end)
+    assert not ingest(store, choosy).losses
+    assert hashes(store) == [hashlib.sha256(good.encode()).hexdigest()]

@@ -211,6 +211,12 @@ def is_test_number(name: str) -> bool:
     return said is not None and said[1].strip("_").casefold() in _CALLED | _IF_NUMBERED | _BEFORE_NUMBERS
 
 
+def is_called_test(name: str) -> bool:
+    """Whether a name says no more than that it is a test, whose number stands elsewhere: 'Test', 'Messung', 'V'. A
+    'run' may be one of a logger."""
+    return name.strip(" _.-").casefold() in _CALLED | _BEFORE_NUMBERS
+
+
 def _look(who: Reader, full: Path, file: RawFile, column: str, left_s: float) -> _Looked:
     """What a column says of the rows of a file: as far as there is time for it."""
     watch, looked = Watch(), _Looked()

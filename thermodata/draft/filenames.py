@@ -34,6 +34,11 @@ def normal(test: str) -> str:
     return re.sub(r"(?<!\d)0+(?=\d)", "", bare)
 
 
+def without_part(name: str) -> str:
+    """A name without the number of a part behind it: 'run' of 'run_2', 'log' of 'log.part3'."""
+    return next((s for strip in (_PART_WORD, _PART_NUMBER) if (s := strip.sub("", name)) and s != name), name)
+
+
 def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
     """The ways to read these names, the plainest first. paths: at least one."""
     found = list(_by_stem(paths)) + list(_by_folder(paths))

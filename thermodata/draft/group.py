@@ -22,8 +22,8 @@ def tests_of(groups: Sequence[Group]) -> list[Group]:
     if not live:
         return list(groups)
     ways = {g.source: _allowed(g) for g in live}
-    chosen = _agreeing(live, ways)
-    made = {g.source: replace(g, tests=_grouped(g, chosen[g.source])) for g in live}
+    chosen = agreeing(live, ways)
+    made = {g.source: replace(g, tests=grouped(g, chosen[g.source])) for g in live}
     main = max(made.values(), key=lambda g: (_told(g, made.values()), len(g.tests), _voltage(g), -len(g.source)))
     known = {normal(t): t for g in made.values() for t in g.tests if g is main or _told(g, [main])}
     for g in made.values():
@@ -65,7 +65,7 @@ def _allowed(group: Group) -> list[Naming]:
         return [sheets]
     found = []
     for way in namings([f.path for f in group.files]):
-        if way.parts and (not way.joins or _one_recording(group, way) is False):
+        if way.parts and (not way.joins or one_recording(group, way) is False):
             continue
         if not way.parts and way.joins:
             continue
@@ -83,11 +83,11 @@ def _by_sheet(group: Group) -> Naming | None:
     return Naming(ids, re.sub(r"([*?[])", r"[\1]", files.pop()) if len(files) == 1 else None, 0.0)
 
 
-def _one_recording(group: Group, way: Naming) -> bool | None:
+def one_recording(group: Group, way: Naming) -> bool | None:
     """Whether the files that share an id follow each other without a pause; None where no clock tells."""
     verdicts: list[bool] = []
     going_on: list[bool] = []
-    for files in _grouped(group, way).values():
+    for files in grouped(group, way).values():
         if len(files) < 2:
             continue
         if all(f.start_ns is not None for f in files):
@@ -135,7 +135,7 @@ def counted_on(groups: Sequence[Group]) -> list[str]:
     ]
 
 
-def _agreeing(groups: Sequence[Group], ways: Mapping[str, list[Naming]]) -> dict[str, Naming]:
+def agreeing(groups: Sequence[Group], ways: Mapping[str, list[Naming]]) -> dict[str, Naming]:
     """A way to read the names of each group, so that most files have their test in another group too."""
     best: tuple[tuple[float, ...], dict[str, Naming]] | None = None
     for lead in groups:
@@ -166,10 +166,10 @@ def _price(group: Group, way: Naming) -> float:
     dear, and cheap with it."""
     if not way.parts:
         return way.cost
-    return way.cost - 2.5 if _one_recording(group, way) else way.cost + 0.5
+    return way.cost - 2.5 if one_recording(group, way) else way.cost + 0.5
 
 
-def _grouped(group: Group, way: Naming) -> dict[str, tuple[RawFile, ...]]:
+def grouped(group: Group, way: Naming) -> dict[str, tuple[RawFile, ...]]:
     found: dict[str, list[RawFile]] = {}
     for test, file in zip(way.ids, group.files, strict=True):
         found.setdefault(test, []).append(file)
@@ -254,4 +254,4 @@ def files_of(group: Group, test: str) -> str | list[str]:
     return paths[0] if len(paths) == 1 else paths
 
 
-__all__ = ["counted_on", "files_of", "tests_of"]
+__all__ = ["agreeing", "counted_on", "files_of", "grouped", "one_recording", "tests_of"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import glob
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from pathlib import Path
 
 from thermodata.calibration.expression import parse
+from thermodata.draft.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Campaign, SourceSpec, Test
 from thermodata.schema.tests_from import pattern_of
@@ -19,19 +21,20 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
     """The tests in a folder of bare logs, read as the sources of a known campaign say; only some channels.
 
     A pattern raw/{test}.csv fits raw/a.csv and, where there is no folder raw, a.csv. UsageError where no file fits, or
-    where a source's files do not name the test.
+    where a source's files do not name the test. Which files are one test is told by all sources together (by_patterns).
     """
     wanted = _with_their_parts(known, channels)
     sources: dict[str, SourceSpec] = {}
-    tests: dict[str, None] = {}
+    read: list[Known] = []
     names = _files(folder)
-    for name in dict.fromkeys(known.channels[c].source for c in wanted if known.channels[c].source):
-        if name is None:
+    for name, spec in known.sources.items():
+        if name not in {known.channels[c].source for c in wanted}:
             continue
-        spec = known.sources[name]
-        files, found = _fitting(name, spec, names, known.id)
+        files = _fitting(name, spec, names, known.id)
         sources[name] = spec.model_copy(update={"files": files, "clock": _clock(spec, known, wanted)})
-        tests |= dict.fromkeys(found)
+        signals = [c.signal for n, c in known.channels.items() if n in wanted and c.source == name and c.signal]
+        read.append(Known(name, spec, tuple(files), tuple(signals)))
+    tests = tests_by_patterns(folder, read, names)
     if not tests:
         raise UsageError(
             "no log in the folder fits the sources of the model's campaign",
@@ -50,7 +53,12 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
             "sources": sources,
             "channels": kept,
             "calibrations": {n: c for n, c in known.calibrations.items() if n in calibrations},
-            "tests": [Test(id=t) for t in sorted(tests, key=natural)],
+            "tests": [
+                Test(
+                    id=t, files={s: [glob.escape(p) for p in sorted(tests[t].get(s, ()), key=natural)] for s in sources}
+                )
+                for t in sorted(tests, key=natural)
+            ],
         }
     )
 
@@ -79,7 +87,8 @@ def _clock(spec: SourceSpec, known: Campaign, wanted: Collection[str]) -> object
     return spec.clock.model_copy(update={"align_to": None, "by": [], "events": []})
 
 
-def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> tuple[list[str], list[str]]:
+def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> list[str]:
+    """The patterns of a source as the files of the folder are called: with its folders, or without."""
     patterns = [p for p in _listed(spec.files) if "{test}" in p]
     if not patterns:
         raise UsageError(
@@ -89,12 +98,12 @@ def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> tu
             got=", ".join(_listed(spec.files)) or "no files",
             hint="write a campaign file for the new logs, and predict that",
         )
-    best: Mapping[str, list[str]] = {}
-    for tried in (patterns, [p.rpartition("/")[2] for p in patterns]):
-        found = {p: [m["test"] for n in names if (m := pattern_of(p).fullmatch(n))] for p in tried}
-        if sum(map(len, found.values())) > sum(map(len, best.values())):
-            best = found
-    return list(best) or patterns, [t for tests in best.values() for t in tests]
+    bare = [p.rpartition("/")[2] for p in patterns]
+
+    def fit(tried: list[str]) -> int:
+        return sum(pattern_of(p).fullmatch(n) is not None for p in tried for n in names)
+
+    return max((patterns, bare), key=fit)
 
 
 def _files(folder: Path) -> list[str]:

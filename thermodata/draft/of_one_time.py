@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from thermodata.draft.blocks import is_test_number
+from thermodata.draft.one_or_many import told_apart
 from thermodata.draft.raw_file import Asked, RawFile
-from thermodata.draft.said_by_names import said_by
 from thermodata.draft.sheets import recordings_in
 
 _NAMED = 4
@@ -22,7 +21,7 @@ def of_one_time(whole: RawFile, found: Sequence[RawFile]) -> RawFile | None:
     if not recordings:
         return None
     if any(f.start_ns is None for f in found):
-        return None if _told_apart(found) else _asked(whole, found, "begin and end at one time, and have no dates")
+        return None if told_apart(found) else _asked(whole, found, "begin and end at one time, and have no dates")
     if recordings < 2:
         return whole
     asked = (
@@ -40,7 +39,7 @@ def in_every_file(apart: Mapping[str, tuple[RawFile, Sequence[RawFile]]]) -> dic
     return {
         path: _asked(whole, found, "are in every file, and have no dates")
         for path, (whole, found) in apart.items()
-        if all(f.sheet and f.start_ns is None for f in found) and not _told_apart(found)
+        if all(f.sheet and f.start_ns is None for f in found) and not told_apart(found)
     }
 
 
@@ -48,14 +47,3 @@ def _asked(whole: RawFile, found: Sequence[RawFile], why: str) -> RawFile:
     named = ", ".join(f"'{f.sheet}'" for f in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
     asked = f"{named} {why}: loggers or rates of one test, or a test each? then table: {{sheet: '{{test}}'}}"
     return replace(whole, asked=(*whole.asked, Asked(asked, {})))
-
-
-def _told_apart(found: Sequence[RawFile]) -> bool:
-    """Whether each name says what its test was: a speed, a date, or its number; and none as another."""
-    said = []
-    for sheet in (f.sheet or "" for f in found):
-        of = said_by([sheet])
-        if not (of.conditions or of.speeds or of.start or is_test_number(sheet)):
-            return False
-        said.append((*sorted(of.conditions.items()), of.speeds, of.start, sheet if is_test_number(sheet) else ""))
-    return len(set(said)) == len(said)

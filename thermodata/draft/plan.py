@@ -19,6 +19,7 @@ from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
+from thermodata.draft.one_or_many import one_or_many
 from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.orientation import why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
@@ -49,6 +50,8 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     jumps = each_its_own(recorded)
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
     of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
+    ids = list(dict.fromkeys(t for g in groups for t in g.tests))
+    table = find_table(folder, found.others, ids)
     taken: set[str] = set()
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
@@ -71,7 +74,14 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.reader,
             g.template,
             tuple(
-                q for q in (*(hinted(a, g, groups) for a in g.asks), *_of_clocks(g, groups, aligned), *g.questions) if q
+                q
+                for q in (
+                    *(hinted(a, g, groups) for a in g.asks),
+                    *_of_clocks(g, groups, aligned),
+                    *g.questions,
+                    *one_or_many(g, groups, table.rows if table else ()),
+                )
+                if q
             ),
             g.table,
             aligned.get(g.source),
@@ -81,8 +91,6 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         for g in groups
     )
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
-    ids = list(dict.fromkeys(t for g in groups for t in g.tests))
-    table = find_table(folder, found.others, ids)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)

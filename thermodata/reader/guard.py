@@ -30,7 +30,7 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
         raise PluginError(
             f"reader '{reader.name}' describes with {type(recording).__name__}", where=str(path), expected="a Recording"
         )
-    watched.refuse_ignored(reader.name, path)
+    watched.refuse_ignored(reader, path, recording)
     for rule in RECORDING_RULES:
         wrong = rule(recording)
         if wrong is not None:

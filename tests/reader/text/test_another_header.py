@@ -47,6 +47,35 @@ def test_the_same_units_are_read_on(tmp_path: Path, again: str) -> None:
     assert data.t_ns["table"].size == 60
 
 
+@pytest.mark.parametrize(
+    ("head", "again"),
+    [
+        (HEAD + ";°C;µm", ";degC;um"),
+        (HEAD + ";°C;µm", HEAD + ";[degC];[μm]"),
+        (HEAD + "s;[°C];[µm]", HEAD + "s;°C;µm"),
+        (HEAD + ";°C;µm", HEAD + ";Grad C;um;"),
+        ("Zeit;T_vorn [°C];dZ [µm]", "Zeit;T_vorn (degC);dZ [um]"),
+    ],
+)
+def test_the_same_units_in_another_spelling_are_the_same_header(tmp_path: Path, head: str, again: str) -> None:
+    data = read(tmp_path, head, again)
+    assert (data.t_ns["table"].size, data.losses) == (60, ())
+
+
+@pytest.mark.parametrize(
+    ("head", "again", "size"),
+    [
+        (HEAD + ";°C;µm", ";°C;mm", 60),  # a row of units alone may be one of marks, and is told
+        ("Zeit;T_vorn [°C];dZ [µm]", "Zeit;T_vorn [degC];dZ [mm]", 30),
+        ("Zeit;T_vorn [°C];dZ [µm]", "Zeit;T_hinten [degC];dZ [um]", 30),
+        ("Zeit;T_vorn [°C];dZ [µm]", "Zeit;T_vorn [°F];dZ [um]", 30),
+    ],
+)
+def test_other_units_and_names_are_not_for_a_spelling(tmp_path: Path, head: str, again: str, size: int) -> None:
+    data = read(tmp_path, head, again)
+    assert (data.t_ns["table"].size, len(data.losses)) == (size, 1)
+
+
 def test_units_where_none_stood_end_the_reading_too(tmp_path: Path) -> None:
     data = read(tmp_path, HEAD.strip(), HEAD + ";°F;µm")
     assert data.t_ns["table"].size == 30

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import pytest
@@ -66,6 +67,12 @@ def test_a_mark_over_a_column_of_its_own_is_its_name(head: str) -> None:
         ("time T_front dZ", "{k} {day} {at} {T} 0.0"),
         ("time T_front dZ", "{n} {s} {T} 0.0"),
         ("time\tT_front\tdZ", "{n}\t{s}\t{T}\t0.0"),
+        ("Date and Time T_front dZ", "{day}T{at} {T} 0.0"),
+        ("Datum und Uhrzeit T_front dZ", "{day} {at} {T} 0.0"),
+        ("# Date / Time T_front dZ", "{day}T{at} {T} 0.0"),
+        ("Time stamp UTC T_front dZ", "{day}T{at} {T} 0.0"),
+        ("Date and Time AM/PM T_front dZ", "{day}T{at} {T} 0.0"),
+        ("Time stamp T_front dZ", "{day} {at} AM {T} 0.0"),
     ],
 )
 def test_names_stand_over_their_columns_where_the_cells_of_the_time_tell(head: str, row: str) -> None:
@@ -85,6 +92,8 @@ def test_names_stand_over_their_columns_where_the_cells_of_the_time_tell(head: s
         ("time T_front T_hall dZ", "{s} {T} 20.0"),
         ("No;T_front;time;dZ", "{s};{T};20.0"),
         ("No;time;T_front;dZ", "{day} {at};{T};20.0"),
+        ("Elapsed time T_front T_rear", "{s} {T} {T}"),  # which of them is the time?
+        ("Date and Time T1 T2 T3", "{day}T{at} {T} 20.0"),
         ("T_front;T_hall;T_motor;dZ", "{T};{T};20.0"),
         ("time;T_front;T_hall;dX;dZ", "{s};{T};20.0"),
     ],
@@ -117,6 +126,49 @@ def test_the_way_out_of_the_refusal_names_the_columns() -> None:
     names: Sequence[str] = ["time [s]", "T front [degC]", "Z [um]"]
     said = {"skip_rows": 1, "header_rows": 0, "names": names}
     assert columns(table("Time [s] T front [degC] Z [um]", "{s} {T} 0.0", **said)) == [("T front", "degC"), ("Z", "um")]
+
+
+@pytest.mark.parametrize("head", ["Elapsed time T_front dZ", "# Elapsed time T_front dZ"])
+def test_several_words_of_one_time_stand_over_the_numbers_that_alone_rise(head: str) -> None:
+    found = table(head, "{s} 20.5 0.0")
+    assert [found.layout.names[i] for i in found.layout.time] == ["Elapsed time"]
+    assert [name for name, _ in columns(found)] == ["T_front", "dZ"]
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("DateTime T1 T2 T3", "{day} {at} {T} 20.0"),
+        ("Timestamp;T1;T2;T3", "{day};{at};{T};20.0"),
+        ("Time,Remark,T2,T3", "{day},{at},{T},20.0"),
+        ("Date Time T1 T2 T3", "{day} {at} AM {T} 20.0"),
+        ("No DateTime T1 T2 T3", "{n} {day} {at} {T} 20.0"),
+    ],
+)
+def test_a_name_of_something_else_over_a_part_of_the_time_is_refused(head: str, row: str) -> None:
+    with pytest.raises(FormatError) as refused:
+        table(head, row)
+    assert "the time takes more cells in the rows than names" in refused.value.what
+    own = [i + 1 for i, cell in enumerate(re.split("[ ;,]", row)) if cell in ("{day}", "{at}", "AM")]
+    assert f"time: {{column: {own}}}" in str(refused.value.hint)
+    declared = table(head, row, time={"column": own})
+    assert [n for n, _ in columns(declared)][-2:] == ["T2", "T3"]
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("Datum;Klok;T2;T3", "{day};{at};{T};20.0"),
+        ("Timestamp;;T2;T3", "{day};{at};{T};20.0"),
+        ("Timestamp;Clock;T2;T3", "{day};{at};{T};20.0"),
+        ("DateTime Uhrzeit T2 T3", "{day} {at} {T} 20.0"),
+        ("Date;Time;AM/PM;T2;T3", "{day};{at};AM;{T};20.0"),
+        ("Date;Time;Tool;T2;T3", "{day};{at};EST;{T};20.0"),
+        ("DateTime;T1;T2;T3", "{day}T{at};{T};{T};20.0"),
+    ],
+)
+def test_a_part_of_the_time_under_a_word_for_it_or_none_is_read(head: str, row: str) -> None:
+    assert [n for n, _ in columns(table(head, row))][-2:] == ["T2", "T3"]
 
 
 @pytest.mark.parametrize("head", ["time;T_front;dZ;", "time;T_front;dZ;;"])

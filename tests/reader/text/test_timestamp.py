@@ -253,3 +253,10 @@ def test_what_looks_like_a_date_or_a_time() -> None:
     assert not any(is_date_text(c) for c in ("1.3-26", "20.5", "08:00", "2026-03-01 8", ""))
     assert all(is_time_of_day(c) for c in ("08:00", "8:00:00.125", "8:00 PM", "08:00:00Z"))
     assert not any(is_time_of_day(c) for c in ("2026-03-01 08:00", "8", "8:0", ""))
+
+
+def test_cells_of_one_width_that_are_laid_out_in_other_ways_are_read_each() -> None:
+    """It ended the reading of the file: the hour of the second has a colon among its digits, where the first is."""
+    form = declared_format("%H:%M:%S %p")
+    cells = ["12:00:00 vorm.", "9:00:00 nachm.", "10:00:00 vorm."]
+    assert parse(cells, form).tolist() == [parse_one(c, form) for c in cells] == [0, 21 * 3600 * S, 10 * 3600 * S]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.delimiter import fields
+from thermodata.reader.text.header import told_alike
 from thermodata.reader.text.header_rows import texts_of
 from thermodata.reader.text.layout import Layout
 from thermodata.reader.text.number import clean
@@ -39,18 +40,21 @@ def another_in_sheet(
     layout: Layout, head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]
 ) -> tuple[int, str] | None:
     """The same of the rows of a sheet, counted from 0. head: the rows above them."""
-    above = [cells for row in head if any(cells := texts_of(row))]
-    repeated = -1
+    repeats = repeated_in_sheet(head, rows)
     for number, row in enumerate(rows):
-        if all(isinstance(c, str) or c is None for c in row):
+        if number not in repeats and all(isinstance(c, str) or c is None for c in row):
             cells = texts_of(row)
-            if cells in above:
-                repeated = number
-                continue
             shown = "; ".join(filter(None, cells))
-            if reason := begins_another(layout, cells, shown, 0 < number == repeated + 1):
+            if reason := begins_another(layout, cells, shown, number - 1 in repeats):
                 return number, reason
     return None
+
+
+def repeated_in_sheet(head: Sequence[Sequence[Cell]], rows: Sequence[Sequence[Cell]]) -> frozenset[int]:
+    """The rows of a sheet that repeat one above the data, counted from 0."""
+    above = {told_alike(cells) for row in head if sum(map(bool, cells := texts_of(row))) > 1}
+    texts = ((n, row) for n, row in enumerate(rows) if all(isinstance(c, str) or c is None for c in row))
+    return frozenset(n for n, row in texts if above and told_alike(texts_of(row)) in above)
 
 
 def begins_another(layout: Layout, cells: Sequence[str], shown: str, below: bool) -> str:

@@ -101,6 +101,22 @@ def _unit_within(header: str) -> tuple[str, str | None]:
     return header, None
 
 
+def told_alike(cells: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """A row of names or units in one spelling of its units: '[µm]' as 'um', 'T (°C)' as 'T [degC]'. What is the same
+    so, says the same of the columns below it."""
+    filled = len(cells)
+    while filled and not cells[filled - 1].strip():
+        filled -= 1
+    return tuple(map(_told, cells[:filled]))
+
+
+def _told(cell: str) -> tuple[str, str]:
+    """(name, unit) of one cell, '' for none."""
+    alone = cell.strip("[]() ")
+    name, unit = ("", alone) if looks_like_unit(alone) else split_unit(cell)
+    return name, (spelled(unit) or unit) if unit else ""
+
+
 def unique(names: Sequence[str]) -> list[str]:
     out: list[str] = []
     taken: set[str] = set()

@@ -16,7 +16,8 @@ from thermodata.reader.text.first_data import first_data, width_of
 from thermodata.reader.text.head_interval import with_interval
 from thermodata.reader.text.header import split_unit, unique
 from thermodata.reader.text.header_rows import are_numbers, lines_between, names_and_units, texts_of
-from thermodata.reader.text.line_up import Fit, line_up, refuse_misfit
+from thermodata.reader.text.line_up import Fit, line_up
+from thermodata.reader.text.misfit import refuse_misfit
 from thermodata.reader.text.time_columns import column, time_of
 from thermodata.reader.text.time_formats import Stamps
 from thermodata.reader.text.time_groups import Span, spans
@@ -114,7 +115,9 @@ def find(
     above, fit = line_up(rows[skip:first], below, width, row_of_units, between == "blanks")
     lacking = None
     if between is not None and header is None:
-        lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where)
+        times = said.get("time") or {}
+        told = not isinstance(times, Mapping) or times.get("column") is not None
+        lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where, told)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
     unused = None
     if said.get("names") is not None and list(said["names"]) != heads:

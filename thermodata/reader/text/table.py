@@ -6,16 +6,23 @@ How it is found: find_table.py.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from thermodata.reader.series import Series
 from thermodata.reader.text.begin import Begin
+from thermodata.reader.text.cell import is_number
 from thermodata.reader.text.date_parts import PART
+from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Grid
+from thermodata.reader.text.header import told_alike
 from thermodata.reader.text.layout import Group, Layout
 from thermodata.reader.text.lines import Sample, last_line_is_whole
+from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs
 from thermodata.reader.text.time_pattern import TimeFormat
 from thermodata.reader.time_units import SECONDS
+
+Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,8 +106,20 @@ class Table:
         return not last_line_is_whole(lines[-1], lines[-2], self.delimiter)
 
     def repeats_header(self, line: str) -> bool:
-        """Whether a line stands above the data too: files that were joined repeat their headers."""
-        return bare_line(line) in self.header
+        """Whether a line stands above the data too, if with another spelling of a unit: files that were joined repeat
+        their headers."""
+        bare = bare_line(line)
+        return bare in self.header or (bool(told := self._told(bare)) and told in self._header_told)
+
+    @cached_property
+    def _header_told(self) -> frozenset[Told]:
+        """The lines of the header in one spelling of their units."""
+        return frozenset(told for line in self.header if (told := self._told(line)))
+
+    def _told(self, line: str) -> Told:
+        """() of a line that holds a number, or one cell."""
+        cells = [clean(c) for c in fields(line, self.delimiter, self.quoted)]
+        return told_alike(cells) if len(cells) > 1 and not any(map(is_number, cells)) else ()
 
     def grid(self, decimal: str) -> Grid:
         """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own; one with a

@@ -215,6 +215,8 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
         good &= matrix[:, place] == matrix[0, place]
     if not fields:  # 'PM' alone, in a declared format, is no time
         return np.full(len(matrix), NAT, np.int64), good
+    if not good.all():  # '12:00:00 vorm.' is as long as '9:00:00 nachm.': what stands elsewhere is no number
+        fields = {name: np.where(good, value, 0) for name, value in fields.items()}
     ns = _assemble(fields, match)
     return ns, good & (ns != NAT)
 

@@ -8,18 +8,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from thermodata.errors import ThermodataError, UsageError
-from thermodata.plugin import Reader
+from thermodata.plugin import Reader, Source
 from thermodata.reader import registry
+from thermodata.reader.guard import described
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.ingest.progress import Progress
 from thermodata.store.ingest.resolve import SourceFiles, resolve
 from thermodata.store.ingest.unchanged import Seen, seen
 from thermodata.store.ingest.worker import Task
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.raw.source_file import SourceFile, settled
+from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 from thermodata.store.raw.streams import RAW_VERSION, declared, find_reader, raw_key, version_of
 from thermodata.store.tidy.keys import TIDY_VERSION
 from thermodata.version import __version__
+
+_HUGE = 1 << 30  # [bytes] that are hashed in about a second: a smaller file is hashed sooner than looked at twice
 
 
 @dataclass(slots=True)
@@ -35,6 +38,7 @@ class CampaignFiles:
     _source_files: dict[tuple[str, str], SourceFiles] = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
     _readers: dict[str, Reader] = field(default_factory=dict)
+    _refused: dict[tuple[str, str], ThermodataError | OSError | None] = field(default_factory=dict)
 
     def survey(self) -> None:
         """Finds all files, and says how many and how much that is."""
@@ -104,10 +108,10 @@ class CampaignFiles:
         """Each listed file as it is to be read, but for those that can't be."""
         for path, source, spec in self._listed():
             try:
-                reader, file = self.reader(spec.reader, source), self.settle(path)
+                reader, declaration = self.reader(spec.reader, source), declared(source, spec)
+                file = self.settle_readable(path, reader, declaration)
             except (ThermodataError, OSError):
                 continue  # told where the file is read
-            declaration = declared(source, spec)
             yield Task(raw_key(file.sha256, reader, declaration), self.store, path, file, spec.reader, declaration)
 
     def _listed(self) -> Iterator[tuple[str, str, SourceSpec]]:
@@ -128,12 +132,13 @@ class CampaignFiles:
         """Source path -> SHA-256, of all files that were looked at."""
         return {path: file.sha256 for path, file in self._settled.items()}
 
-    def hashes_of(self, paths: Iterable[str]) -> dict[str, str]:
-        """Path -> SHA-256, of the files that can be read."""
+    def hashes_of(self, paths: Iterable[str], source: str, spec: SourceSpec) -> dict[str, str]:
+        """Path -> SHA-256, of the files that can be read. spec: what is declared of the source."""
         hashes: dict[str, str] = {}
         for path in paths:
             try:
-                hashes[path] = self.settle(path).sha256
+                reader = self.reader(spec.reader, source)
+                hashes[path] = self.settle_readable(path, reader, declared(source, spec)).sha256
             except (OSError, ThermodataError):
                 continue  # told where the file is read
         return hashes
@@ -143,6 +148,24 @@ class CampaignFiles:
         if path not in self._settled:
             self._settled[path] = settled(self.full(path))
         return self._settled[path]
+
+    def settle_readable(self, path: str, reader: Reader, declaration: Source) -> SourceFile:
+        """The same of a file that its reader can describe: a huge one that it refuses is not hashed for that, but where
+        it is being written, and may end otherwise. What the reader says is raised."""
+        if path in self._settled or (self._size(path) or 0) < _HUGE:
+            return self.settle(path)
+        asked = path, raw_key("", reader, declaration)
+        if asked not in self._refused:
+            full, self._refused[asked] = self.full(path), None
+            before = mark_of(os.stat(full))
+            try:
+                described(reader, full, declaration)
+            except (ThermodataError, OSError) as error:
+                if mark_of(os.stat(full)) == before:
+                    self._refused[asked] = error
+        if (refused := self._refused[asked]) is not None:
+            raise refused
+        return self.settle(path)
 
     def instead(self, path: str, copy: SourceFile) -> None:
         """A copy that stands for a file which changed while it was read."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -106,7 +107,7 @@ class RawIngest:
         for raw in self.inventory.raw_rows(test.id, name):
             before.setdefault(raw.source_path, []).append(raw)
         there = set(files.paths)
-        same = twins(files.paths, self.files.hashes_of(files.paths))
+        same = twins(files.paths, self.files.hashes_of(files.paths, name, spec))
         for path in sorted({*there, *(p for p in before if p not in there and files.claims(p))}, key=natural):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
@@ -228,15 +229,17 @@ class RawIngest:
 
     def _former(self, path: str, before: list[RawStream]) -> list[RawStream]:
         """What the store holds of a file that can't be read now: what was read once isn't lost by that."""
-        hashed = self.files.hashes().get(path)
-        if not before or not all(is_whole(self.files.store / r.path) for r in before) or hashed == before[0].sha256:
-            return []  # a reader that refuses the bytes that an older one took has its reason
+        if not before or not all(is_whole(self.files.store / r.path) for r in before):
+            return []
+        with suppress(ThermodataError, OSError):  # a huge one may have been refused before it was hashed
+            if self.files.settle(path).sha256 == before[0].sha256:
+                return []  # a reader that refuses the bytes that an older one took has its reason
         self.notes.append(f"{path}: the version that was read before is used ({before[0].sha256[:12]})")
         return before
 
     def _read(self, path: str, source: str, spec: SourceSpec, reader: Reader) -> list[RawStream]:
-        file = self.files.settle(path)
         declaration = declared(source, spec)
+        file = self.files.settle_readable(path, reader, declaration)
         key = raw_key(file.sha256, reader, declaration)
         if key not in self._streams:
             if key in self.inventory.raws:

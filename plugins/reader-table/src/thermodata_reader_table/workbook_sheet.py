@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
-from thermodata.reader.text.another_header import another_in_sheet
+from thermodata.reader.text.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.clock_numbers import clock_of_numbers
 from thermodata.reader.text.date_parts import column_times, declared_parts
@@ -80,6 +80,8 @@ class Table:
             lost = 1 - other[0] / len(rows)
             self.losses.append(Loss(f"{where} row {layout.first + other[0] + 1}", None, None, lost, other[1]))
             rows = rows[: other[0]]
+        self.repeats = repeated_in_sheet(self.head, rows)
+        rows = [[None] * len(row) if n in self.repeats else row for n, row in enumerate(rows)] if self.repeats else rows
         self.columns = list(zip(*rows, strict=False))
         said = (source.table or {}).get("decimal")
         self.decimal_declared = said is not None
@@ -133,8 +135,9 @@ class Table:
 
     def _rows_of(self, group: Group, t_ns: Int1D) -> Bool1D:
         """Which rows are a group's, shape (n,): not those beside it when it has ended, empty ones (they take their time
-        where rows are counted), and statistics below the table."""
+        where rows are counted), what repeats the header, and statistics below the table."""
         keep = np.ones(t_ns.size, bool)
+        keep[list(self.repeats)] = False
         if group.counted:
             return keep
         for row in np.flatnonzero(t_ns == NAT).tolist():

@@ -38,6 +38,8 @@ def texts(column: Any) -> list[str]:
         column = pc.floor_temporal(column, unit="day").cast(pa.date32())
     if pt.is_date(column.type) or pt.is_time(column.type):
         column = column.cast(pa.string())
+    if pt.is_floating(column.type):  # a part of a date, of a column that has gaps
+        return ["" if v is None or v != v else str(v).removesuffix(".0") for v in column.to_pylist()]
     return ["" if v is None else str(v) for v in column.to_pylist()]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
@@ -15,14 +15,14 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
 from thermodata.reader.text import split_unit, time_formats
+from thermodata.reader.text.date_parts import find_parts
 from thermodata.reader.text.header import unique
 from thermodata.reader.text.layout import period_s
 from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time
+from thermodata.reader.text.time_columns import find_time, time_of
 from thermodata.reader.text.time_formats import times_of_numbers
 from thermodata.reader.text.time_groups import one_time
 from thermodata.reader.text.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.time_questions import no_time
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
@@ -82,6 +82,7 @@ class Table:
         self.time: int | None = None
         self.unit: str | None = None
         self.beside: tuple[int, ...] = ()  # columns that hold the rest of the time: its time of day, its parts
+        self.form: str | None = one_time(source.table, path.name).get("format")
         if self.period is None:
             self.time, self.unit = self._find()
 
@@ -122,14 +123,10 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                rows = self._first_rows()
-                try:
-                    column = find_time(self.names, units, rows, self.path.name)[0]
-                except FormatError:
-                    if (question := no_time(self.names, rows, self.path.name)) is None:
-                        raise
-                    raise question from None
+                column = self._of_cells(said, units)
             kind = self.schema.field(column).type
+            if self.beside:
+                return column, None
             if pt.is_timestamp(kind) or pt.is_date(kind) or _is_text(kind):
                 clock = clock_beside(column, self.names, self._first_rows(), self.path.name)
                 self.beside = () if clock is None else (clock,)
@@ -154,6 +151,25 @@ class Table:
                 raise unit_question(self.names[column], values, self.path.name)
             self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
+
+    def _of_cells(self, said: Mapping[str, Any], units: list[str | None]) -> int:
+        """The first column of a time that no type tells, found as in a table of text: with the others that a time of
+        words or in parts takes, and how these are written. QuestionError, FormatError: as `time_of`."""
+        import pyarrow.types as pt
+
+        rows = self._first_rows()
+        try:
+            found = find_time(self.names, units, rows, self.path.name)[0]
+        except FormatError:
+            found = None
+        kind = None if found is None else self.schema.field(found).type
+        # numbers are told by more rows than these
+        if found is not None and not (_is_text(kind) or pt.is_date(kind) or find_parts(self.names, rows)):
+            return found
+        columns, _, form, notes = time_of(said, self.names, units, rows, self.path.name)
+        self.beside, self.form = columns[1:], self.form or form
+        self.notes += notes
+        return columns[0]
 
     def _first_rows(self) -> list[list[Any]]:
         """Cells of the first rows."""
@@ -197,8 +213,7 @@ class Table:
                 for n, i in enumerate(wanted)
             ]
             if self.beside:
-                form = one_time(self.source.table, self.path.name).get("format")
-                return joined([self.names[i] for i in wanted], columns, self.source.timezone, form, self.path.name)
+                return joined([self.names[i] for i in wanted], columns, self.source.timezone, self.form, self.path.name)
             return self._times(columns[0])
 
     def _times(self, column: Any) -> time_formats.Stamps:
@@ -214,8 +229,7 @@ class Table:
             values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else numbers(column)
             return times_of_numbers(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
-            form = one_time(self.source.table, self.path.name).get("format")
-            return time_formats.times_of_texts(texts(column), self.source.timezone, form, self.path.name)
+            return time_formats.times_of_texts(texts(column), self.source.timezone, self.form, self.path.name)
         zone = getattr(kind, "tz", None)
         naive = nanoseconds(column.cast(pa.timestamp("ns", zone)))
         if zone is not None:
