@@ -22,7 +22,8 @@ from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
+from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -58,6 +59,9 @@ def channels_of(
         if said.quantity is None and signal.unit is None and _counts_rows(one):
             notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
             continue
+        if (of := _unit_of(one, found)) is not None:
+            notes.append(f"{group.source}: '{one.written}' holds the unit of '{of.written}', which is taken: left out")
+            continue
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
@@ -86,6 +90,14 @@ def _counts_rows(one: OneSignal) -> bool:
     own = [(f, one.of(f) or one.signal) for f in one.files]
     seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
     return bool(seen) and all(v is not None and v.counts_rows for v in seen)
+
+
+def _unit_of(one: OneSignal, found: Sequence[OneSignal]) -> OneSignal | None:
+    """The one signal of numbers beside a column of units, which has its unit from there."""
+    if one.signal.dtype != "str" or bare_header(one.signal.name) not in UNIT_WORDS:
+        return None
+    beside = [o for o in found if o.signal.stream == one.signal.stream and o.signal.dtype != "str"]
+    return beside[0] if len(beside) == 1 and beside[0].signal.unit else None
 
 
 def _moved_probe(said: Guess, name: str) -> Guess:

@@ -26,6 +26,7 @@ from thermodata.draft.raw_file import RawFile
 from thermodata.draft.roles import said_by_list
 from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
+from thermodata.draft.sensor_files import with_their_sensors
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.speeds_told import with_told_speeds
@@ -44,7 +45,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
         )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
-    found = replace(found, logs=with_orders_told(folder, found.logs))
+    found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))

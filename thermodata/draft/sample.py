@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.guess import guess_of
+from thermodata.draft.guess import guess_of, says_nothing
 from thermodata.draft.quantity import Guess
 from thermodata.draft.values import Values, bare_word, joined, values_of
 from thermodata.errors import ThermodataError
@@ -130,7 +130,9 @@ def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     others: list[tuple[str, str]] = []
     for signal in signals:
         said: Guess = guess_of(signal)
-        if said.quantity in (*_COURSE, *_COURSE_IF_ROOM) and signal.dtype != "str":
+        # what a bare 'value' is, its file's name may say
+        unsaid = said.quantity is None and says_nothing(signal.name)
+        if (unsaid or said.quantity in (*_COURSE, *_COURSE_IF_ROOM)) and signal.dtype != "str":
             (found if said.quantity in _COURSE else others).append((signal.stream, signal.name))
     return set((found + others)[:_MOST_COURSES])
 
