@@ -9,7 +9,14 @@ from pathlib import Path
 
 from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
-from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
+from thermodata.draft.clocks import (
+    Alignment,
+    alignments,
+    repeats_question,
+    set_back_question,
+    start_question,
+    zone_question,
+)
 from thermodata.draft.date_order import with_orders_told
 from thermodata.draft.file_copies import other_versions
 from thermodata.draft.group import counted_on, files_of, tests_of
@@ -205,6 +212,12 @@ def _test(
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
-    """Questions about a source's zone, when it began, unless its clock is had from another's, and times that repeat."""
+    """Questions about a source's zone, when it began, unless its clock is had from another's, times that repeat
+    and a clock that was set."""
     known = group.source in aligned or any(a.there == group.source for a in aligned.values())
-    return zone_question(group, groups), None if known else start_question(group, groups), repeats_question(group)
+    return (
+        zone_question(group, groups),
+        None if known else start_question(group, groups),
+        repeats_question(group),
+        set_back_question(group),
+    )
