@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from thermodata.draft.axis import axis_of
 from thermodata.draft.moved import Moved, moved_in
+from thermodata.draft.named_days import named_start
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.roles import said_by_name
@@ -145,6 +146,8 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     undated = [f.path.stem for f in files if f.start_ns is None]
     # beside recordings that date themselves, it is the names of the others that say when these began
     start = said.start if len(undated) == len(files) else said_by(undated).start if undated else None
+    if start is None and (start := named_start(files)) is not None:
+        comments.append("start guess: the date by the name, the time of day by the first row")
     comment = "; ".join(filter(None, (comment, *comments)))
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 

@@ -26,6 +26,7 @@ from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
+from thermodata.draft.named_days import over_midnight
 from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.orientation import why_idle
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
@@ -55,13 +56,13 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
-    groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
+    groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
     of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
     taken: set[str] = set()
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes = counted_on(groups)
+    notes = counted_on(groups) + joined
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = with_told_speeds(made, g)
