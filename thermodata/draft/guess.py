@@ -116,8 +116,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in parts_of(bare))
     own, text = words(_last(bare)), words(bare)
-    ends = dict.fromkeys((_last(bare), _field(bare), _last(units.without_value(bare))))
-    written = (rate or next(filter(None, map(units.from_name, ends)), None)) if not unit else None
+    ends = dict.fromkeys(
+        (_last(bare), _field(bare), _last(units.without_value(bare)), units.without_labels(_last(bare)))
+    )
+    written = (
+        (rate or next(filter(None, map(units.from_name, ends)), None) or units.inches(_last(name)))
+        if not unit
+        else None
+    )
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own
