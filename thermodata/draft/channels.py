@@ -10,6 +10,7 @@ from dataclasses import replace
 from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import called, guess
 from thermodata.draft.jumps import JumpTest
+from thermodata.draft.legend import IN_LEGEND
 from thermodata.draft.naming import channel_name, parts_of, words
 from thermodata.draft.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
@@ -122,9 +123,12 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         called_so[own.properties.get("description", "")] += 1
     if signal.dtype == "str" and None in seen.values():
         values = None  # words in one test that are no switch's
-    note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
+    where = signal.properties.get(IN_LEGEND)
+    note: str | None = f"called '{next(iter(called_so))}' in {where or 'the file'}"
+    note = note if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    said = replace(said, sure=False) if where else said
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

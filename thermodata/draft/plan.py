@@ -24,6 +24,7 @@ from thermodata.draft.hints import hinted
 from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
+from thermodata.draft.legend import with_legends
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
 from thermodata.draft.named_days import over_midnight
@@ -54,6 +55,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
+    found, legends = with_legends(folder, found)
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
@@ -62,7 +64,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes = counted_on(groups) + joined
+    notes = counted_on(groups) + joined + legends
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = with_told_speeds(made, g)
