@@ -18,6 +18,7 @@ from thermodata.reader.text.footer import footer_notes, is_footer
         ["Standard deviation", 0.25],
         ["$RT_COUNT$", "5965", "", ""],
         ["--- END ---"],
+        ["Fin de fichier"],
     ],
 )
 def test_statistics_and_marks_of_the_end_are_footers(cells: list[object]) -> None:
@@ -36,6 +37,7 @@ def test_statistics_and_marks_of_the_end_are_footers(cells: list[object]) -> Non
         ["08:00:00", "max", "24.1"],
         ["END", "of the line, 3000 rpm"],
         ["Maxwell", "24.1"],
+        ["Fin de cycle"],
         ["24.1", "Max"],
     ],
 )

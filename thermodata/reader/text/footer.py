@@ -14,7 +14,10 @@ _STATISTIC = re.compile(
     r"(minim|maxim)(um|ální)|průměr|moyenne|écart[ -]type|minimo|máximo|massimo|media|promedio|"
     r"(最大|最小|平均|中央|合計|合计|总计)[値值]?|(標準|标准)偏?差|최대값?|최소값?|평균값?|합계"
 )
-_END = re.compile(r"(?i)\$rt_[a-z]+\$|[-=*# ]*(end|ende|eof|end of (file|data|record)|dateiende|konec|fin)[-=*#. ]*")
+_END = re.compile(
+    r"(?i)\$rt_[a-z]+\$|[-=*# ]*(end|ende|eof|end of (file|data|record)|dateiende|konec( souboru)?|"
+    r"fin( de fichier| del archivo)?)[-=*#. ]*"
+)
 _THOUSANDS = re.compile(r"(?<=\d)[ \u00a0\u202f'’](?=\d{3}(?!\d))")
 _NOTED = 4
 
