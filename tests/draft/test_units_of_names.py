@@ -26,6 +26,12 @@ def _seen(low: float, high: float) -> Values:
         ("/probe/dZ_um.data", 0, 30, "displacement", "um"),
         ("T_spindle_m", 20, 30, "temperature", "degC"),  # of a motor
         ("T_kw", 20, 30, "temperature", "degC"),  # cooling water
+        ("/drive.power_w", 0, 9000, "power", "W"),
+        ("drive_power_w", 0, 9, "power", None),  # of a phase
+        ('displacement_um {axis="X"}', 0, 30, "displacement", "um"),
+        ('power {unit_w="X"}', 0, 9000, "power", None),
+        ("X_ERR(IN)", 0, 0.003, "position", "in"),  # asked: or a displacement?
+        ("COOLANT (IN)", 20, 30, "temperature", "degC"),  # an inlet
         ("pump_hp", 1, 9, None, None),  # high pressure
     ],
 )
@@ -39,6 +45,13 @@ def test_the_end_of_a_name_is_its_unit_beside_a_quantity_that_has_it(
 def test_a_question_offers_horsepower_and_metres() -> None:
     assert "kW, W or hp?" in guess("spindle_power", None, "float64", _seen(1, 7)).comment()
     assert "um, mm, m or V?" in guess("dX", None, "float64", _seen(0, 3e-5)).comment()
+
+
+def test_turns_a_second_are_asked_and_drafted_of_a_tacho() -> None:
+    assert (said := guess("AI/tacho", "1/s")).quantity == "rotational_speed"
+    assert said.unit == "1/s"
+    assert "quantity: rotational_speed, in turns a second" in guess("AI/ch3", "1/s").comment()
+    assert "no quantity has the unit Hz" in guess("AI/ch3", "Hz").comment()
 
 
 @pytest.mark.parametrize("name", ["/temps.temps[0]", "/thermo.temps", "mc/temps"])

@@ -52,6 +52,15 @@ def test_it_is_told_too_where_only_another_test_is_looked_at(store: Store, tmp_p
     assert [test for test, _ in losses(ingest(store, path))] == ["a"]
 
 
+@pytest.mark.parametrize("channels", ["{}", "{T9: {source: log, signal: T1, quantity: temperature}}"])
+def test_an_ingest_that_brings_nothing_says_so(store: Store, tmp_path: Path, channels: str) -> None:
+    path = write(tmp_path / "lab", {"a": "3000"})
+    before, _, rest = path.read_text().partition("channels:\n")
+    path.write_text(f"{before}channels: {channels}\ntests:{rest.partition('tests:')[2]}")
+    said = " ".join(reason for _, reason in losses(ingest(store, path)))
+    assert ("no sample of 1 file of 1 test is in the store: no channel is declared" in said) == (channels == "{}")
+
+
 def test_an_empty_channel_that_is_declared_missing_is_none(store: Store, tmp_path: Path) -> None:
     path = write(tmp_path / "lab", {"a": "3000", "b": ""}, missing_in=", missing_in: [b]")
     assert losses(ingest(store, path)) == []

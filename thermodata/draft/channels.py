@@ -10,6 +10,7 @@ from dataclasses import replace
 from thermodata.draft.axis import axis_of
 from thermodata.draft.guess import called, guess
 from thermodata.draft.jumps import JumpTest
+from thermodata.draft.legend import IN_LEGEND
 from thermodata.draft.naming import channel_name, parts_of, words
 from thermodata.draft.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.orientation import calibration_of, reads_a_length, sign_of
@@ -22,7 +23,8 @@ from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
+from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -58,6 +60,9 @@ def channels_of(
         if said.quantity is None and signal.unit is None and _counts_rows(one):
             notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
             continue
+        if (of := _unit_of(one, found)) is not None:
+            notes.append(f"{group.source}: '{one.written}' holds the unit of '{of.written}', which is taken: left out")
+            continue
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
@@ -88,6 +93,14 @@ def _counts_rows(one: OneSignal) -> bool:
     return bool(seen) and all(v is not None and v.counts_rows for v in seen)
 
 
+def _unit_of(one: OneSignal, found: Sequence[OneSignal]) -> OneSignal | None:
+    """The one signal of numbers beside a column of units, which has its unit from there."""
+    if one.signal.dtype != "str" or bare_header(one.signal.name) not in UNIT_WORDS:
+        return None
+    beside = [o for o in found if o.signal.stream == one.signal.stream and o.signal.dtype != "str"]
+    return beside[0] if len(beside) == 1 and beside[0].signal.unit else None
+
+
 def _moved_probe(said: Guess, name: str) -> Guess:
     """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
     letter = (axis_of(words(parts_of(name)[-1])) or "").upper()
@@ -110,9 +123,12 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         called_so[own.properties.get("description", "")] += 1
     if signal.dtype == "str" and None in seen.values():
         values = None  # words in one test that are no switch's
-    note = f"called '{next(iter(called_so))}' in the file" if len(called_so) == 1 and "" not in called_so else None
+    where = signal.properties.get(IN_LEGEND)
+    note: str | None = f"called '{next(iter(called_so))}' in {where or 'the file'}"
+    note = note if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    said = replace(said, sure=False) if where else said
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

@@ -122,6 +122,20 @@ def repeats_question(group: Group) -> str | None:
     return None
 
 
+def set_back_question(group: Group) -> str | None:
+    """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
+    follows."""
+    for file in group.files:
+        said = file.sample.set_back
+        if said is not None and file.block is None and not any("resets: allow" in a.ask for a in file.asked):
+            return (
+                f"row {said.row} of {file.path.name} is {said.by_ns / 1e9:g} s earlier than the rows before, and what "
+                "follows is lost: was the clock set back there? then clock: {resets: allow} joins it; if another test "
+                "begins there, cut the file"
+            )
+    return None
+
+
 def _undated(file: RawFile) -> bool:
     return file.recording.clock == "relative" and file.recording.start_ns is None
 

@@ -21,6 +21,7 @@ from thermodata.draft.quantity import NO_READING, Guess, quantity_of, range_text
 from thermodata.draft.values import Values
 from thermodata.draft.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
 from thermodata.plugin import Signal
+from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 
@@ -28,6 +29,7 @@ from thermodata.schema.quantity import is_unit, normal_unit
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
 _OF_ROWS = re.compile(r"__index_level_\d+__|Unnamed: 0")  # what pandas calls its numbers of rows
 _OF_ITSELF = re.compile(r"\$RT_[A-Z]+\$")  # what WinCC puts between the rows of its tags: $RT_OFF$, $RT_DIS$
+SENSOR = "sensor"  # the property of a signal whose file is that of one sensor, by which it is called
 NUMBERED = re.compile(r"column \d+(?:#\d+)?")
 _IMPLIED = {
     "temperature": "degC",
@@ -78,11 +80,20 @@ _NEEDS_PLACE = (
 )
 
 
+def says_nothing(name: str) -> bool:
+    """Whether a signal is called 'value', or as its column is."""
+    bare = split_unit(name)[0].strip()
+    return bare.casefold() in VALUE_WORDS or NUMBERED.fullmatch(bare) is not None
+
+
 def called(signal: Signal) -> str:
     """A signal's name with the head of the group that it stands under, "Displacements/X", and what the file says of it:
-    behind the address of a channel, which says nothing, "CH1/Spindle front", but before a name."""
+    behind the address of a channel, which says nothing, "CH1/Spindle front", but before a name. Where files of
+    several sensors have the same signals, their own names tell what these are."""
     group, name = signal.properties.get("group"), signal.name
     said = re.sub(r"\s*[/\\]\s*", " ", signal.properties.get("description", ""))
+    if sensor := signal.properties.get(SENSOR):
+        name = sensor if says_nothing(name) else f"{sensor} {name}"
     if said and _ADDRESS.fullmatch(split_unit(name)[0]):
         return "/".join(filter(None, (group, split_unit(name)[0], said)))
     return "/".join(filter(None, (group, said, name)))
@@ -105,8 +116,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in parts_of(bare))
     own, text = words(_last(bare)), words(bare)
-    ends = dict.fromkeys((_last(bare), _field(bare), _last(units.without_value(bare))))
-    written = (rate or next(filter(None, map(units.from_name, ends)), None)) if not unit else None
+    ends = dict.fromkeys(
+        (_last(bare), _field(bare), _last(units.without_value(bare)), units.without_labels(_last(bare)))
+    )
+    written = (
+        (rate or next(filter(None, map(units.from_name, ends)), None) or units.inches(_last(name)))
+        if not unit
+        else None
+    )
     field = words(_field(bare))
     # the field of a message says what it is, its topic only where it comes from: '/thermo.speed'
     what = field if quantities_in(field) else own

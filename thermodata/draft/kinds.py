@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from thermodata.draft.axis import axis_of
 from thermodata.draft.moved import Moved, moved_in
+from thermodata.draft.named_days import named_start
 from thermodata.draft.naming import words
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.roles import said_by_name
@@ -142,7 +143,11 @@ def kind_of(test: str, files: Sequence[RawFile], listed: Mapping[str, str] = _NO
     if kind == "spindle" and "speed" not in conditions and len(moved.speeds) == 1 and moved.whole:
         conditions["speed"] = f"{moved.speeds[0]:g} rpm"
         comments.append("speed sure: data")
-    start = None if any(f.start_ns is not None for f in files) else said.start
+    undated = [f.path.stem for f in files if f.start_ns is None]
+    # beside recordings that date themselves, it is the names of the others that say when these began
+    start = said.start if len(undated) == len(files) else said_by(undated).start if undated else None
+    if start is None and (start := named_start(files)) is not None:
+        comments.append("start guess: the date by the name, the time of day by the first row")
     comment = "; ".join(filter(None, (comment, *comments)))
     return Kind(kind, comment, question, conditions, tuple(doubts), hint, start)
 

@@ -9,7 +9,14 @@ from pathlib import Path
 
 from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
-from thermodata.draft.clocks import Alignment, alignments, repeats_question, start_question, zone_question
+from thermodata.draft.clocks import (
+    Alignment,
+    alignments,
+    repeats_question,
+    set_back_question,
+    start_question,
+    zone_question,
+)
 from thermodata.draft.date_order import with_orders_told
 from thermodata.draft.file_copies import other_versions
 from thermodata.draft.group import counted_on, files_of, tests_of
@@ -17,8 +24,10 @@ from thermodata.draft.hints import hinted
 from thermodata.draft.jump_sources import with_their_sources
 from thermodata.draft.jumps import JumpTest, jump_of
 from thermodata.draft.kinds import kind_of
+from thermodata.draft.legend import with_legends
 from thermodata.draft.letters_of_files import common
 from thermodata.draft.measuring import Named, rule_of
+from thermodata.draft.named_days import over_midnight
 from thermodata.draft.one_or_many import one_or_many
 from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.orientation import why_idle
@@ -27,6 +36,7 @@ from thermodata.draft.raw_file import RawFile
 from thermodata.draft.roles import said_by_list
 from thermodata.draft.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.scan import Scan
+from thermodata.draft.sensor_files import with_their_sensors
 from thermodata.draft.siblings import beside_each_other
 from thermodata.draft.sources import Group, sources_of
 from thermodata.draft.speeds_told import with_told_speeds
@@ -45,10 +55,11 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
         )
         found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
-    found = replace(found, logs=with_orders_told(folder, found.logs))
+    found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
+    found, legends = with_legends(folder, found)
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
-    groups = tests_of(sources_of(found.logs, [j.file for j in jumps]))
+    groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
     of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
@@ -56,7 +67,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes = counted_on(groups)
+    notes = counted_on(groups) + joined + legends
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = with_told_speeds(made, g)
@@ -212,6 +223,12 @@ def _test(
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
-    """Questions about a source's zone, when it began, unless its clock is had from another's, and times that repeat."""
+    """Questions about a source's zone, when it began, unless its clock is had from another's, times that repeat
+    and a clock that was set."""
     known = group.source in aligned or any(a.there == group.source for a in aligned.values())
-    return zone_question(group, groups), None if known else start_question(group, groups), repeats_question(group)
+    return (
+        zone_question(group, groups),
+        None if known else start_question(group, groups),
+        repeats_question(group),
+        set_back_question(group),
+    )

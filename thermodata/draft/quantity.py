@@ -124,6 +124,9 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     if by_name:
         return Guess(by_name, unit, sure=True, basis=("name", "unit"))
     normal = normal_unit(unit)
+    if not possible and units.converts(unit, "rotational_speed") and "hz" not in unit.casefold():
+        turns = f"quantity: rotational_speed, in turns a second, or a frequency? ({range_text(values)})"
+        return Guess(None, unit, why_not=turns)
     if not possible and normal not in units.SHARES:
         return Guess(None, unit, why_not=f"no quantity has the unit {unit}")
     against = [q for q in named if q != "state"]

@@ -51,7 +51,8 @@ class RawFile:
     whose header was taken for this one's, where there was no time to read it; asked: what it does not say; table: the
     answers by which it was looked at meanwhile; sheet: of a workbook whose sheets are tests; block: of a table whose
     rows name their tests; besides: why others of its sheets are none; letters: the encoding of a text that is no ASCII;
-    delivered: what its reader gives, where columns of it are left out of `recording`."""
+    delivered: what its reader gives, where columns of it are left out of `recording`; sensor: the one that it is of
+    among the files of a test."""
 
     path: PurePosixPath
     reader: str
@@ -66,6 +67,7 @@ class RawFile:
     besides: tuple[str, ...] = ()
     letters: str | None = None
     delivered: Recording | None = None
+    sensor: str | None = None
 
     @property
     def source(self) -> Source:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.guess import guess_of
+from thermodata.draft.guess import guess_of, says_nothing
 from thermodata.draft.quantity import Guess
+from thermodata.draft.set_back import Clock, SetBack, first_of
 from thermodata.draft.values import Values, bare_word, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
@@ -65,7 +66,8 @@ class RepeatedTimes:
 @dataclass(frozen=True, slots=True)
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
-    for; first_ns, last_ns: of what was read; failed: what ended the reading of it; repeats: of times."""
+    for; first_ns, last_ns: of what was read; failed: what ended the reading of it; repeats: of times; set_back: the
+    clock, within the file."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -77,13 +79,14 @@ class Sample:
     rows: int = 0
     failed: str = ""
     repeats: RepeatedTimes = RepeatedTimes()
+    set_back: SetBack | None = None
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
     """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
     bytes."""
     watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
-    repeats = RepeatedTimes()
+    repeats, clocks = RepeatedTimes(), dict[str, Clock]()
     values: dict[tuple[str, str], Values] = {}
     parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
     wanted, worded = _courses(recording.signals), set[tuple[str, str]]()
@@ -99,6 +102,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
             _take(item, values, parts, wanted, worded)
             unseen.discard(item.stream)
             repeats = repeats.beside(item.t_ns)
+            clocks.setdefault(item.stream, Clock()).add(item)
             first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
             last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
             rows += item.t_ns.size
@@ -113,7 +117,17 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
     finally:
         items.close()  # type: ignore[attr-defined]
     return Sample(
-        values, {k: _thinned(v) for k, v in parts.items()}, whole, hurried, first, last, losses, rows, failed, repeats
+        values,
+        {k: _thinned(v) for k, v in parts.items()},
+        whole,
+        hurried,
+        first,
+        last,
+        losses,
+        rows,
+        failed,
+        repeats,
+        first_of(clocks),
     )
 
 
@@ -130,7 +144,9 @@ def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
     others: list[tuple[str, str]] = []
     for signal in signals:
         said: Guess = guess_of(signal)
-        if said.quantity in (*_COURSE, *_COURSE_IF_ROOM) and signal.dtype != "str":
+        # what a bare 'value' is, its file's name may say
+        unsaid = said.quantity is None and says_nothing(signal.name)
+        if (unsaid or said.quantity in (*_COURSE, *_COURSE_IF_ROOM)) and signal.dtype != "str":
             (found if said.quantity in _COURSE else others).append((signal.stream, signal.name))
     return set((found + others)[:_MOST_COURSES])
 

@@ -52,13 +52,14 @@ def recordings_in(starts: Sequence[int | None], samples: Sequence[Sample]) -> in
     other rates show it."""
     home = list(range(len(samples)))
     for one, other in combinations(range(len(samples)), 2):
-        if _at_once(starts[one], samples[one], starts[other], samples[other]):
+        if at_once(starts[one], samples[one], starts[other], samples[other]):
             home = [home[one] if h == home[other] else h for h in home]
     ran = Counter(home)
     return len(ran) if ran and min(ran.values()) > 1 else 0
 
 
-def _at_once(a_start: int | None, a: Sample, b_start: int | None, b: Sample) -> bool:
+def at_once(a_start: int | None, a: Sample, b_start: int | None, b: Sample) -> bool:
+    """Whether one recording ran while another did."""
     if a_start is None or b_start is None:
         ended = a.whole and b.whole and a.last_ns is not None and a.last_ns == b.last_ns and a.first_ns == b.first_ns
         return ended and max(a.rows, b.rows) >= _RATES_APART * min(a.rows, b.rows)

@@ -133,7 +133,7 @@ def _kind(file: RawFile) -> tuple[object, ...]:
     # some have a header
     told = [a.declare for a in file.asked if not {"format", "start"} & {*a.declare.get("time", {})}]
     told = [d for d in told if not {"decimal", "names"} & {*d}]
-    return file.reader, file.path.suffix.lower(), file.sheet is not None, repr(told)
+    return file.reader, file.path.suffix.lower(), file.sheet is not None, file.sensor, repr(told)
 
 
 def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
@@ -184,7 +184,10 @@ def _name(cluster: Sequence[RawFile], clusters: Sequence[Sequence[RawFile]], tak
     own = sorted(everywhere - elsewhere - {"raw", "data", "log", "test"}, key=lambda p: (len(p), p))
     alone = len(cluster) == 1 or len(clusters) == 1
     base = _NAMES.get(cluster[0].reader, cluster[0].reader)
-    if own and not alone and plain(own[0])[:1].isalpha():
+    sensor = plain(cluster[0].sensor or "")
+    if sensor[:1].isalpha():
+        base = sensor
+    elif own and not alone and plain(own[0])[:1].isalpha():
         base = plain(own[0])
     name, n = base[:30], 1
     while name.lower() in taken:

@@ -16,10 +16,10 @@ from thermodata.draft.vocabulary import quantities_in, says
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
 
-_LARGEST = 4_000_000
+LARGEST = 4_000_000
 _ROWS_A_TEST = 4  # a table of tests has about a row a test; what has hundreds of rows for a few tests is a log
-_WORKBOOKS = (".xlsx", ".xlsm")
-_SUFFIXES = (".csv", ".txt", ".tsv", *_WORKBOOKS)
+WORKBOOKS = (".xlsx", ".xlsm")
+SUFFIXES = (".csv", ".txt", ".tsv", *WORKBOOKS)
 INSTALL = "pip install 'thermodata[workbook]'"
 _NAMED = (
     "test tests versuch zkousk mereni plan protocol protokoll matrix 试验 测试 实验 runs uebersicht ubersicht overview"
@@ -51,14 +51,14 @@ def find_table(
     number at the end of their names too."""
     if not tests:
         return None
-    tables = [c for c in candidates if Path(c).suffix.lower() in _SUFFIXES]
+    tables = [c for c in candidates if Path(c).suffix.lower() in SUFFIXES]
     tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
     most = most_rows(len(tests))
     for candidate in tables[:20]:
         path = folder / candidate
-        if path.stat().st_size > _LARGEST:
+        if path.stat().st_size > LARGEST:
             continue
-        for rows in _grids(path, most, {normal(t) for t in tests}):
+        for rows in grids_of(path, most, {normal(t) for t in tests}):
             found = _read(candidate, rows, tests, by_number)
             if found is not None:
                 return found
@@ -72,12 +72,12 @@ def most_rows(tests: int) -> int:
 
 def is_called_table(path: str) -> bool:
     """Whether a name says table of tests."""
-    return Path(path).suffix.lower() in _SUFFIXES and says(_NAMED, words(Path(path).stem))
+    return Path(path).suffix.lower() in SUFFIXES and says(_NAMED, words(Path(path).stem))
 
 
 def closed_workbooks(paths: Sequence[str]) -> list[str]:
     """A note on each workbook that is called a table of tests, where nothing is installed that opens it."""
-    called = [p for p in paths if Path(p).suffix.lower() in _WORKBOOKS and is_called_table(p)]
+    called = [p for p in paths if Path(p).suffix.lower() in WORKBOOKS and is_called_table(p)]
     if not called or _opens_workbooks():
         return []
     return [
@@ -95,14 +95,16 @@ def _opens_workbooks() -> bool:
     return True
 
 
-def _grids(path: Path, most: int, tests: Set[str]) -> Iterator[list[list[str]]]:
-    """The rows of a table as text, where it has at most so many; of a workbook, of each sheet that is no test."""
-    if path.suffix.lower() in _WORKBOOKS:
+def grids_of(path: Path, most: int, tests: Set[str] = frozenset()) -> Iterator[list[list[str]]]:
+    """The rows of a table as text, where it has at most so many; of a workbook, of each sheet that is no test and
+    that somebody shows."""
+    if path.suffix.lower() in WORKBOOKS:
         try:
-            from python_calamine import load_workbook
+            from python_calamine import SheetVisibleEnum, load_workbook
 
             book = load_workbook(str(path))
-            for name in [n for n in book.sheet_names if normal(n) not in tests][:5]:
+            shown = [s.name for s in book.sheets_metadata if s.visible == SheetVisibleEnum.Visible]
+            for name in [n for n in shown if normal(n) not in tests][:5]:
                 rows = book.get_sheet_by_name(name).to_python()
                 if len(rows) <= most:
                     yield [[_text(c) for c in row] for row in rows]

@@ -33,8 +33,10 @@ def pattern_of(draft: Draft) -> Pattern | None:
     """The pattern of all tests' names with a condition in it; None where there is none, or where tests differ in more
     than their conditions."""
     tests = draft.tests
-    if len(tests) < _LEAST or len({t.kind.kind for t in tests}) > 1 or any(t.files for t in tests) or draft.table:
+    if len(tests) < _LEAST or len({t.kind.kind for t in tests}) > 1 or draft.table:
         return None
+    if any(t.files or t.kind.start for t in tests):
+        return None  # each has its own
     source = next(
         (
             s

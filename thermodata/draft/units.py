@@ -62,15 +62,18 @@ _COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|
 # but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
 _BESIDE: Mapping[str, Mapping[str, str]] = {
     # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
-    "power": {"kw": "kW", "hp": "hp"},
+    "power": {"kw": "kW", "hp": "hp", "w": "W"},
     "displacement": {"m": "m", "nm": "nm"},
     "position": {"m": "m"},
     "temperature": {"k": "K"},
 }
 _LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
 _COLDEST_K = 250.0
+_MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
 _FURTHEST_M = 0.05  # no tool is displaced by more
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
+_LABELS = re.compile(r"\s*\{[^{}]*\}$")
+_INCH = re.compile(r"[XYZUVW](?:[_ ]?[A-Z]+)*[_ ]?\(IN\)$")
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
@@ -98,6 +101,8 @@ def beside(name: str, quantity: str | None, values: Values | None) -> str | None
     unit = _BESIDE.get(quantity or "", {}).get(match[1])
     if unit == "m" and quantity == "displacement":
         return unit if values is not None and values.high - values.low < _FURTHEST_M else None
+    if unit == "W":
+        return unit if values is not None and values.high > _MOST_KW else None
     if unit == "K":
         return unit if values is not None and values.low > _COLDEST_K else None
     return unit
@@ -106,6 +111,16 @@ def beside(name: str, quantity: str | None, values: Values | None) -> str | None
 def without_value(name: str) -> str:
     """A path of names without a last one that says nothing: 'mc/probe/dZ_um/value' -> 'mc/probe/dZ_um'."""
     return _VALUE.sub("", name) or name
+
+
+def without_labels(name: str) -> str:
+    """A name without Prometheus' labels behind it: 'displacement_um {axis="X"}' -> 'displacement_um'."""
+    return _LABELS.sub("", name) or name
+
+
+def inches(name: str) -> str | None:
+    """The inch of 'X_ERR(IN)', in capitals as controls print; beside an axis alone, for 'COOLANT (IN)' is an inlet."""
+    return "in" if _INCH.match(name.strip()) else None
 
 
 def counts_or_range(name: str) -> str | None:

@@ -21,7 +21,7 @@ _QUANTITY_WORDS: dict[str, str] = {
     "spindlespeed "
     "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
     "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
-    "转速 轉速 回转速度 主轴速度 vact~spindle "
+    "tacho. tachometer tachogenerator tachometr 转速 轉速 回转速度 主轴速度 vact~spindle "
     "n. rotvel ot~vret ot~vretene ot~vreteno ot~vretena ot~prac~vret ot~prac~vretene",
     "feed": "vorschub feedrate feed. ^feed~rate feed~act actfeed posuv 进给 進給 frt. actf. fact. pathfeed "
     "v~act v~actual vact. vaxis. bahngeschw feed~speed",

@@ -98,6 +98,8 @@ def why_no_table(path: Path) -> str | None:
     text = decode_head(start.start)
     if text is None or "table" not in readers() or find_delimiter(text.splitlines()) is None:
         return None
+    if _no_table(text) is not None:
+        return None  # what it is says already what to do
     _, tried, why = _why_not("table", path, start, asked=True).partition(_TRIED)
     return why if tried else None
 

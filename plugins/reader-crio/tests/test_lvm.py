@@ -92,6 +92,25 @@ def test_channels_with_x_columns_of_their_own(tmp_path: Path) -> None:
     np.testing.assert_array_equal(other.t_ns["data"] - START, [0, S // 2])
 
 
+@pytest.mark.parametrize("samples", ["2\t\t4", "4\t\t2"])
+def test_a_slower_channel_ends_before_the_others(tmp_path: Path, samples: str) -> None:
+    heading = packet(["a", "b"], x="X_Value\ta\tX_Value\tb", gap="\t\t").replace(
+        "Samples\t3\t\t3", f"Samples\t{samples}"
+    )
+    long, short = ("b", "a") if samples.startswith("2") else ("a", "b")
+    rows = [("0,0\t1", "0,0\t5"), ("1,0\t2", "0,5\t6"), ("\t", "1,0\t7"), ("\t", "1,5\t8")]
+    lines = ["\t".join(r if long == "b" else r[::-1]) for r in rows]
+    data = read(tmp_path, head("Multi") + heading + "\n".join(lines) + "\n")
+    assert not data.losses
+    found = {name: values.tolist() for (_, name), values in data.values.items() if name in ("a", "b")}
+    assert found == {long: [5, 6, 7, 8], short: [1, 2]}
+    # a value without a time behind its end, and one in the longer channel, are lost all the same
+    for k, row in ((2, ("\t9", rows[2][1])), (3, ("\t", "\t8"))):
+        lines = ["\t".join(r if long == "b" else r[::-1]) for r in [*rows[:k], row, *rows[k + 1 :]]]
+        (loss,) = read(tmp_path, head("Multi") + heading + "\n".join(lines) + "\n").losses
+        assert loss.reason == "1 lines that are no rows of 4 numbers"
+
+
 def test_x_values_in_seconds_since_1904_are_absolute(tmp_path: Path) -> None:
     x = START // S + 2_082_844_800
     text = head("One") + packet(["a"], x="X_Value\ta") + f"{x},0\t1\n{x + 1},0\t2\n"

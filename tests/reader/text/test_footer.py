@@ -13,10 +13,12 @@ from thermodata.reader.text.footer import footer_notes, is_footer
         ["Max", "", "24.1"],
         ["", "Mittelwert:", "22,5", "--"],
         ["Std.Abw.", "0.1"],
+        ["Max", "32,21", "5 000", "1\u202f317,5"],
         ["最大値", "25.1"],
         ["Standard deviation", 0.25],
         ["$RT_COUNT$", "5965", "", ""],
         ["--- END ---"],
+        ["Fin de fichier"],
     ],
 )
 def test_statistics_and_marks_of_the_end_are_footers(cells: list[object]) -> None:
@@ -30,10 +32,12 @@ def test_statistics_and_marks_of_the_end_are_footers(cells: list[object]) -> Non
         ["", ""],
         ["Max"],
         ["Max", "broken", "24.1"],
+        ["Max", "5 00 24.1"],
         ["Max", "2026-03-02", "24.1"],
         ["08:00:00", "max", "24.1"],
         ["END", "of the line, 3000 rpm"],
         ["Maxwell", "24.1"],
+        ["Fin de cycle"],
         ["24.1", "Max"],
     ],
 )

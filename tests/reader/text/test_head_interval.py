@@ -19,6 +19,7 @@ HEAD = [["Scan", "T front", "dZ"]]
         (["Intervall [min]", "5"], "300 s"),
         (["# Interval = 00:00:30"], "30 s"),
         (["Messintervall", "500", "ms"], "0.5 s"),
+        (["Storage cycle", "2000 ms"], "2 s"),
     ],
 )
 def test_an_interval_above_the_rows_is_proposed(line: list[str], period: str) -> None:
@@ -29,7 +30,7 @@ def test_an_interval_above_the_rows_is_proposed(line: list[str], period: str) ->
     assert find([["Logger XY"], line, *HEAD, *ROWS], asked.value.declare, "here").groups[0].counted
 
 
-@pytest.mark.parametrize("line", [["Spindle speed: 2 s"], ["Sample interval: auto"], ["Rate: 3 K"], ["Interval: 0 s"]])
+@pytest.mark.parametrize("line", [["Spindle speed: 2 s"], ["Sample interval: auto"], ["Cycle: 2 s"], ["Interval: 0 s"]])
 def test_what_says_no_interval_leaves_the_question_open(line: list[str]) -> None:
     with pytest.raises(QuestionError) as asked:
         find([["Logger XY"], line, *HEAD, *ROWS], None, "here")

@@ -51,6 +51,7 @@ def read(
         ["Acquisition date: 2026-03-02 08:00:00+01:00"],
         ["Start of measurement: 02-Mar-2026 07:00:00"],
         ["開始日時;2026/03/02 07:00:00"],
+        ["Storage start;2026/03/02 07:00:00.000"],
     ],
 )
 @pytest.mark.parametrize("rows", [NUMBERS, ELAPSED])
@@ -96,6 +97,7 @@ def test_the_order_of_day_and_month_is_asked_and_answered(tmp_path: Path, start:
     [
         ["Exported: 02.03.2026 07:00:00"],
         ["Report date: 02.03.2026 07:00"],
+        ["Storage date: 02.03.2026 07:00"],
         ["Export started: 02.03.2026 07:00"],
         ["Date: 02.03.2026", "Time: 07:00:00"],
         ["Recording date: 02.03.2026", "Recording time: 07:00:00"],  # which may be how long it took

@@ -110,7 +110,9 @@ def test_words_for_nothing(word: str) -> None:
     assert not is_overload(word)
 
 
-@pytest.mark.parametrize("word", ["OL", "-OL", "+OVER", "Overload", "BURNOUT", "over range", "+++++++", "Open TC"])
+@pytest.mark.parametrize(
+    "word", ["OL", "-OL", "+OVER", "Overload", "BURNOUT", "over range", "+++++++", "Open TC", "+FFFFFFF", "-FFFFFFF"]
+)
 def test_words_for_overload(word: str) -> None:
     assert is_overload(word)
     assert not is_empty(word)

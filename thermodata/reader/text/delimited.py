@@ -22,6 +22,7 @@ from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.table import Table
 from thermodata.reader.text.table_rows import RowReader
+from thermodata.reader.text.unit_column import in_one_unit
 from thermodata.reader.time_units import EPOCHS
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 
@@ -40,7 +41,10 @@ def signals(table: Table) -> tuple[Signal, ...]:
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
     )
-    return found if table.series is None else table.series.signals(found)
+    if table.series is not None:
+        return table.series.signals(found)
+    told = table.unit
+    return found if told is None else tuple(replace(s, unit=told.unit) if s.name == told.of else s for s in found)
 
 
 def describe(table: Table, source: Source) -> Recording:
@@ -120,7 +124,7 @@ def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     """The rows in chunks of the file, and a loss for each part that does not read."""
     rows = _rows(path, table, source)
     if table.series is None:
-        yield from rows
+        yield from rows if table.unit is None else in_one_unit(rows, table.unit, table.name)
         return
     apart = TakenApart(table.series, table.name)
     for item in rows:

@@ -27,6 +27,7 @@ from thermodata.reader.text.row_series import with_series
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
+from thermodata.reader.text.unit_column import unit_column
 from thermodata.reader.text.zone_named import zones_said
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.zone import NAT
@@ -163,6 +164,7 @@ def find_table(
     if declared is None:
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
+    bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
     if not any(g.absolute for g in groups):
@@ -194,6 +196,7 @@ def find_table(
         blanks=blanks,
         begin=begin,
         zone=zone,
+        unit=unit_column(bare, cells_of) if len(groups) == 1 else None,
     )
 
 

@@ -55,7 +55,7 @@ def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
         "no data rows found",
         where=where,
         expected="rows of numbers and times",
-        hint="declare table: {header_rows: ..., skip_rows: ...}",
+        hint="nothing was recorded, if it is a header alone; else declare table: {header_rows: ..., skip_rows: ...}",
     )
 
 

@@ -14,7 +14,11 @@ _STATISTIC = re.compile(
     r"(minim|maxim)(um|ální)|průměr|moyenne|écart[ -]type|minimo|máximo|massimo|media|promedio|"
     r"(最大|最小|平均|中央|合計|合计|总计)[値值]?|(標準|标准)偏?差|최대값?|최소값?|평균값?|합계"
 )
-_END = re.compile(r"(?i)\$rt_[a-z]+\$|[-=*# ]*(end|ende|eof|end of (file|data|record)|dateiende|konec|fin)[-=*#. ]*")
+_END = re.compile(
+    r"(?i)\$rt_[a-z]+\$|[-=*# ]*(end|ende|eof|end of (file|data|record)|dateiende|konec( souboru)?|"
+    r"fin( de fichier| del archivo)?)[-=*#. ]*"
+)
+_THOUSANDS = re.compile(r"(?<=\d)[ \u00a0\u202f'’](?=\d{3}(?!\d))")
 _NOTED = 4
 
 
@@ -25,7 +29,7 @@ def is_footer(cells: Sequence[Cell]) -> bool:
     if not full:
         return False
     first, others = full[0].rstrip(" :=."), full[1:]
-    numbers = all(is_number(c) or not any(map(str.isalnum, c)) for c in others)
+    numbers = all(is_number(_THOUSANDS.sub("", c)) or not any(map(str.isalnum, c)) for c in others)
     return numbers and (_END.fullmatch(first) is not None or (bool(others) and _STATISTIC.fullmatch(first) is not None))
 
 

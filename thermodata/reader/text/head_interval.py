@@ -11,14 +11,14 @@ from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.time_units import SECONDS
 
 _LABEL = re.compile(
-    r"(?i)(?:(?:sampl(?:e|ing)|scan|log(?:ging)?|record(?:ing)?|measur(?:e|ing|ement)|data|time)[ _-]*)?"
-    r"(?P<what>interval|period|step|rate|frequency)|(?:abtast|mess|log|aufzeichnungs|speicher)?-?(?P<de>intervall|zeit|"
+    r"(?i)(?:(?:sampl(?:e|ing)|scan|log(?:ging)?|record(?:ing)?|measur(?:e|ing|ement)|data|time|storage)[ _-]*)?"
+    r"(?P<what>interval|period|step|rate|frequency|cycle)|(?:abtast|mess|log|aufzeichnungs|speicher)?-?(?P<de>intervall|zeit|"
     r"periode|rate|frequenz|takt)|intervallo|intervalle|intervalo|période|periodo|interval vzorkování|perioda|"
     r"サンプリング間隔|サンプリング周期|采样间隔|采样周期|记录间隔"
 )
 _VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
 _CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)")
-_BARE_WORDS = ("zeit", "takt", "rate", "period", "step")  # which alone say another thing as well
+_BARE_WORDS = ("zeit", "takt", "rate", "period", "step", "cycle")  # which alone say another thing as well
 
 
 def interval_above(lines: Iterable[Sequence[str]]) -> tuple[float, str] | None:

@@ -43,7 +43,7 @@ _BARE = (
     "날짜 시간 일시"
 )
 _MADE = (
-    "created creation exported export printed print report saved written generated modified file save storage "
+    "created creation exported export printed print report saved written generated modified file save "
     "erstellt erstellungsdatum exportiert exportdatum gedruckt druckdatum druck bericht gespeichert "
     "speicherdatum creato creazione esportato stampa stampato rapporto salvato créé cree création exporté "
     "exporte imprimé imprime rapport enregistré creado creación creacion exportado impreso informe guardado "
@@ -53,7 +53,7 @@ _MADE = (
 _FILLING = (
     "of the at on in and for first sample samples value values reading data point und der des die das am um von "
     "vom ersten di del della dell dei delle e il la le les de du d l et y en el los local lokal absolute abs "
-    "absolut z ze do series channel"
+    "absolut z ze do series channel storage"
 )
 _WORDS = {
     **dict.fromkeys(_FILLING.split(), None),

@@ -24,6 +24,7 @@ EMPTY = frozenset(
 OVERLOAD = frozenset(
     (
         *("+" * n for n in range(3, 13)),
+        *(sign + "f" * n for sign in "+-" for n in range(4, 9)),  # Keyence's heads: '+FFFFFFF'
         *(
             sign + word
             for sign in ("", "+", "-")

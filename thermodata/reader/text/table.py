@@ -20,6 +20,7 @@ from thermodata.reader.text.lines import Sample, last_line_is_whole
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import Pairs
 from thermodata.reader.text.time_pattern import TimeFormat
+from thermodata.reader.text.unit_column import UnitColumn
 from thermodata.reader.time_units import SECONDS
 
 Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header
@@ -73,7 +74,7 @@ class Table:
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
-    hosts are taken apart."""
+    hosts are taken apart; unit: the column that holds the one of its numbers."""
 
     name: str
     sample: Sample
@@ -91,6 +92,7 @@ class Table:
     begin: Begin | None = None
     zone: tuple[str, str] | None = None
     series: Series | None = None
+    unit: UnitColumn | None = None
 
     @property
     def absolute(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
+from thermodata.reader.counted import counted
 from thermodata.schema.campaign import Campaign
 from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, loss_row
@@ -30,6 +31,20 @@ def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
         for source, _, channel in note.empty
         if (source, channel) in having and not campaign.channels[channel].may_lack(name)
     ]
+
+
+def nothing_brought(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:
+    """A loss where files were read, and not one sample of them stands in the store."""
+    files = {file for note in tests.values() for file in note.files}
+    if not files or any(note.samples for note in tests.values()):
+        return []
+    of = f"{counted(len(files), 'file')} of {counted(len(tests), 'test')}"
+    if not campaign.channels:
+        return [
+            loss_row(f"no sample of {of} is in the store: no channel is declared; try: answer the '# ?' below channels")
+        ]
+    names = list(campaign.channels)
+    return [loss_row(f"no sample of {of} is in the store: none of the channels has a value in any: {_some(names)}")]
 
 
 def _nothing_derived(campaign: Campaign, tests: Mapping[str, TestNote], having: Collection[str]) -> Losses:

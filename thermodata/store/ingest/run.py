@@ -19,6 +19,7 @@ from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
+from thermodata.store.ingest.empty_channels import nothing_brought
 from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
@@ -179,6 +180,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         *(dict(row) for note in notes.values() for row in note.losses),  # lines are of this campaign file
         *tidy_layer.losses,
         *raw_layer.empty_sources(list(notes.values())),
+        *nothing_brought(campaign, notes),
         *(loss_row(p) for p in problems),
     ]
     said = [*raw_layer.said[""].notes, *(n for note in notes.values() for n in note.notes), *tidy_layer.notes]

@@ -40,10 +40,14 @@ class PacketRows:
         """The blocks of all streams, then the losses."""
         cells = self._cells(rows)
         lost = {bad.line for bad in rows.bad} | {line for line, _ in rows.nul}
-        for count, group in enumerate(self.streams.groups(self.packet)):
+        unheld = np.ones(rows.n, bool)  # rows that no group should have so far: an empty one is told once
+        for group in self.streams.groups(self.packet):
             block, good = self._block(rows, group, cells)
+            goes_on = self._sampled(group, cells, rows.n)
             if good is not None:
-                lost |= set(rows.line[~good & (self._has_value(group, cells, rows.n) | (count == 0))].tolist())
+                said = self._has_value(group, cells, rows.n) | (unheld & goes_on)
+                lost |= set(rows.line[~good & said].tolist())
+            unheld &= ~goes_on
             size = self.block_rows or max(1, block.t_ns.size)
             for a in range(0, block.t_ns.size, size):
                 yield block.part(a, a + size)

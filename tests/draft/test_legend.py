@@ -1,0 +1,71 @@
+"""A table that says what signals are, beside the logs or as a sheet among them: its words are names to guess by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from .conftest import Said
+from .labs import workbook
+
+Say = Callable[..., Said]
+LEGEND = [("Kanal", "Messstelle", "Einheit"), ("T01", "Spindellager vorn", "°C"), ("T02", "Maschinenbett", "°C")]
+LEGEND += [("T03", "Hallenluft", "°C")]
+
+
+def _logs(folder: Path) -> None:
+    folder.mkdir(exist_ok=True)
+    for day in (2, 3):
+        rows = [f"2026-03-0{day} 08:{k:02d}:00;{21 + k / 20:.2f};{20 + k / 50:.2f};20.5{k % 3}" for k in range(60)]
+        (folder / f"t{day}.csv").write_text("\n".join(["Zeit;T01;T02;T03", *rows, ""]), encoding="utf-8")
+
+
+def _channels(folder: Path, say: Say) -> tuple[dict[str, Any], str]:
+    assert say("init", folder).code == 0
+    text = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    return {c["signal"]: c.get("at") for c in (yaml.safe_load(text)["channels"] or {}).values()}, text
+
+
+def _write(folder: Path, rows: Sequence[Sequence[str]]) -> None:
+    (folder / "legende.csv").write_text("".join(f"{';'.join(r)}\n" for r in rows), encoding="utf-8")
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0)])
+def test_a_legend_beside_the_logs_is_guessed_by(tmp_path: Path, say: Say, order: Sequence[int]) -> None:
+    _logs(tmp_path)
+    _write(tmp_path, [[row[i] for i in order] for row in LEGEND])
+    places, text = _channels(tmp_path, say)
+    assert places == {"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"}
+    assert "called 'Maschinenbett' in legende.csv" in text
+    assert "# note: legende.csv says what signals are: T01 is 'Spindellager vorn'" in text
+    assert "not used: legende.csv" not in text
+    assert "sure:" not in text
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [("Kanal", "Karte", "Einheit"), ("T01", "1", "°C"), ("T02", "2", "°C"), ("T03", "3", "°C")],
+        [("Kanal", "Art", "Einheit"), ("T01", "Pt100", "°C"), ("T02", "Pt100", "°C"), ("T03", "Pt100", "°C")],
+        [("Kanal", "Messstelle"), ("A1", "Spindellager vorn"), ("A2", "Maschinenbett"), ("A3", "Hallenluft")],
+    ],
+)
+def test_numbers_one_word_and_other_names_are_none(tmp_path: Path, say: Say, rows: Sequence[Sequence[str]]) -> None:
+    _logs(tmp_path)
+    _write(tmp_path, rows)
+    places, text = _channels(tmp_path, say)
+    assert set(places.values()) <= {None}
+    assert "says what signals are" not in text
+
+
+def test_a_sheet_is_one_too(tmp_path: Path, say: Say) -> None:
+    times = [f"2026-03-02 08:{k:02d}:00" for k in range(60)]
+    data = [("Zeit", "T01", "T02", "T03"), *((t, 21 + k / 20, 20 + k / 50, 20.5) for k, t in enumerate(times))]
+    workbook(tmp_path / "log.xlsx", {"Daten": data, "Legend": LEGEND})
+    places, text = _channels(tmp_path, say)
+    assert set(places.values()) == {"spindle.bearing.front", "bed", "hall"}
+    assert "called 'Hallenluft' in log.xlsx" in text

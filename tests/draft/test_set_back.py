@@ -1,0 +1,51 @@
+"""A clock that was set back in the middle of a file: asked before an ingest loses what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+
+
+def _asked(folder: Path, say: Say, seconds: Sequence[int], values: Sequence[float] | None = None) -> str:
+    for test in ("R1", "R2"):
+        at = range(0, 10 * len(seconds), 10) if test == "R1" else seconds
+        rows = [
+            f"2026-04-26T{8 + t // 3600:02d}:{t // 60 % 60:02d}:{t % 60:02d}Z,{value:.3f}"
+            for t, value in zip(at, values or [20 + k / 99 for k in range(len(at))], strict=True)
+        ]
+        (folder / f"{test}.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]), encoding="utf-8")
+    assert say("init", folder).code == 0
+    text = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    return next((line for line in text.splitlines() if "resets: allow" in line), "")
+
+
+EVEN = [10 * k for k in range(400)]
+
+
+@pytest.mark.parametrize("by", [137, 150, 3600])
+def test_a_long_step_back_is_asked(tmp_path: Path, say: Say, by: int) -> None:
+    asked = _asked(tmp_path, say, [t if t < 2000 else t - by for t in [*EVEN, *(4000 + t for t in EVEN)]])
+    assert f"row {201} of R2.csv is {by - 10} s earlier" in asked
+    assert "# ?" in asked
+
+
+@pytest.mark.parametrize("by", [0, 60, 130, -600])
+def test_what_a_time_server_corrects_and_pauses_are_not(tmp_path: Path, say: Say, by: int) -> None:
+    assert _asked(tmp_path, say, [t if t < 2000 else t - by for t in EVEN]) == ""
+
+
+def test_strays_copied_rows_and_newest_first_are_not(tmp_path: Path, say: Say) -> None:
+    stray = [*EVEN]
+    stray[200] = 5
+    assert _asked(tmp_path, say, stray) == ""
+    again = [*range(200), *range(100, 400)]
+    (tmp_path / "campaign.yaml").unlink()
+    assert _asked(tmp_path, say, [10 * k for k in again], [20 + k / 99 for k in again]) == ""
+    (tmp_path / "campaign.yaml").unlink()
+    assert _asked(tmp_path, say, EVEN[::-1]) == ""

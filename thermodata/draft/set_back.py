@@ -1,0 +1,58 @@
+"""A clock that was set back in the middle of a file, as ingest would find it, seen in a draft's sample."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from thermodata.plugin import Array, Block, Int1D
+from thermodata.reader.newest_first import Steps
+from thermodata.store.raw.order import find_order
+
+_REPEATED = 0.9  # of the rows that go through times again: a copy of rows, which ingest leaves out
+_LEAST = 20
+
+
+@dataclass(frozen=True, slots=True)
+class SetBack:
+    """row: of the stream, from 1; by_ns: by how much."""
+
+    row: int
+    by_ns: int
+
+
+@dataclass(slots=True)
+class Clock:
+    """The times of a stream while its blocks pass, and one value beside each."""
+
+    t_ns: list[Int1D] = field(default_factory=list)
+    values: list[Array] = field(default_factory=list)
+    steps: Steps = field(default_factory=Steps)
+
+    def add(self, block: Block) -> None:
+        self.t_ns.append(block.t_ns)
+        numbers = next((v for v in block.values.values() if v.dtype.kind in "iuf"), None)
+        self.values.append(np.zeros(block.t_ns.size) if numbers is None else numbers.astype(np.float64))
+        self.steps.add(block.t_ns)
+
+    def set_back(self) -> SetBack | None:
+        """Where it first went back for good; None where it did not, or where rows stand twice, or newest first."""
+        if not self.steps.back or self.steps.newest_first:
+            return None
+        t = np.concatenate(self.t_ns)
+        keep = find_order(lambda a, b: t[a:b], t.size, resets_allowed=False).keep
+        if keep >= t.size or t.size - keep < _LEAST:
+            return None
+        high = int(t[:keep].max())
+        again = np.flatnonzero(t[keep:] <= high) + keep
+        x = np.concatenate(self.values)
+        before = set(zip(t[:keep].tolist(), x[:keep].tolist(), strict=True))
+        same = sum(pair in before for pair in zip(t[again].tolist(), x[again].tolist(), strict=True))
+        return None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]))
+
+
+def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:
+    """Of the streams of a file the first that was set back."""
+    return next((found for clock in clocks.values() if (found := clock.set_back()) is not None), None)
