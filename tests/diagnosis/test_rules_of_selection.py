@@ -281,6 +281,53 @@ def test_it_is_asked_again_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert members(world.select("abe", lambda s: s.candidate.effect.name == "e")) == ["e"]
 
 
+@pytest.mark.parametrize(
+    ("evidence", "ends", "kept"), [(80.9, True, "abc"), (81.1, True, "av"), (10.1, False, "abc"), (81.1, False, "abc")]
+)
+def test_what_a_pass_drives_out_stands_where_it_is_likelier_by_a_further_effect(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, ends: bool, kept: str
+) -> None:
+    """a, b and c are worth 191 together, b and c sound only beside each other. u, which the first pass drops, hid v;
+    v drives out b, and with it c, and then stays, or goes itself (ends)."""
+
+    def said(n: str, known: frozenset[str]) -> float:
+        if n == "v":
+            return 5.0 if "u" in known or "a" not in known else 20.0 if "b" in known else evidence
+        if n == "b" and "v" in known:
+            return 13.0
+        return {"u": 200.0, "a": 100.0, "b": 50.0 + ("c" in known), "c": 40.0 + ("b" in known)}[n]
+
+    def sound(s: Scored) -> bool:
+        least = {"u": 300.0, "a": 0.0, "b": 51.0, "c": 41.0, "v": 0.0 if ends else 20.0}[str(name(s))]
+        return s.evidence >= least and (ends or name(s) != "v" or s.evidence == 20.0)
+
+    world = Worlds(monkeypatch, said)
+    found = world.select("abcuv", sound, good=1.0)
+    assert members(found) == list(kept)
+    assert {name(s) for s in found.dropped} == set("abcuv") - set(kept) - ({"v"} if ends and kept == "abc" else set())
+
+
+def test_no_pass_is_likelier_for_its_noise_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both passes end with a; the second one finds a noise that is less likely by 50."""
+    world = Worlds(monkeypatch, lambda n, known: {"a": 100.0, "u": 50.0}[n])
+    worse, found_now = replace(NOISE, white=1.0), [NOISE]
+    ranked = selecting.rank
+
+    def rank(*given: Any, **of: Any) -> Ranked:
+        found_now[0] = worse
+        return ranked(*given, **of)
+
+    def known(problem: Problem, noise: Noise) -> Any:
+        made = world._known(problem)
+        return SimpleNamespace(**{**vars(made), "log_evidence": made.log_evidence - 50.0 * (noise == worse)})
+
+    everywhere(monkeypatch, "rank", rank)
+    everywhere(monkeypatch, "likeliest", lambda problem, noise: found_now[0])
+    everywhere(monkeypatch, "known", known)
+    found = world.select("au", lambda s: name(s) == "a", good=1.0)
+    assert (members(found), found.noise) == (["a"], worse)
+
+
 @pytest.mark.parametrize(("beside_c", "kept"), [(10.1, ["c", "a"]), (9.9, ["c"])])
 def test_what_went_beside_one_that_went_later_is_asked_again(
     monkeypatch: pytest.MonkeyPatch, beside_c: float, kept: list[str]

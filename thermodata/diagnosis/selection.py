@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from thermodata.diagnosis.beside import beside, each_beside_others, weighed_beside, without
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.context import MOST, WORTH, Together, with_context
@@ -23,6 +25,15 @@ from thermodata.diagnosis.scored import Scored
 from thermodata.store.base.counting import counted
 
 PASSES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    """What a pass ends with. weighed: the same, each beside all others. noise: beside all."""
+
+    chosen: tuple[Scored, ...]
+    weighed: tuple[Scored, ...]
+    noise: Noise
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,13 +77,14 @@ def select(
     problem: Problem, first: Ranked, sound: Callable[[Scored], bool], *, among: Sequence[Columns], good: float = 0.0
 ) -> Selection:
     """Forward by evidence, then what is not sound beside the others goes, the least likely first; and again, for what
-    it stood in the way of; at last what was dropped beside others that went later is asked again. sound: whether a
-    candidate keeps the rules of a claim. among: what may be chosen, of all that was ranked. good: an error of the model
-    on left-out tests that hides nothing."""
+    it stood in the way of; of what these passes end with the likeliest stands; at last what was dropped beside others
+    that went later is asked again. sound: whether a candidate keeps the rules of a claim. among: what may be chosen, of
+    all that was ranked. good: an error of the model on left-out tests that hides nothing."""
     noise = first.known.space.noise
     chosen: list[Scored] = []
     current: list[Scored] = []
     dropped: list[Scored] = []
+    passes: list[_Ended] = []
     for number in range(PASSES):
         rest = without(among, [*chosen, *dropped])
         last = _only(first, among) if number == 0 else rank(beside(problem, chosen), rest, noise, left_out=False)
@@ -86,8 +98,12 @@ def select(
             chosen.pop(worst)
             noise = likeliest(beside(problem, chosen), noise)
             current = each_beside_others(problem, chosen, noise)
+        passes.append(_Ended(tuple(chosen), tuple(current), noise))
         if len(dropped) == before:
             break
+    best = _likeliest_of(problem, passes)
+    chosen, current, noise = list(best.chosen), list(best.weighed), best.noise
+    dropped = [s for s in dropped if not any(s.columns is c.columns for c in chosen)]
     before = len(chosen)
     noise = _second_chance(problem, chosen, dropped, noise, sound)
     if len(chosen) > before:
@@ -120,6 +136,16 @@ def any_stands_out(
     beside_all = rank_in(full, without(some, selection.together), selection.noise, left_out=False)
     found = (in_noise_of_best(ranked, TRIED) for ranked in (_only(first, some), beside_all))
     return any(may(s) for one in found if one is not None for s in one.ranked)
+
+
+def _likeliest_of(problem: Problem, passes: Sequence[_Ended]) -> _Ended:
+    """The last, unless an earlier one is more likely by what a further effect is worth: what a pass adds may drive out
+    what was found, and go itself. The last in the likeliest of their noises, for each is found by search."""
+    likely = [known(beside(problem, p.chosen), p.noise).log_evidence for p in passes]
+    last = beside(problem, passes[-1].chosen)
+    limit = max(known(last, p.noise).log_evidence for p in passes) + WORTH
+    best = int(np.argmax(likely))
+    return passes[best] if likely[best] >= limit else passes[-1]
 
 
 def _forward(
