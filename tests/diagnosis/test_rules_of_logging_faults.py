@@ -166,6 +166,7 @@ def test_parameters_are_wrong_where_a_refit_leaves_a_third(
     """And where the error is above the floor."""
     found = wrong_parameters(of_tests(2), now, refitted, floor)
     assert [a.kind for a in found] == (["parameters"] if wrong else [])
+    assert all("calibrate_on, fixed and bounds" in a.why and "a cause may be missing" in a.why for a in found)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_separate
+from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_separate, to_tell_parts
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.weak import describe_state, weak_spots
@@ -247,6 +247,47 @@ def test_twins_are_told_apart_by_what_drives_the_claimed_one() -> None:
     switch, its_lag = scored("a", channels=("n",)), scored("lag", family="generic", channels=("n",))
     assert to_separate(scored("a", channels=("T_a",)), [its_lag, switch], CHANNELS) is None, "the same effect, twice"
     assert to_separate(scored("a", channels=("T_a",)), [its_lag], CHANNELS) is not None
+
+
+PARTS = {
+    name: ChannelInfo(name, quantity, "", at=at)
+    for name, quantity, at in [
+        ("n", "rotational_speed", "table"),
+        ("T_bearing", "temperature", "table.bearing"),
+        ("T_motor", "temperature", "table.motor"),
+        ("T_rear", "temperature", "table.bearing.rear"),
+        ("T_rear_2", "temperature", "table.bearing.rear"),
+        ("T_hall", "temperature", "hall"),
+        ("T_hall_top", "temperature", "hall.top"),
+        ("T_free", "temperature", None),
+    ]
+}
+
+
+@pytest.mark.parametrize(
+    ("mine", "twins", "said"),
+    [
+        (("n",), [("T_bearing",), ("T_motor",)], "a motor warms by its load"),
+        (("T_motor",), [("n",), ("T_bearing",)], "a motor warms by its load"),
+        (("T_bearing",), [("T_rear",)], "warm one by itself"),
+        (("n",), [("T_bearing",)], None),
+        (("T_rear",), [("T_rear_2",)], None),
+        (("T_rear",), [("T_free",)], None),
+        (("T_hall",), [("T_hall_top",)], None),
+        (("T_rear", "T_bearing"), [("T_rear",)], None),
+    ],
+)
+def test_one_effect_that_several_parts_say_alike_asks_which_part(
+    mine: tuple[str, ...], twins: list[tuple[str, ...]], said: str | None
+) -> None:
+    """A motion is of all parts, one place of one, the air of none; two temperatures together are a difference."""
+    found = to_tell_parts(
+        scored("a", channels=mine).candidate, [scored("a", channels=t).candidate for t in twins], PARTS
+    )
+    assert (found is None) == (said is None)
+    assert (said or "") in (found or "")
+    if mine == ("n",) and said:
+        assert (found or "").startswith("a:n may be heat of T_bearing (table.bearing) or T_motor (table.motor)")
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ def test_the_stator_is_asked_and_not_the_tool(name: str) -> None:
         ("dX_Werkstück", "workpiece"),
         ("Eddy bearing Z", "bearing"),
         ("dZ_headstock", "headstock"),
+        ("Verlagerung Lager Z", "bearing"),
     ],
 )
 def test_another_body_is_asked(name: str, body: str) -> None:
@@ -31,7 +32,7 @@ def test_another_body_is_asked(name: str, body: str) -> None:
     assert found.questions == (f"at: tcp, or the {body} itself?",)
 
 
-@pytest.mark.parametrize("name", ["dZ", "dZ_tool", "dZ_spindle", "Eddy/Z", "Messtaster Z", "dZ_tcp"])
+@pytest.mark.parametrize("name", ["dZ", "dZ_tool", "dZ_spindle", "Eddy/Z", "Messtaster Z", "dZ_tcp", "Verlagerung Z"])
 def test_the_tools_is_not(name: str) -> None:
     found = guess(name, "um")
     assert (found.quantity, found.at, found.questions) == ("displacement", "tcp", ())

@@ -203,6 +203,19 @@ def test_a_gain_larger_than_anything_known(gain: float, named: bool) -> None:
     assert bound_checks._plausible(UM, term(gain=gain, fixed=["gain"])) == []
 
 
+@pytest.mark.parametrize(
+    ("value", "half", "left_open"), [(20.0, 10.1, True), (20.0, 9.9, False), (-20.0, 10.1, True), (-20.0, 9.9, False)]
+)
+def test_a_gain_that_the_tests_leave_open_is_told_so(value: float, half: float, left_open: bool) -> None:
+    """Where sizes of 10 and less lie within its interval."""
+    found = term(gain=value)
+    found.groups[""].half["gain"] = half
+    [said] = bound_checks._plausible(UM, found)
+    assert ("leave it open" in said.advice) is left_open
+    [unknown] = bound_checks._plausible(UM, term(gain=value))
+    assert "leave it open" not in unknown.advice
+
+
 @pytest.mark.parametrize(("quantity", "named", "unit"), [("temperature", True, "um/K"), ("feed", False, "um")])
 def test_a_gain_a_kelvin_is_one_where_a_temperature_drives_it(quantity: str, named: bool, unit: str) -> None:
     """A screw that is driven by its feed grows by 20 um at 10 m/min, which is no 20 um/K."""

@@ -7,7 +7,7 @@ from mutant import Mutant
 # the tests that stand beside the rules of a module
 BESIDE = {
     "answer.py": ("the_answer", "the_locked_tests"),
-    "artefact.py": ("steps",),
+    "artefact.py": ("steps", "steps_beside_commands"),
     "candidates.py": ("candidates", "unread_parts"),
     "clock_moves.py": ("clocks_in_part",),
     "clock_sides.py": ("clocks_in_part",),
@@ -16,8 +16,9 @@ BESIDE = {
     "clocks_by_heat.py": ("clocks_by_heat", "clocks_in_part"),
     "copies.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
-    "commanded.py": ("steps", "clocks_by_heat"),
-    "sudden.py": ("steps", "decays"),
+    "commanded.py": ("steps", "clocks_by_heat", "steps_beside_commands"),
+    "sudden.py": ("steps", "decays", "steps_beside_commands"),
+    "repeating.py": ("repeated_steps",),
     "confirm.py": ("the_locked_tests",),
     "discrepancy.py": ("the_noise",),
     "ends_of_logs.py": ("ends_of_logs",),
@@ -657,6 +658,12 @@ MUTANTS = [
     diagnosis("artefact.py", "tread + max(", "0 * tread + max(", "treads are slips"),
     diagnosis("artefact.py", "Z_ALONE = 5.0", "Z_ALONE = 12.0", "a slip where much is missing is none"),
     diagnosis("artefact.py", "\nALONE = 2.0", "\nALONE = 1.0", "one jump of many is a slip"),
+    diagnosis(
+        "artefact.py", "if (bare or beside) and not is_quick(", "if bare and not is_quick(", "a cooled shaft slips"
+    ),
+    diagnosis("artefact.py", "if bare and not smooth_but_for(", "if False and not smooth_but_for(", "a kink is a slip"),
+    diagnosis("repeating.py", "LEAST = 3", "LEAST = 2", "two slips alike are stick-slip"),
+    diagnosis("repeating.py", "ALIKE = 0.1", "ALIKE = 0.5", "slips of any size are stick-slip"),
     diagnosis("artefact.py", "STAYS = 0.5", "STAYS = 0.0", "a spike is a slip"),
     diagnosis("copies.py", "and np.array_equal(a, b, equal_nan=True)", "", "two tests of one programme are copies"),
     diagnosis("copies.py", "float(np.ptp(a[known])) > 0", "True", "two flat tests are copies"),

@@ -34,6 +34,10 @@ def advice(
         for other in judgement.claims:
             if (log := next_test.to_log(other.scored, data.channels)) is not None:
                 return log
+        for each in judgement.claims:
+            twins = [s.candidate for s in equivalents(each.scored, each.beside)]
+            if (parts := next_test.to_tell_parts(each.scored.candidate, twins, data.channels)) is not None:
+                return parts
     if refused:
         return next_test.to_decide(refused, data.channels)
     if claims and confirmation is not None and confirmation.asked == frozenset():

@@ -19,9 +19,11 @@ from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.sudden import (
     beyond_slopes,
     comes_back,
+    is_quick,
     most_sudden,
     over_three,
     size_of_step,
+    smooth_but_for,
     suddenly,
     time_of_step,
 )
@@ -34,6 +36,7 @@ SIDE_S = 1200.0
 Z_LIMIT = 12.0
 Z_ALONE = 5.0  # where it is so many times as sudden as all else in its test
 ALONE = 2.0
+MOST_ALONE = 10.0  # so many times and more, which nothing is to be told of
 STAYS = 0.5  # of what such a one does at once, by which the levels differ at least
 MOST_STEPS = 3
 NOISES = 3.0  # a step is larger than this many times the noise,
@@ -51,6 +54,16 @@ class Step:
     z: float  # times the usual change, of lines through both sides
     alone: float = 0.0  # times the most sudden other change of the test, where that tells
     within_s: float = 0.0
+    beside: tuple[str, ...] = ()  # commands that change just then
+    bare: bool = False  # alone among what no command makes
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The commands of one block. explain: whether one makes the step before a sample; change_at: which change there."""
+
+    explain: Callable[[int], bool]
+    change_at: Callable[[int], tuple[str, ...]]
 
 
 def find_steps(problem: Problem) -> list[Step]:
@@ -76,7 +89,8 @@ def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step
     """through: whether it was measured all the time, so that what nothing else is as sudden as stands out."""
     commands, steps = Commands(problem), []
     for k, block in enumerate(problem.blocks):
-        steps += _steps_in(block, problem, tread, partial(commands.explain, k), through)
+        own = Asked(partial(commands.explain, k), partial(commands.change_at, k))
+        steps += _steps_in(block, problem, tread, own, through)
     return steps
 
 
@@ -93,9 +107,7 @@ def noise_with_treads(problem: Problem) -> float:
     return max(problem.noise, tread_of_response(problem) / float(np.sqrt(12)))
 
 
-def _steps_in(
-    block: Block, problem: Problem, tread: float, explained: Callable[[int], bool], through: bool
-) -> list[Step]:
+def _steps_in(block: Block, problem: Problem, tread: float, commands: Asked, through: bool) -> list[Step]:
     r, y, t = block.residual, block.response, block.t_s
     side = max(4, int(SIDE_S / problem.step_s))
     if len(r) < 3 * side:
@@ -105,29 +117,63 @@ def _steps_in(
     while len(steps) < MOST_STEPS:
         score, size = _step_score(r, t, side)
         score[looked] = 0.0
-        i, alone = int(np.argmax(score)), 0.0
+        i, alone, bare = int(np.argmax(score)), 0.0, False
         if not is_a_step(float(score[i]), float(size[i]), problem.noise, tread):
             large = [is_a_step(z, s, problem.noise, tread, Z_ALONE) for z, s in zip(score, size, strict=True)]
             stays = np.abs(size) >= STAYS * suddenly(r, t, side)
             i, alone = most_sudden(r, t, np.array(large) & stays, side)
-            if alone < ALONE or not through:
+            if alone < ALONE and through:
+                i, alone = _uncommanded(r, t, side, commands, least_step(problem.noise, tread))
+                bare = True
+            if alone < ALONE or not through or (bare and looked[i]):
                 break
         # what happens there is judged where it stands out most: the shoulders of a bend are no slips
         looked[max(0, i - side // 2) : i + side // 2] = True
-        own, seen = (beyond_slopes(x, t, i, float(size[i]), side) for x in (r, y))
-        if not is_at_once(float(size[i]), own, seen) or comes_back(r, t, i, side) or explained(i):
-            continue
         by = size_of_step(r, t, i, side)
+        about = by if bare else float(size[i])
+        own, seen = (beyond_slopes(x, t, i, about, side) for x in (r, y))
+        if not is_at_once(about, own, seen) or comes_back(r, t, i, side) or commands.explain(i):
+            continue
+        if bare and not smooth_but_for(r, t, i, by, side, Z_LIMIT):
+            continue
+        beside = commands.change_at(i)
+        # what begins as a command changes and goes on for some minutes is its doing, whatever it does elsewhere: what
+        # it cools may have been cold there. A reading that a logger smooths is slow as well, and begins anywhere
+        if (bare or beside) and not is_quick(r, t, i, by, side, NOISES * problem.noise):
+            continue
         at, within = float((t[i - 1] + t[i]) / 2), time_of_step(r, t, i, by)
-        steps.append(Step(block.test, at, by, float(score[i]), alone, within))
+        steps.append(Step(block.test, at, by, float(score[i]), alone, within, beside, bare))
         since = np.where(np.arange(len(r)) >= i, by, 0.0)
         r, y = r - since, y - since
     return steps
 
 
+def _uncommanded(r: Float1D, t: Float1D, side: int, commands: Asked, least: float) -> tuple[int, float]:
+    """(sample before which r changes most suddenly of what no command explains, how many times as suddenly as of that
+    anything else does, ten at most); 0 times where all that is as large as `least` is explained.
+
+    Where a quick cause is missing each of its commands is more sudden than a slip, and lines over 20 min lie apart.
+    """
+    sudden = suddenly(r, t, side)
+    best, most = 0, 0.0
+    for i in np.argsort(-sudden).tolist():
+        if sudden[i] < max(least if most == 0.0 else 0.0, most / MOST_ALONE):
+            break
+        if (most == 0.0 or abs(i - best) > side // 2) and not commands.explain(i):
+            if most > 0.0:
+                return best, most / float(sudden[i])
+            best, most = i, float(sudden[i])
+    return best, MOST_ALONE if most > 0.0 else 0.0
+
+
 def is_a_step(z: float, size: float, noise: float, tread: float = 0.0, least: float = Z_LIMIT) -> bool:
     """z: of the usual change. size: of the step, noise: of the response, tread: of its reading, all in its unit."""
-    return z >= least and abs(size) >= tread + max(NOISES * noise, LEAST_UM)
+    return z >= least and abs(size) >= least_step(noise, tread)
+
+
+def least_step(noise: float, tread: float) -> float:
+    """A smaller one is none, however far it stands out."""
+    return tread + max(NOISES * noise, LEAST_UM)
 
 
 def _step_score(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
@@ -175,8 +221,21 @@ def _lines(r: Float1D, t: Float1D, side: int) -> tuple[Float1D, Float1D]:
 
 def _stands_out(step: Step) -> str:
     if step.alone:
-        return f"{step.alone:.1f} times as suddenly as anything else in this test"
+        least = "at least " if step.bare and step.alone >= MOST_ALONE else ""
+        of = " that no command makes" if step.bare else ""
+        return f"{least}{step.alone:.1f} times as suddenly as anything else in this test{of}"
     return f"{step.z:.0f} times the usual change"
+
+
+def _made_by(step: Step) -> str:
+    slipped = "a probe or fixture slipped"
+    if not step.beside:
+        return f"no speed, feed or switch does that elsewhere: {slipped}"
+    verb, makes, it = ("change", "make", "they act") if len(step.beside) > 1 else ("changes", "makes", "it acts")
+    return (
+        f"{' and '.join(step.beside)} {verb} just then and {makes} no such step elsewhere: {slipped}, or {it} by what "
+        "was other there, as how warm a part is"
+    )
 
 
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
@@ -188,7 +247,7 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             at_s=s.at_s,
             size_um=s.size,
             why=f"the displacement jumps by {s.size:+.1f} {unit} within {s.within_s:.0f} s, {_stands_out(s)}, "
-            "and does not decay; no speed, feed or switch does that elsewhere: a probe or fixture slipped",
+            f"and does not decay; {_made_by(s)}",
         )
         for s in steps
     ]

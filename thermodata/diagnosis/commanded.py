@@ -56,11 +56,24 @@ class Commands:
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
         found = {n: c.quantity for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING}
-        self._commands = [_courses(problem.blocks, n, told=found[n] in COMMANDS) for n in sorted(found)]
+        self._names = sorted(found)
+        self._told = [found[n] in COMMANDS for n in self._names]
+        self._commands = [_courses(problem.blocks, n, told=t) for n, t in zip(self._names, self._told, strict=True)]
 
     def explain(self, block: int, i: int) -> bool:
         """Whether a command makes the step before sample i of a block."""
         return any(self._explains(command, block, i) for command in self._commands)
+
+    def change_at(self, block: int, i: int) -> tuple[str, ...]:
+        """The commands that change in the interval before sample i of a block, or in one beside it, whatever they do
+        elsewhere."""
+        return tuple(
+            name
+            for name, told, command in zip(self._names, self._told, self._commands, strict=True)
+            if told
+            and (own := command[block]) is not None
+            and any(i - 1 in r or i in r or i + 1 in r for r in own.rows.values())
+        )
 
     def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
         own, jump = command[block], float(self._jumps[block][i])

@@ -9,6 +9,7 @@ from functools import cache, partial
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis import repeating
 from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
 from thermodata.diagnosis.beside import beside
 from thermodata.diagnosis.by_phase import heating_and_cooling_apart
@@ -91,7 +92,8 @@ def investigate(
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
-    steps = find_steps(fine)
+    found = find_steps(fine)
+    steps = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
@@ -126,7 +128,14 @@ def investigate(
     if selection is not None:
         faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = [
-        *first_of_each([*known_faults, *as_artefacts(steps, info.unit), *faults]),
+        *first_of_each(
+            [
+                *known_faults,
+                *as_artefacts(steps, info.unit),
+                *repeating.as_artefacts(repeating.repeating(found), info.unit),
+                *faults,
+            ]
+        ),
         *faulty_sensors(data, fitted.name),
     ]
 
@@ -148,7 +157,7 @@ def causes_of(
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
-    steps = find_steps(fine)
+    steps = repeating.single(find_steps(fine))
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     _, judgement, _ = _judged(fitted, problem, asked, seed)

@@ -219,7 +219,8 @@ def _drives_no(name: str, data: Dataset) -> str:
 
 
 def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float) -> list[Artefact]:
-    """The same effects fitted to all open tests would leave much less: parameters are wrong, not effects.
+    """The same effects fitted to all open tests would leave much less: parameters are wrong, by how they were fitted or
+    by what they had to stand for.
 
     now: error of the model as it is fitted. refitted: on left-out tests after a refit. floor: error that is left alone.
     """
@@ -227,7 +228,9 @@ def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float
         return []
     why = (
         f"as it is fitted the model leaves {now:.2f} {problem.unit}; the same effects refitted to all open tests leave "
-        f"{refitted:.2f} on tests left out: its parameters do not hold here; check calibrate_on, fixed and bounds"
+        f"{refitted:.2f} on tests left out: its parameters do not hold here; check calibrate_on, fixed and bounds. "
+        "Where nothing is wrong with these, a cause may be missing that moves with what the model has in the tests it "
+        "was fitted to: its gains took that in, and are others where the two part"
     )
     return [
         Artefact(

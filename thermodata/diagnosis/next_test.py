@@ -35,6 +35,15 @@ _MOVED = {
     "state": "on for hours while all else rests, then off",
     "flow": "on for hours while all else rests, then off",
 }
+# parts that warm together: a motor's heat is of its load, that of all else of the motion
+_BY_LOAD = (
+    "a motor warms by its load, all else by its motion, so run one test at high load and little motion (starts and "
+    "stops, or held against a load), one at a steady high speed, and let each cool to the end"
+)
+_BY_PART = (
+    "they warmed together, so warm one by itself (a heating foil, the machine at rest), or let all cool to the end "
+    "twice, after half an hour of motion and after hours of it"
+)
 _LOADED = "at a high load for hours, then at rest"
 _BY_DAY = "through a day and a night, the machine at rest"
 
@@ -64,6 +73,26 @@ def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, 
     quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
     how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
     return f"to tell {mine.id} from {other.id}: {how}"
+
+
+def to_tell_parts(
+    chosen: CandidateEffect, twins: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]
+) -> str | None:
+    """The advice where one effect, or its channels by another name, is said alike by temperatures of several parts;
+    None where all are of one place. What a motion drives is of all parts that move, what reads two temperatures is of
+    their difference, and the air is one cause at all of its places."""
+    parts: dict[str, str] = {}
+    for one in (chosen, *twins):
+        read = [(c, channels[c]) for c in one.channels if c in channels and channels[c].quantity == "temperature"]
+        for name, info in read if len(read) == 1 else []:
+            if info.at is not None and not is_around(info.at):
+                parts.setdefault(info.at, name)
+    if len(parts) < 2:
+        return None
+    named = [f"{name} ({at})" for at, name in parts.items()]
+    of_motor = [at.rpartition(".")[2] in ("motor", "drive") for at in parts]
+    how = _BY_LOAD if any(of_motor) and not all(of_motor) else _BY_PART
+    return f"{chosen.id} may be heat of {', '.join(named[:-1])} or {named[-1]}; to tell them: {how}"
 
 
 def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:

@@ -11,6 +11,7 @@ HOLE_STEPS = 1.6  # a longer interval than this many usual ones is a hole
 BESIDE = 5  # intervals that a slope beside a step is taken over
 BACK_TO = 0.1  # of a step, that is left at the end of its side at most, where it is said to come back
 NEARLY_ALL = 0.9  # of a step: what is said of how long it takes holds for so much of it
+ALIKE = 1 / 3  # of a step, that its size beside it and that on a smooth course differ by at most
 TIMES = 6  # constants that a return is asked for
 BACK = 0.35  # of the squared error that what stays leaves: what comes back leaves less
 
@@ -92,6 +93,39 @@ def comes_back(x: Float1D, t: Float1D, i: int, side: int) -> bool:
     decays = [stays * np.exp(-np.maximum(u, 0.0) / tau) for tau in np.geomspace(slowest / 2**3, slowest, TIMES)]
     left = [_left(np.column_stack([course, after]), x[rows]) for after in (stays, *decays)]
     return min(left[1:]) < BACK * left[0]
+
+
+def smooth_but_for(x: Float1D, t: Float1D, i: int, size: float, side: int, least: float) -> bool:
+    """Whether x (shape (m,)) is one smooth course (a parabola over both sides) and a step of this size before sample i:
+    the level that the two sides differ by is as large, give or take a third, and so many times its standard error.
+
+    Straight lines over 20 min lie apart wherever the course bends; this course may.
+    """
+    rows = np.concatenate([np.arange(max(0, i - side), i - 1), np.arange(i + 1, min(len(x), i + side))])
+    u = (t[rows] - t[i]) / (side * float(np.median(np.diff(t))))
+    columns = np.column_stack([np.vander(u, 3), np.where(rows >= i, 1.0, 0.0)])
+    if len(rows) <= columns.shape[1]:
+        return False
+    level = float(np.linalg.lstsq(columns, x[rows], rcond=None)[0][-1])
+    scatter = float(np.sqrt(_left(columns, x[rows]) / (len(rows) - columns.shape[1])))
+    error = scatter * float(np.sqrt(np.linalg.pinv(columns.T @ columns)[-1, -1]))
+    return 1 - ALIKE <= level / size <= 1 + ALIKE and abs(level) >= least * error
+
+
+def is_quick(x: Float1D, t: Float1D, i: int, size: float, side: int, noise: float) -> bool:
+    """Whether a step of this size before sample i of x (shape (m,)) happens in the interval there and one of its
+    neighbours, which share it where a mean parts it; all but a tenth, or what noise does. Of the slopes beside it the
+    mean is taken off.
+
+    What goes on for some minutes is heat that is carried away, and no slip.
+    """
+    many = min(BESIDE + 1, side - 1)
+    slope = np.mean(
+        [np.polyfit(t[s] - t[i], x[s], 1)[0] for s in (slice(i - 1 - many, i - 1), slice(i + 1, i + 1 + many))]
+    )
+    made = [float(x[b] - x[a] - slope * (t[b] - t[a])) for a, b in ((i - 2, i), (i - 1, i + 1))]
+    rest = min(abs(size) - np.sign(size) * rise for rise in made)
+    return bool(rest <= max((1 - NEARLY_ALL) * abs(size), noise))
 
 
 def _left(columns: Float2D, x: Float1D) -> float:

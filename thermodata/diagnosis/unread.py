@@ -83,7 +83,9 @@ def unread(
     return tuple(others) if own or len(others) > 1 else ()
 
 
-def is_lesser(effect: Effect, names: Collection[str], channels: Mapping[str, Described], other: Collection[str]) -> bool:
+def is_lesser(
+    effect: Effect, names: Collection[str], channels: Mapping[str, Described], other: Collection[str]
+) -> bool:
     """Whether it is the lesser part of what rubs, while the greater one may be it as well. other: `unread` of it."""
     own = {part.name for part in parts_of(effect, names, channels)}
     greater = (part_of(place) for place in other)

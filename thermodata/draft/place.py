@@ -58,6 +58,8 @@ def place_of(text: str, quantity: str) -> Place:
     if counter and found.at is not None and found.at.partition(".")[0] == "spindle":
         asked = found.question and asked_of(found.question, "counter")
         return replace(found, at=f"counter_{found.at}", question=asked)
+    if counter and found.at == "headstock":
+        return Place("counter_spindle")  # the one with no other name is the main spindle's
     if found.at == "hall" and quantity == "temperature" and _HEIGHT.search(text):
         return Place("hall", question="at: hall.top, hall.bottom, or hall, at the height of the machine?")
     return found

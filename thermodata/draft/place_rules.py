@@ -53,6 +53,8 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place(None, question=asked)
     if "bearing" in said:
         return _bearing(said, axis)
+    if "belt" in said and "motor" not in said:
+        return _belt(said, axis)
     if said & {"motor", "drive"}:
         return _motor(said, axis)
     if "in or out of a cooler" in said:
@@ -139,6 +141,13 @@ def _motor(said: set[str], axis: str | None) -> Place:
     if "table" in said:
         return Place("table.motor")
     return Place(None, question="at: which motor? e.g. spindle.motor, axis.x.motor")
+
+
+def _belt(said: set[str], axis: str | None) -> Place:
+    if axis:
+        return Place(None, question="at: of the axis's belt: its motor, or its screw? e.g. axis.x.motor")
+    asked = None if "spindle" in said else "at: spindle.gearbox, of the belt between motor and spindle?"
+    return Place("spindle.gearbox", question=asked)
 
 
 def _way(said: set[str]) -> str:

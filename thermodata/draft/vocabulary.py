@@ -83,8 +83,9 @@ _PLACE_WORDS: dict[str, str] = {
     "pracovni~vreteno pracovni~vretene pracovniho~vretene pracovniho~vretena pracovnim~vretenu pracovnim~vreteni "
     "pracovni~vretenik pracovniho~vreteniku pracovnim~vreteniku workspindle work~spindle",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
-    "bearing": "bearing bearings. lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. lagerung roulement cuscinett palier. "
-    "paliers.",
+    # a 'Verlagerung' is a displacement, and no bearing
+    "bearing": "bearing bearings. (?<!ve[r])lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. roulement cuscinett palier. "
+    "paliers. screw~support ballscrew~support support~of~screw",
     "front": "front vorn vorder ^predni pred. predn. vpredu. zepredu. predek. vorderseite 前 fr. frt~b nose. "
     "spindlenose nase. vl. avant. ant. anteriore.",
     "rear": "rear back. hinten hinter ^zadni zad. zadn. vzadu. zezadu. zadek. ruckseite rueckseite 后 後 tail. rr. "
@@ -108,6 +109,8 @@ _PLACE_WORDS: dict[str, str] = {
     "guide": "guideway gway. fuehr. fuhr. guide. guides. ^fuhrung fuehrung linearfuhr vedeni. 导轨 導軌 rail. rails. "
     "slideway 滑块",
     "gearbox": "gearbox getriebe prevodovk 齿轮箱 变速箱 gear.",
+    # between motor and spindle, as a gearbox is
+    "belt": "belt. belts. beltdrive riemen ^remen. ^remene. ^remenu. 皮带 皮帶 同步带",
     "drive": "drive. drives. umrichter inverter amplifier verstarker menic 驱动器 变频器 converter",
     "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col. montante. "
     "montanti. montant. colonna. colonne.",

@@ -119,7 +119,7 @@ def _plausible(response: FittedResponse, term: FittedTerm) -> list[Check]:
                         value=value,
                         threshold=usual.largest,
                         passed=False,
-                        advice=usual.said(value),
+                        advice=usual.said(value, interval(gain.name, values)),
                     )
                 )
     return rows

@@ -21,13 +21,21 @@ class Usual:
     unit: str
     whose: str
 
-    def said(self, value: float) -> str:
-        """Of a gain that is larger: how much, and what is usual."""
+    def said(self, value: float, ends: tuple[float | None, float | None] = (None, None)) -> str:
+        """Of a gain that is larger: how much, and what is usual. ends: of its interval; where usual sizes lie within,
+        the tests do not know the gain, and the value says nothing against the effect."""
+        low, high = ends
+        left_open = ""
+        if low is not None and high is not None and low <= self.largest and high >= -self.largest:
+            left_open = (
+                f"; these tests leave it open ({low:.3g} to {high:.3g} {self.unit}, 95 %), usual sizes among them, so "
+                "the value speaks neither for the effect nor against it"
+            )
         size = f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
         sizes = f"{self.smallest:g} to {self.largest:g}" if self.smallest > 0 else f"up to {self.largest:g}"
         return (
             f"{size} {self.unit} is larger than anything known for {self.whose} ({sizes} {self.unit}): it may "
-            "stand in for another effect, or its driver may have another unit"
+            f"stand in for another effect, or its driver may have another unit{left_open}"
         )
 
 

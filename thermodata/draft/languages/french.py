@@ -17,6 +17,7 @@ WORDS = {
     "nut": "ecrou",
     "scale": "regle.",
     "guide": "glissiere guidage patin",
+    "belt": "courroie",
     "gearbox": "reducteur boite~de~vitesses engrenage",
     "drive": "variateur",
     "bed": "bati. banc. socle.",

@@ -30,6 +30,7 @@ WORDS = {
     "screw": "husillo~de~bolas husillo~a~bolas husillo~bolas tornillo",
     "scale": "regla",
     "guide": "guia. guias.",
+    "belt": "correa. correas.",
     "gearbox": "reductor. caja~de~engranajes engranaje caja~de~cambios",
     "drive": "variador accionamiento",
     "column": "columna",

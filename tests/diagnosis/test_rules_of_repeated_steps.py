@@ -1,0 +1,58 @@
+"""Steps that repeat alike are of the machine, and no slips (diagnosis/repeating.py), on both sides of each limit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.artefact import Step, find_steps
+from thermodata.diagnosis.repeating import as_artefacts, repeating, single
+
+from .hand_made import Parts, problem
+
+TESTS = [b.test for b in problem(*(Parts(np.zeros(4)) for _ in range(3)), noise=0.05).blocks]
+
+
+def steps(*sizes: float, tests: tuple[int, ...] = (0, 0, 0, 0)) -> list[Step]:
+    return [Step(TESTS[k], 3600.0 * (i + 1), size, 20.0) for i, (size, k) in enumerate(zip(sizes, tests, strict=False))]
+
+
+@pytest.mark.parametrize(
+    ("sizes", "again"),
+    [
+        ((6.8, 6.7, 6.9), 3),
+        ((-6.8, -6.7, -6.9), 3),
+        ((6.0, 6.6, 5.4), 3),
+        ((6.0, 6.7, 5.4), 0),
+        ((6.8, 6.8), 0),
+        ((6.8, -6.8, 6.8), 0),
+        ((6.8, 3.0, 6.7, 6.9), 3),
+        ((3.0, 6.0, 12.0), 0),
+        ((), 0),
+    ],
+)
+def test_three_steps_within_a_tenth_of_their_median_repeat(sizes: tuple[float, ...], again: int) -> None:
+    some = steps(*sizes)
+    assert len(repeating(some)) == again
+    assert len(single(some)) == len(sizes) - again
+
+
+def test_they_are_told_once_in_each_test_and_all_others_as_slips() -> None:
+    some = steps(6.8, 6.7, 3.0, 6.9, tests=(0, 1, 1, 1))
+    told = as_artefacts(repeating(some), "um")
+    assert [(a.kind, a.test, a.at_s, a.size_um) for a in told] == [
+        ("repeated_step", "t0", None, None),
+        ("repeated_step", "t1", None, None),
+    ]
+    assert len({a.why for a in told}) == 1, "a reader is told once"
+    assert "3 times by the same amount, +6.7 to +6.9 um (t0 at 1.0 h; t1 at 2.0, 4.0 h)" in told[0].why
+    assert "stick-slip or backlash" in told[0].why
+    assert [s.size for s in single(some)] == [3.0]
+    assert as_artefacts([], "um") == []
+
+
+def test_what_sticks_and_slips_is_found_as_steps_and_taken_for_none() -> None:
+    course = 0.02 * np.random.default_rng(0).normal(size=400)
+    course += sum(5.0 * (np.arange(400) >= i) for i in (100, 200, 300))
+    found = find_steps(problem(Parts(course), noise=0.02))
+    assert (len(found), single(found)) == (3, [])

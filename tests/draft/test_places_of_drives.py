@@ -1,0 +1,57 @@
+"""Places beside a drive: belts, the bearing that supports a screw, the housing of a second spindle."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.draft.guess import guess
+
+
+@pytest.mark.parametrize("name", ["T belt drive", "T cinghia", "Riementemperatur", "Temp. courroie", "T_remen"])
+def test_a_belt_stands_between_motor_and_spindle(name: str) -> None:
+    found = guess(name, "degC")
+    assert found.at == "spindle.gearbox"
+    assert found.questions == ("at: spindle.gearbox, of the belt between motor and spindle?",)
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "asked"),
+    [
+        ("T spindle belt", "spindle.gearbox", 0),
+        ("T belt X", None, 1),
+        ("T belt motor spindle", "spindle.motor", 0),
+        ("T spindle drive", "spindle.drive", 0),
+    ],
+)
+def test_a_belt_of_the_spindle_is_told_and_of_an_axis_asked(name: str, at: str | None, asked: int) -> None:
+    found = guess(name, "degC")
+    assert (found.at, len(found.questions)) == (at, asked)
+
+
+@pytest.mark.parametrize(
+    ("name", "at"),
+    [
+        ("T supporto vite X", "axis.x.bearing"),
+        ("T supporto della vite Z", "axis.z.bearing"),
+        ("Ballscrew support Y", "axis.y.bearing"),
+        ("T vite X", "axis.x.screw"),
+        ("T chiocciola X", "axis.x.nut"),
+        ("T supporto sonda", "fixture"),
+    ],
+)
+def test_what_supports_a_screw_is_its_bearing(name: str, at: str) -> None:
+    assert guess(name, "degC").at == at
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "sure"),
+    [
+        ("T contromandrino testa", "counter_spindle", False),
+        ("Gegenspindel Spindelkasten", "counter_spindle", False),
+        ("T testa", "headstock", True),
+        ("T testa mandrino", "headstock", True),
+    ],
+)
+def test_the_housing_of_the_second_spindle_is_not_that_of_the_first(name: str, at: str, sure: bool) -> None:
+    found = guess(name, "degC")
+    assert (found.at, found.sure) == (at, sure)
