@@ -87,6 +87,12 @@ class StoreView:
             return None if not statements else "the pages of what it read were not verified: thermodata check does"
         return verify_pages(con, self.path, query)
 
+    def values_that_do_not_count(self, query: str, columns: Collection[str]) -> str | None:
+        """See `not_counting`: a sentence where a query takes flagged values and asks for no flag."""
+        from thermodata.view.not_counting import values_that_do_not_count
+
+        return values_that_do_not_count(self.store.connect(), query, columns)
+
     def signal(self, campaign: str, test: str, channel: str) -> Rows:
         """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
         return self._macro("signal", campaign, test, channel)
