@@ -396,8 +396,8 @@ def test_findings_and_history(build: Build) -> None:
         (1, "m1", 4.0, round(float(np.sqrt((16 * 30 + 64 * 10) / 40)), 6), None, 3),
         (2, "m2", 1.0, round(float(np.sqrt((30 + 4 * 10) / 40)), 6), None, 3),
     ]
-    assert sql(store, "select campaign, test, to_s, rmse_um, state from weak_spot") == [
-        ("c", "t2", 60.0, 5.5, "heating")
+    assert sql(store, "select campaign, test, to_s, rmse_um, state, response from weak_spot") == [
+        ("c", "t2", 60.0, 5.5, "heating", "dZ")
     ]
     assert sql(store, "select rank, id, drivers, claimed, p_value, rmse_um_before, why from candidate") == [
         (1, "x", ["T1"], True, None, 4.0, "it's")
