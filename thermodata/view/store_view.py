@@ -98,11 +98,11 @@ class StoreView:
         return self._macro("signal", campaign, test, channel)
 
     def binned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a bin: means of the valid samples, states held. step: '30 s' or seconds."""
+        """One row a bin: means of the valid samples, states held. step: '30 s', '1 min', or seconds (60, '60')."""
         return self._macro("binned", campaign, test, str(step))
 
     def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a point: each channel's last sample and its flag. step: '30 s' or seconds."""
+        """One row a point: each channel's last sample and its flag. step: as of `binned`."""
         return self._macro("aligned", campaign, test, str(step))
 
     def residual(
