@@ -63,7 +63,7 @@ def test_init_says_how_many_files_it_leaves_out_and_which(say: Say, tmp_path: Pa
     *_, left_out, summary = say("init", tmp_path, "--force").err.splitlines()
     assert left_out.startswith("7 of 8 files are not used (notes0.txt, notes1.txt, ")
     assert left_out.endswith("notes4.txt and 2 more): the end of campaign.yaml says why")
-    assert summary.startswith("1 files, ")
+    assert summary.startswith("1 file, ")
 
 
 def test_init_talks_on_stderr_and_shows_no_progress_when_piped(say: Say, tmp_path: Path) -> None:
@@ -106,7 +106,7 @@ def test_sniff_passes_stores_over(say: Say, tmp_path: Path) -> None:
         csv(tmp_path / name)
     found = json.loads(say("sniff", tmp_path, tmp_path / "thermodata.store", "--json").out)
     assert [r["file"] for r in found] == [str(tmp_path / "a.csv")]
-    assert "1 files, " in say("init", tmp_path).err
+    assert "1 file, " in say("init", tmp_path).err
 
 
 def test_a_reader_that_does_not_load_shows_in_the_exit_code(

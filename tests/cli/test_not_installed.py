@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import html
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import pytest
 from thermodata.effect import registry
 from thermodata.errors import UsageError
 from thermodata.modelling import make_effect, not_installed
+from thermodata.store import Store
 
 from .conftest import Said
 
@@ -74,3 +77,39 @@ def test_with_its_plugin_it_is_run(say: Say, store: Path) -> None:
     answer = json.loads(said.out)
     assert answer["stored"] is None
     assert answer["responses"]
+
+
+@pytest.fixture
+def later(say: Say, store: Path, tmp_path: Path) -> tuple[Path, str]:
+    """(a store, a version of the model without the effect, which its first version has)."""
+    own = shutil.copytree(store, tmp_path / "own")
+    added = json.loads(say("--store", own, "add", "baseline", "feed_screw:T_nut_Z", "--plain", "--json").out)
+    gone = say("--store", own, "remove", added["model"], "spindle_bearing", "--json")
+    assert gone.code == 0, gone.err
+    return own, json.loads(gone.out)["model"]
+
+
+@pytest.mark.parametrize("stale", [False, True])
+def test_a_later_version_without_it_has_a_report_which_says_what_is_not_drawn(
+    say: Say, later: tuple[Path, str], tmp_path: Path, without: None, stale: bool
+) -> None:
+    own, model = later
+    if stale:
+        with Store(own).write(views=False) as con:
+            con.execute("update model set stale = true")
+    said = say("--store", own, "report", model, "-o", tmp_path / "r.html")
+    assert said.code == 0, said.err
+    told = "the effect spindle_bearing of model 'baseline' is not installed: told is what its fit stored"
+    assert f"warning: an earlier version: {told}" in said.err
+    page = html.unescape((tmp_path / "r.html").read_text())
+    assert f"Of an earlier version: {told}" in page
+    assert "<h3>First version" not in page, "its residuals are not drawn"
+
+
+def test_with_its_plugin_the_first_version_is_drawn_too(say: Say, later: tuple[Path, str], tmp_path: Path) -> None:
+    own, model = later
+    said = say("--store", own, "report", model, "-o", tmp_path / "r.html")
+    assert (said.code, "not installed" in said.err) == (0, False)
+    page = (tmp_path / "r.html").read_text()
+    assert "<h3>First version" in page
+    assert "Of an earlier version" not in page

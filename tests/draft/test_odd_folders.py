@@ -205,7 +205,7 @@ def test_files_whose_values_nobody_had_time_for_are_said(
     for day in ("heat1", "heat2"):
         lines = [f"{10 * i},{20 + i / 8:.3f}" for i in range(40)]
         (tmp_path / f"{day}.csv").write_text("Time [s],T_front [degC]\n" + "\n".join(lines) + "\n")
-    said = "2 files were opened, and none of their values looked at"
+    said = "2 files were opened, and no values looked at"
     assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
     (tmp_path / "campaign.yaml").unlink()
     monkeypatch.setattr("thermodata.draft.scan._SAMPLES_S", -1.0)
@@ -219,7 +219,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
     """A spindle that starts late in a file is not seen then: which files that may be in must stand in the draft."""
     lines = [f"{10 * i},{0 if i < 9000 else 4000},{20 + i / 8000:.3f}" for i in range(12_000)]
     (tmp_path / "run1.csv").write_text("Time [s],nActSpeed [rpm],T_front [degC]\n" + "\n".join(lines) + "\n")
-    said = "1 files were looked at in their first rows only"
+    said = "1 file was looked at in the first rows only"
     assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
     whole = (tmp_path / "campaign.yaml").read_text()
     assert "kind: spindle" in whole

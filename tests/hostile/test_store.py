@@ -187,14 +187,18 @@ def test_a_mount_that_cannot_be_written_is_looked_at_and_not_fitted(
             path.chmod(0o755)
 
 
-def test_views_for_analysis_hold_valid_samples_and_sample_holds_all(lab: Lab) -> None:
+def test_a_mean_over_flagged_samples_is_said_and_valid_leaves_them_out(lab: Lab) -> None:
     cells = [f"{20 + i / 8}" if i != 77 else "562.0" for i in range(200)]
     stuck = ["---" if i in (90, 91) else c for i, c in enumerate(cells)]
     body = "".join(f"{t};{c}\n" for t, c in zip(stamps("2026-03-02 08:00:00", 10, 200), stuck, strict=True))
     lab.write("raw/a.csv", "time;T\n" + body)
     assert lab.ingest({"T1": {**T1["T1"], "sensor": {"range": ["0 degC", "100 degC"]}}}).code == 0
     query = "select count(*) as n, max(value) as most from {}"
-    assert lab("sql", query.format("sample"), "--csv").out == "n,most\n200,562.0\n"
-    assert lab("sql", query.format("temperature"), "--csv").out == "n,most\n197,44.875\n"
-    assert lab("sql", query.format("driver"), "--csv").out == "n,most\n197,44.875\n"
+    for view in ("sample", "temperature", "driver", "signal('odd', 'one', 'T1')"):
+        said = lab("sql", query.format(view), "--csv")
+        assert said.out == "n,most\n200,562.0\n"
+        assert "'where valid(flag)' leaves out what does not count" in said.err
+        valid = lab("sql", query.format(view) + " where valid(flag) and value is not null", "--csv")
+        assert (valid.out, valid.err) == ("n,most\n197,44.875\n", "")
     assert lab("sql", query.format("displacement"), "--csv").out == "n,most\n0,\n"
+    assert lab("sql", "from temperature limit 1").err == "", "who gets the flags sees them"

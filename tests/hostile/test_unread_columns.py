@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 from .conftest import Lab
@@ -59,3 +61,43 @@ def test_a_loss_of_a_file_of_two_sources_is_one_where_either_reads_it(
     said = lab.ingest({"T1": T1, "end": {**channel, "source": "other"}}, sources=sources)
     assert said.code == code, said.out + said.err
     assert ("no channel reads that column" in said.out + said.err) is (code == 0)
+
+
+@pytest.mark.parametrize("zone", ["UTC", "Europe/Prague"], ids=["read alike", "read each in its own way"])
+def test_what_is_lost_of_a_file_of_two_sources_is_told_once_of_those_that_miss_it(lab: Lab, zone: str) -> None:
+    rows = [f"{t};20.{i % 100:02};30.{i % 100:02}" for i, t in enumerate(TIMES[:300])]
+    rows[100] = rows[100].replace(";20.00;", ";garbage;")  # a cell that one of the sources misses
+    rows[150] = rows[150].rpartition(";")[0]  # a row that both miss
+    lab.write("raw/a.csv", "\n".join(["time;T1;T2", *rows, ""]))
+    sources = {
+        "first": {"reader": "table", "files": "raw/*", "timezone": "UTC"},
+        "second": {"reader": "table", "files": "raw/*", "timezone": zone},
+    }
+    channels = {"T1": {**T1, "source": "first"}, "T2": {**T1, "signal": "T2", "source": "second"}}
+    said = lab.ingest(channels, sources=sources)
+    cell, row = "expected a number, got 'garbage' (one, first, raw/a.csv", "(one, first, second, raw/a.csv"
+    for text in (said.out, lab("quality").out):
+        assert cell in text
+        assert row in text
+        assert "2 times" not in text
+        assert text.count("garbage") == 1
+        assert "no channel reads" not in text
+    told = json.loads(lab("ingest", lab.folder / "campaign.yaml", "--json").out)["losses"]
+    assert [(x["source"], x["sources"]) for x in told] == [("first", ["first"]), ("first", ["first", "second"])]
+
+
+def test_a_file_that_two_sources_cannot_read_is_one_loss(lab: Lab) -> None:
+    lab.write("raw/a.csv", "a few words\n")
+    sources = {name: {"reader": "table", "files": "raw/*", "timezone": "UTC"} for name in ("first", "second")}
+    said = lab.ingest({"T1": {**T1, "source": "first"}, "T2": {**T1, "source": "second"}}, sources=sources)
+    assert said.code == 3
+    told = json.loads(lab("ingest", lab.folder / "campaign.yaml", "--json").out)["losses"]
+    assert [x["sources"] for x in told if x["file"]] == [["first", "second"]]
+
+
+def test_what_no_channel_reads_is_told_so_by_quality_too(lab: Lab) -> None:
+    log(lab, "End Of File", "0", 1)
+    assert lab.ingest({"T1": T1}).code == 0
+    assert "got 'Logged'; no channel reads that column" in lab("quality").out
+    assert lab.ingest({"T1": T1, "end": {"signal": "End Of File", "quantity": "state"}}).code == 3
+    assert "no channel reads that column" not in lab("quality").out

@@ -16,6 +16,7 @@ from thermodata.report.quality.told import by_channel, with_reason
         ("channel 'T_1': no signal 'x'", "channel 'T_22': no signal 'yy'", True),
         ("raw/day1.csv: cp1252 was taken", "raw/sub/day22.csv: cp1252 was taken", True),
         ("exactly 3.25 for 360 samples while T_1 moved", "exactly -1e3 for 12 samples while T_1, T_2 moved", True),
+        ("1 row stands out of order: it was sorted", "2 rows stand out of order: they were sorted", True),
         ("day1, daq: 3 rows stood twice", "day1, daq: 3 rows were lost", False),
         ("cp1252 was taken", "cp1250 was not taken", False),
     ],

@@ -69,7 +69,7 @@ def test_the_page_tells_the_share_the_reason_and_the_loss(tests: list[TestQualit
     assert "raw/day2.tdms, byte 7: cut" in body
     assert "a step of +30.0 K" in body
     assert not re.search(r"<(script|link|img|iframe)[^>]+(src|href)\s*=", body)
-    assert headline(tests[:1]) == "All of 12\u00a0k samples in 1 tests count"
+    assert headline(tests[:1]) == "All of 12\u00a0k samples in 1 test count"
 
 
 def test_a_picture_a_test_with_marks_lanes_and_gaps(tests: list[TestQuality]) -> None:

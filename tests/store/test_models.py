@@ -191,6 +191,15 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
         ]
         assert con.execute("select test, from_s, state from weak_spot").fetchall() == [("one", 0.0, "heating")]
         assert con.execute("select effect, drivers, claimed from candidate").fetchall() == [("lag", ["T_a"], True)]
+    save(filled, "m2")  # of several responses each is diagnosed by itself, in a model of its own or anew
+    save_diagnosis(filled, "m2", DIAGNOSIS.model_copy(update={"response": "dX"}))
+    with filled.reader() as con:
+        for view in ("weak_spot", "candidate", "artefact"):
+            assert con.execute(f"select model, response from {view} order by all").fetchall() == [
+                ("m1", "dZ"),
+                ("m2", "dX"),
+            ]
+            assert con.sql(f"select * from {view}").columns[-1] == "response", "what stood before keeps its place"
     save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])
     with filled.reader() as con:
         assert con.execute("select test, payload->>'$.machine' from finding where kind = 'portability'").fetchall() == [

@@ -47,16 +47,18 @@ def mixed(build_once: Build) -> Store:
     return b.store()
 
 
-@pytest.mark.parametrize("step", ["'30 s'", "30", "interval '30 s'", "30.0", "'0.5 min'", "interval 30 second"])
-def test_a_step_is_an_interval_a_text_or_seconds(mixed: Store, step: str) -> None:
-    got = columns(mixed, f"select t_s from binned('c', 'a', {step})")
+@pytest.mark.parametrize("step", ["'30 s'", "30", "'30'", "interval '30 s'", "30.0", "'0.5 min'", "interval 30 second"])
+@pytest.mark.parametrize("macro", ["binned", "aligned"])
+def test_a_step_is_an_interval_a_text_or_seconds(mixed: Store, macro: str, step: str) -> None:
+    got = columns(mixed, f"select t_s from {macro}('c', 'a', {step})")
     assert got["t_s"].tolist() == list(np.arange(0.0, 600.0, 30.0))
 
 
-@pytest.mark.parametrize("step", ["'soon'", "0", "-30", "null", "'-1 s'"])
-def test_a_step_that_is_none_is_refused(mixed: Store, step: str) -> None:
-    with pytest.raises(duckdb.Error, match="a step is positive"):
-        columns(mixed, f"select * from binned('c', 'a', {step})")
+@pytest.mark.parametrize("step", ["'soon'", "0", "-30", "null", "'-1 s'", "'1,5 min'", "'inf'", "'nan'"])
+@pytest.mark.parametrize("macro", ["binned", "aligned"])
+def test_a_step_that_is_none_is_refused(mixed: Store, macro: str, step: str) -> None:
+    with pytest.raises(duckdb.Error, match="a step is positive: '30 s', '1 min'"):
+        columns(mixed, f"select * from {macro}('c', 'a', {step})")
 
 
 def test_columns_and_types(mixed: Store) -> None:

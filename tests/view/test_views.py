@@ -10,8 +10,11 @@ import duckdb
 import numpy as np
 import pytest
 
+from thermodata.schema.flag import INVALID, Flag
 from thermodata.store import Store
+from thermodata.store.base import connection
 from thermodata.store.views.regenerate import regenerate
+from thermodata.store.views.version import of_this_version
 
 Build = Callable[..., "Builder"]  # noqa: F821
 LONG = ["campaign", "test", "source", "channel", "t", "t_s", "value", "flag"]
@@ -106,6 +109,63 @@ def test_sample_is_long_over_numeric_channels(small: Store) -> None:
 )
 def test_selections_by_quantity(small: Store, view: str, channels: set[str]) -> None:
     assert {c for (c,) in sql(small, f"select distinct channel from {view}")} == channels
+
+
+@pytest.mark.parametrize(
+    ("view", "channel"), [("displacement", "dZ"), ("temperature", "T1"), ("driver", "T1"), ("driver", "speed")]
+)
+def test_selections_hold_the_rows_of_sample_flagged_ones_too(small: Store, view: str, channel: str) -> None:
+    rows = sql(small, f"select * from {view} where channel = ? order by all", channel)
+    assert rows == sql(small, "select * from sample where channel = ? order by all", channel)
+    assert rows
+    assert any(flag for *_, flag in rows) == (view == "displacement")
+
+
+def test_valid_tells_what_counts_in_means(small: Store) -> None:
+    counting = "select test, count(*), sum(value) from displacement where valid(flag) group by 1 order by 1"
+    assert sql(small, counting) == [("a", 5, 130.0), ("b", 5, 630.0)]  # the spike at 20 s is out
+    wide = sql(small, "select view from wide where source = 'daq'")[0][0]
+    assert sql(small, f"select count(*) from {wide} where test = 'a' and valid(dZ__flag)") == [(5,)]
+    for flag in Flag:
+        assert sql(small, f"select valid({int(flag)})") == [(not flag & INVALID,)], flag
+    assert sql(small, "select valid(null), valid(1 + 8)") == [(True, False)]
+
+
+def made_by_an_older_version(store: Store) -> None:
+    """As stores were when the selections by quantity held the samples that count only, and nothing counted views."""
+    with store._opened(con := connection.memory(store.path)):
+        con.execute("drop macro views_version; drop macro valid")
+        con.execute("create or replace view displacement as select * from sample where channel = 'dZ' and flag = 0")
+        kept = con.execute("select object, digest from made_from where object not like 'macro v%'").fetchall()
+        rows = ", ".join(f"('{name}', '{'old' if name == 'view displacement' else digest}')" for name, digest in kept)
+        con.execute(f"create or replace view made_from as select * from (values {rows}) v(object, digest)")
+    (store.path / "generation").write_text("of the older version")
+
+
+def test_a_store_of_an_older_version_is_read_with_our_views(own: Store) -> None:
+    made_by_an_older_version(own)
+    before = (own.path / "catalog.duckdb").read_bytes()
+    other = Store(own.path)
+    assert sql(other, "select count(*), count(*) filter (where valid(flag)) from displacement") == [(12, 10)]
+    assert (own.path / "catalog.duckdb").read_bytes() == before, "who reads writes nothing"
+
+
+def test_the_next_write_of_any_kind_brings_the_views_of_an_older_version_up(own: Store) -> None:
+    made_by_an_older_version(own)
+    with own._opened(con := connection.memory(own.path)):
+        assert not of_this_version(con)
+    with own.write(views=False):
+        pass
+    with own._opened(con := connection.memory(own.path)):
+        assert of_this_version(con)
+        assert con.execute("select count(*) from displacement").fetchone() == (12,)
+
+
+def test_an_older_store_with_a_damaged_file_is_still_read(own: Store) -> None:
+    made_by_an_older_version(own)
+    for path in (own.path / "tidy").iterdir():
+        path.write_bytes(b"x" * path.stat().st_size)  # as long as it was: only DuckDB sees it
+    assert sql(Store(own.path), "select count(*) from test") == [(3,)]
 
 
 def test_signal_gives_the_rows_of_sample(small: Store) -> None:
@@ -336,8 +396,8 @@ def test_findings_and_history(build: Build) -> None:
         (1, "m1", 4.0, round(float(np.sqrt((16 * 30 + 64 * 10) / 40)), 6), None, 3),
         (2, "m2", 1.0, round(float(np.sqrt((30 + 4 * 10) / 40)), 6), None, 3),
     ]
-    assert sql(store, "select campaign, test, to_s, rmse_um, state from weak_spot") == [
-        ("c", "t2", 60.0, 5.5, "heating")
+    assert sql(store, "select campaign, test, to_s, rmse_um, state, response from weak_spot") == [
+        ("c", "t2", 60.0, 5.5, "heating", "dZ")
     ]
     assert sql(store, "select rank, id, drivers, claimed, p_value, rmse_um_before, why from candidate") == [
         (1, "x", ["T1"], True, None, 4.0, "it's")

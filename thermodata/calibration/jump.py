@@ -20,6 +20,7 @@ from thermodata.calibration.quality_value import run_stats
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
+from thermodata.reader.counted import counted
 from thermodata.schema.campaign import JumpCalibration
 
 _LEAST_SAMPLES = 20
@@ -208,7 +209,7 @@ def _not_found(
     return CalibrationError(
         f"jump test '{name}': the commanded moves are not found in '{spec.signal}'",
         where=f"calibrations.{name}",
-        expected=f"{len(moves)} steps in proportion to {moves} um",
+        expected=f"{counted(len(moves), 'step')} in proportion to {moves} um",
         got=seen,
         hint=hint,
     )

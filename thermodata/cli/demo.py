@@ -81,6 +81,8 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
 
 def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     """The seven steps; returns the demo's JSON without the seconds."""
+    from thermodata.reader.counted import counted
+
     # the mark comes first: an interrupted demo is still known as one
     (folder / _MARK).write_text(f"thermodata demo --hide {hide} --seed {seed}\n", encoding="utf-8")
 
@@ -92,7 +94,8 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
     kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
     step.line(
-        f"{len(raw)} files ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in {folder / 'raw'}; "
+        f"{counted(len(raw), 'file')} ({kinds}), {sum(p.stat().st_size for p in raw) / 1e6:.0f} MB, in "
+        f"{folder / 'raw'}; "
         "what the model lacks, if anything, nobody tells it"
     )
 
@@ -110,7 +113,7 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         )
         or "nothing"
     )
-    step.line(f"{summary['tests']} tests, {summary['samples'] / 1e6:.1f} million samples; flagged: {flags}")
+    step.line(f"{counted(summary['tests'], 'test')}, {summary['samples'] / 1e6:.1f} million samples; flagged: {flags}")
     for row in summary["calibrations"]:
         name = row.get("calibration") or row.get("name")
         step.line(

@@ -33,6 +33,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from thermodata.draft.answer import as_json
     from thermodata.draft.make import draft_files
     from thermodata.draft.write import one_line
+    from thermodata.reader.counted import counted
     from thermodata.reader.registry import failed_readers
 
     made = draft_files(folder, force=force, progress=_progress(session))
@@ -47,7 +48,10 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     for path, _ in draft.failed[:_SAID]:
         session.say(f"{path}: {reasons[path]}")
     if len(draft.failed) > _SAID:
-        session.say(f"{len(draft.failed) - _SAID} more files that a reader claims and can't read: the draft names them")
+        session.say(
+            f"{counted(len(draft.failed) - _SAID, 'more file')} that a reader claims and can't read: the draft "
+            "names them"
+        )
     if not draft.sources:
         whose = "no file of {} could be read" if draft.failed else "no reader claims any file of {}"
         session.say(f"{whose.format(folder)}: the draft names them, and what would help")
@@ -55,12 +59,14 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         more = f" and {len(draft.unused) - _SAID} more" if len(draft.unused) > _SAID else ""
         named = ", ".join(one_line(path) for path in draft.unused[:_SAID])
         session.say(
-            f"{len(draft.unused)} of {made.seen} files are not used ({named}{more}): the end "
+            f"{len(draft.unused)} of {counted(made.seen, 'file')} {'is' if len(draft.unused) == 1 else 'are'} "
+            f"not used ({named}{more}): the end "
             f"of {made.campaign.name} says why"
         )
     session.say(
-        f"{made.files} files, {len(draft.tests)} tests, {len(draft.sources)} sources, "
-        f"{sum(c.said.quantity is not None for c in draft.channels)} channels; {made.questions} lines hold a question: "
+        f"{counted(made.files, 'file')}, {counted(len(draft.tests), 'test')}, {counted(len(draft.sources), 'source')}, "
+        f"{counted(sum(c.said.quantity is not None for c in draft.channels), 'channel')}; "
+        f"{counted(made.questions, 'line', 'holds', 'hold')} a question: "
         f"grep '# ?' {made.campaign}"
     )
     answer = as_json(draft, made.campaign, made.files, made.questions, _first_model(made))

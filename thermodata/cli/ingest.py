@@ -31,6 +31,8 @@ def ingest_command(session: Session, campaign: Path) -> int:
 
 def ingest_text(summary: dict[str, Any]) -> str:
     """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
+    from thermodata.reader.counted import counted
+
     flags = {name: n for name, n in summary["flags"].items() if n}
     parts = [
         fields(
@@ -42,7 +44,7 @@ def ingest_text(summary: dict[str, Any]) -> str:
                 ("flagged", flags or "none"),
                 (
                     "new",
-                    f"{summary['read']} files read, {summary['made']} streams made"
+                    f"{counted(summary['read'], 'file')} read, {counted(summary['made'], 'stream')} made"
                     if summary["changed"]
                     else "nothing",
                 ),

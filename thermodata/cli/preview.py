@@ -92,6 +92,8 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
 
 def preview_text(found: dict[str, Any]) -> str:
     """A preview for a person."""
+    from thermodata.reader.counted import counted
+
     campaign = found["campaign"]
     said = (
         None
@@ -115,7 +117,7 @@ def preview_text(found: dict[str, Any]) -> str:
                 ("complete", whole),
                 (
                     "read",
-                    f"all {found['rows_read']} rows"
+                    f"all {counted(found['rows_read'], 'row')}"
                     if found["whole"]
                     else f"the first {found['rows_read']} rows only: the file is large; what follows holds for them",
                 ),
@@ -132,10 +134,12 @@ def preview_text(found: dict[str, Any]) -> str:
 
 
 def _stream(s: dict[str, Any]) -> list[str]:
+    from thermodata.reader.counted import counted
+
     rate = (
         "no rows"
         if not s["rows"]
-        else f"{s['rows']} rows"
+        else counted(s["rows"], "row")
         + (f", every {s['step_s']:.6g} s, {_span(s['duration_s'])}, {s['start']} to {s['end']}" if s["step_s"] else "")
     )
     told = (("gaps", "gaps"), ("backward", "steps back"), ("repeated", "times repeated"))
@@ -174,13 +178,13 @@ def _stream(s: dict[str, Any]) -> list[str]:
         parts.append(
             "\n".join(
                 f"  {e['flag']}{' ' + e['signal'] if e['signal'] else ''}: {e['from']} to {e['to']}, "
-                f"{e['n']} rows{'; ' + e['detail'] if e['detail'] else ''}"
+                f"{counted(e['n'], 'row')}{'; ' + e['detail'] if e['detail'] else ''}"
                 for e in s["events"][:10]
             )
         )
     if s["first_rows"]:
         names = list(s["first_rows"][0])
-        more = f" (and {len(names) - 9} more columns)" if len(names) > 9 else ""
+        more = f" (and {counted(len(names) - 9, 'more column')})" if len(names) > 9 else ""
         parts.append(f"first rows{more}\n" + table(s["first_rows"], [(n, n) for n in names[:9]], widest=26))
     return parts
 

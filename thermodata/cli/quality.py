@@ -43,7 +43,7 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
     found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
     files = _files(session, campaign)
     rows = [with_reason(row) for row in [*found, *_not_measuring(files)]]
-    losses = _losses(files)
+    losses = _losses(files, _signals(session, campaign))
 
     def text() -> str:
         parts = []
@@ -102,16 +102,41 @@ def _not_measuring(files: list[dict[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def _losses(files: list[dict[str, Any]]) -> list[str]:
-    """What could not be read or made, a line a cause."""
+def _signals(session: Session, campaign: str | None) -> set[tuple[str, str, str, str]]:
+    """(campaign, test, source, signal without its unit) of every channel."""
+    query = "select distinct campaign, test, source, signal from channel where signal is not null"
+    return {
+        (row["campaign"], row["test"], row["source"], _bare(row["signal"]))
+        for row in rows_of(session, f"select * from ({query})", campaign, "test, source")
+    }
+
+
+def _bare(signal: str) -> str:
+    from thermodata.reader.text import split_unit
+
+    return split_unit(signal)[0].casefold()
+
+
+def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]) -> list[str]:
+    """What could not be read or made, a line a cause. What is lost of a file of a test is one loss, of the sources that
+    miss it."""
     from thermodata.report.causes import losses_in_words
 
-    found: list[dict[str, Any]] = []
+    once: dict[str, dict[str, Any]] = {}
     for row in files:
-        place = {"test": row["test"] or None, "source": row["source"] or None, "file": row["source_path"]}
-        found += [{**place, **loss} for loss in json.loads(row["losses"] or "[]")]
+        place = {"campaign": row["campaign"], "test": row["test"] or None, "file": row["source_path"]}
+        found = [{**place, **loss} for loss in json.loads(row["losses"] or "[]")]
         found += [{**place, "reason": p} for p in row["meta"].get("problems", [])]
-    once = list({json.dumps(x, sort_keys=True, default=str): x for x in found}.values())
-    names = {str(x[k]) for x in once for k in ("test", "source") if x.get(k)}
-    lines = losses_in_words(once, names)
+        for loss in found:
+            key = json.dumps([loss.get(k) for k in ("campaign", "test", "file", "where", "reason")])
+            one = once.setdefault(key, {**loss, "sources": []})
+            signal = loss.get("signal")
+            read = signal is None or (row["campaign"], row["test"], row["source"], _bare(signal)) in signals
+            if row["source"] and row["source"] not in one["sources"] and (read or not row["test"]):
+                one["sources"].append(row["source"])
+    for one in once.values():
+        if one.get("signal") and one["test"] and not one["sources"]:
+            one["reason"] += "; no channel reads that column"
+    names = {str(n) for x in once.values() for n in (x["test"], *x["sources"]) if n}
+    lines = losses_in_words(list(once.values()), names)
     return ["losses\n" + "\n".join(f"  - {line}" for line in lines)] if lines else []

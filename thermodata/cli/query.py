@@ -29,10 +29,12 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
 
     Tables test, channel, model, ...; views sample, temperature, displacement, driver, residual, score, ...
 
-    Without QUERY it is read from stdin. Times t are UTC; t_s are seconds from the test's start.
+    Without QUERY it is read from stdin. Times t are UTC; t_s are seconds from the test's start. Flagged samples are
+    among the others: 'where valid(flag)' leaves out what does not count in means.
 
     \b
       thermodata sql "from score where role = 'verification'"
+      thermodata sql "select channel, avg(value) from temperature where valid(flag) group by 1"
       thermodata sql "from binned('gantry', 'day1', '60 s')" --csv > day1.csv
     """
     if as_csv and session.as_json:
@@ -47,6 +49,9 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
     if unverified is not None:
         session.say(unverified)
     columns: list[str] = list(relation.columns)
+    flagged = view.values_that_do_not_count(query, columns)
+    if flagged is not None:
+        session.say(flagged)
 
     def batches(rows: Any) -> Iterator[list[tuple[Any, ...]]]:
         return interruptible(_batches(rows), relation.interrupt)

@@ -20,6 +20,7 @@ from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.known import FloatND
 from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+from thermodata.reader.counted import counted
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 
@@ -76,8 +77,8 @@ def loose_sensors(data: Dataset, response: str) -> list[Artefact]:
 
 def as_artefact(fall: Fall) -> Artefact:
     first, last = fall.after[0], fall.before[-1]
-    told = f"{len(fall.after)} tests bear it out, {len(fall.before)} before"
-    told += f"; {fall.between} between tell neither" if fall.between else ""
+    told = f"{counted(len(fall.after), 'test', 'bears it out', 'bear it out')}, {len(fall.before)} before"
+    told += f"; {fall.between} between {'tells' if fall.between == 1 else 'tell'} neither" if fall.between else ""
     return Artefact(
         kind="sensor_gain",
         campaign=first.campaign,

@@ -8,6 +8,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.probability import elsewhere
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
+from thermodata.reader.counted import counted
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.schema.places import heat_at, is_around
 from thermodata.view.dataset import ChannelInfo
@@ -164,14 +165,15 @@ def to_find(
     if tests < ENOUGH_TESTS:
         shares = ", ".join(f"{share} with {n} tests" for n, share in CLAIMED_BY_TESTS)
         return (
-            f"{tests} tests took part; more of the same kind help little (on simulated machines a missing cause was "
+            f"{counted(tests, 'test')} took part; more of the same kind help little (on simulated machines a "
+            "missing cause was "
             f"named on {shares}): add tests that each heat one source alone (spindle, one axis, table, hall air)"
         )
     worst = spots[0].state if spots else "no state in particular"
     logged = ""
     log = to_log(first, channels) if first is not None and first.drop >= WORTH_A_TEST else None
     if log is not None:
-        return f"{tests} tests took part, so more of the same will not tell; {log}"
+        return f"{counted(tests, 'test')} took part, so more of the same will not tell; {log}"
     if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
         logged = f"do {first.candidate.protocol}; if nothing differs, "
     elif first is not None and first.drop >= WORTH_A_TEST:
@@ -180,7 +182,8 @@ def to_find(
         opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
         logged = f"{names} is logged and ranks first, so run a test that moves it alone{opened}; if it is not that, "
     return (
-        f"{tests} tests took part, so more of the same will not tell: {logged}log what is not logged yet near the "
+        f"{counted(tests, 'test')} took part, so more of the same will not tell: {logged}log what is not logged "
+        "yet near the "
         f"parts that work where the model fails most ({worst})"
     )
 

@@ -16,6 +16,7 @@ from thermodata.diagnosis.confirm import Fits, confirm
 from thermodata.diagnosis.copies import copies
 from thermodata.diagnosis.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.gain_by import named
+from thermodata.diagnosis.held import as_held, held
 from thermodata.diagnosis.left_on_locked import left_on_locked
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.turned_locked import turned_locked
@@ -95,7 +96,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     name, key = chosen.id, _key(model)
     kept = kept_answer(store, model.identity, f"confirm {name}", key)
     if kept is not None:
-        known = Confirmed.model_validate_json(kept)
+        known = as_held(Confirmed.model_validate_json(kept))
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
     usable = [t for t in tests if response.can_predict(t)]
     asked_of = sound(model.fitted, index, model.data, usable, effects(), ends_of_logs(store, model))
@@ -118,11 +119,12 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
             put_right = put_right.model_copy(update={"left_out": [*put_right.left_out, *sorted(wrong)]})
             confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, upright, base)
             shape = confirmation.where_it_acts
-    result = Confirmed(
+    samples = {s.key: s.rows for s in confirmation.shapes}
+    found = Confirmed(
         model=model.identity,
         response=response.name,
         candidate=name,
-        holds=None if shape is None else shape.holds,
+        holds=None,
         locked_rmse_um_before=confirmation.before,
         locked_rmse_um_after=confirmation.after,
         locked_shape_um_before=None if shape is None else shape.before,
@@ -130,7 +132,12 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         parameters=confirmation.parameters[chosen.id],
         tests=[
             TestConfirmed(
-                campaign=key[0], test=key[1], rmse_um_before=b, rmse_um_after=a, acts=key in confirmation.acts
+                campaign=key[0],
+                test=key[1],
+                rmse_um_before=b,
+                rmse_um_after=a,
+                acts=key in confirmation.acts,
+                n=samples[key],
             )
             for key, b, a in confirmation.each
         ],
@@ -138,6 +145,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         probability=_claimed_with(store, model.identity, name),
         put_right=told(put_right),
     )
+    result = held(found, None if shape is None else shape.holds)
     keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
     return result, False
 

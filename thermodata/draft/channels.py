@@ -23,6 +23,7 @@ from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
+from thermodata.reader.counted import counted
 from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
@@ -45,7 +46,7 @@ def channels_of(
         if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
     ]
     more = len(found) - _MOST_SIGNALS
-    notes = [f"{group.source}: {more} more signals, left out of the draft"] if more > 0 else []
+    notes = [f"{group.source}: {counted(more, 'more signal')}, left out of the draft"] if more > 0 else []
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }

@@ -43,6 +43,7 @@ from thermodata.draft.speeds_told import with_told_speeds
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.twin_probes import each_its_own
 from thermodata.draft.warm import warm_starts
+from thermodata.reader.counted import counted
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
@@ -116,20 +117,24 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     like = [f for f in found.logs if f.like]
     if like:
         notes.append(
-            f"{len(like)} files were not opened (the folder's time was up): taken to be like others of their name, "
+            f"{counted(len(like), 'file', 'was', 'were')} not opened (the folder's time was up): taken to be "
+            "like others of their name, "
             f"e.g. {like[0].path} like {like[0].like}"
         )
     unseen = [f for f in found.logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]
     if unseen:
         notes.append(
-            f"{len(unseen)} files were opened, and none of their values looked at (the folder's time was up): their "
+            f"{counted(len(unseen), 'file', 'was', 'were')} opened, and no values looked at (the folder's time "
+            "was up): their "
             f"tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
         )
     hurried = [f for f in found.logs if f.sample.hurried]
     if hurried:
         notes.append(
-            f"{len(hurried)} files were looked at in their first rows only (the time for each was up): what their "
-            f"tests did later is not in this draft, e.g. {hurried[0].path} after {hurried[0].sample.rows} rows; check "
+            f"{counted(len(hurried), 'file', 'was', 'were')} looked at in the first rows only (the time for "
+            "each was up): what their "
+            f"tests did later is not in this draft, e.g. {hurried[0].path} after "
+            f"{counted(hurried[0].sample.rows, 'row')}; check "
             "these lines"
         )
     return Draft(

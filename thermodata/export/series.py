@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.predict import Predicted
+from thermodata.store.base.files import whole_file
 from thermodata.view.rows import with_units
 
 _SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
@@ -66,13 +66,8 @@ def write_table(predictions: Sequence[Predicted], out: Path, kind: str) -> None:
     import pyarrow.csv
     import pyarrow.parquet as pq
 
-    out.parent.mkdir(parents=True, exist_ok=True)
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")
-    try:
+    with whole_file(out) as part:
         if kind == "parquet":
             pq.write_table(as_table(predictions), part)
         else:
             pyarrow.csv.write_csv(as_table(predictions, unit_in_names=True), part)
-        part.replace(out)
-    finally:
-        part.unlink(missing_ok=True)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
 from thermodata.export.content import LOGGED, check_test, read_content
+from thermodata.store.base.files import whole_file
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -33,7 +33,8 @@ def export_test(
     view: StoreView, campaign: str, test: str, out: Path, *, step: str = "30 s", kind: str | None = None
 ) -> Exported:
     """Write `binned(campaign, test, step)` to `out`; kind None: by its suffix. step 'logged' (MAT and MDF4): each
-    source at its own times, with its flags. UsageError on unknown names."""
+    source at its own times, with its flags. UsageError on unknown names; ThermodataError where `out` can't be
+    written."""
     kind = kind or _BY_SUFFIX.get(out.suffix.lower())
     if kind not in FORMATS:
         raise UsageError(
@@ -51,16 +52,9 @@ def export_test(
             got=f"{step} as {kind}",
             hint="--format mat or mdf4",
         )
-    out.parent.mkdir(parents=True, exist_ok=True)
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")  # a cut write never looks like a whole file
-    if kind == "mdf4":
-        part = part.with_suffix(".mf4")  # asammdf names the file itself
-    try:
-        write = _write_table if kind in ("parquet", "csv") else _write_streams
+    write = _write_table if kind in ("parquet", "csv") else _write_streams
+    with whole_file(out, ".mf4" if kind == "mdf4" else "") as part:  # asammdf names the file itself
         rows, columns, units = write(view, campaign, test, step, part, kind)
-        part.replace(out)
-    finally:
-        part.unlink(missing_ok=True)
     return Exported(str(out), kind, rows, columns, units)
 
 

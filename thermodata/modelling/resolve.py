@@ -19,6 +19,7 @@ from thermodata.modelling.nuisance import known_weights
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.modelling.said_conditions import refuse_unsaid_of
 from thermodata.plugin import Effect
+from thermodata.reader.counted import counted
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.schema.terms import ids_of
 from thermodata.view.dataset import ChannelInfo, Dataset
@@ -120,7 +121,7 @@ def find_response(response: Response, channels: Mapping[str, ChannelInfo], campa
             where=f"response, campaign {campaign}",
             expected=", ".join(f"{n} (axis {i.axis}, at {i.at})" for n, i in moving.items())
             or "a displacement channel",
-            got=None if moving else f"no displacement among {len(channels)} channels that have data",
+            got=None if moving else f"no displacement among {counted(len(channels), 'channel')} with data",
             hint=None if moving else "ingest again: its losses tell which source had no file or no calibration",
         )
     if len(hits) > 1:

@@ -21,6 +21,7 @@ from thermodata.modelling.prediction import NAME as PREDICTION
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.transfer import NAME as TRANSFER
 from thermodata.plugin import Param
+from thermodata.reader.counted import counted as in_words
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset
@@ -88,7 +89,10 @@ def with_second_lags(spec: Model, data: Dataset) -> Refined:
         )
     left_out = LeftOut(spec, data)
     if left_out.tests < LEAST_TESTS:
-        few = f"no second lag: {left_out.tests} open tests, and from {LEAST_TESTS} on they can be left out in turn"
+        few = (
+            f"no second lag: {in_words(left_out.tests, 'open test')}, and from {LEAST_TESTS} on they can be "
+            "left out in turn"
+        )
         return Refined(spec, (), [few])
     try:
         now, whole = left_out.errors(spec), left_out.whole

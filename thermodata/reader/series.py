@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
+from thermodata.reader.counted import counted
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import Parting, bare_header, series_columns, words_of
 
@@ -133,6 +134,9 @@ class Series:
         return {one: np.flatnonzero(names == one) for one in dict.fromkeys(names.tolist())}
 
 
+_THINGS = ("row", "value")
+
+
 @dataclass(slots=True)
 class TakenApart:
     """Takes the blocks of one stream apart; counts what its first look did not meet."""
@@ -148,14 +152,14 @@ class TakenApart:
             return
         for one, rows in self.series.rows(item).items():
             if one not in self.series.held:
-                self._count(f"rows of '{one}'" if one else "rows that name no series", rows.size)
+                self._count(f"row of '{one}'" if one else "row of no series", rows.size)
                 continue
             held = self.series.held[one]
             if one in self.series.units:
                 column, unit = self.series.units[one]
                 same = np.array([word in ("", unit) for word in words_of(column, item.values[column][rows])], bool)
                 if not same.all():
-                    self._count(f"rows of '{one}' in another unit than '{unit}'", int((~same).sum()))
+                    self._count(f"row of '{one}' in another unit than '{unit}'", int((~same).sum()))
                     rows = rows[same]
             values = {self.series.named(one, k): v[rows] for k, v in item.values.items() if k in held}
             flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
@@ -163,12 +167,14 @@ class TakenApart:
             yield Block(self.series.streams[one], item.t_ns[rows], values, flags or None, at)
             for k, v in item.values.items():
                 if k not in held and k not in self.series.tags and (n := int(_full(v[rows], item, k, rows).sum())):
-                    self._count(f"values of '{self.series.named(one, k)}'", n)
+                    self._count(f"value of '{self.series.named(one, k)}'", n)
 
     def rest(self) -> Iterator[Loss]:
         """What was counted."""
         for what, count in self.unmet.items():
-            yield Loss(self.where, reason=f"{count} {what}, which the first look at the file did not meet")
+            things, _, whose = what.partition(" ")
+            told = f"{counted(count, things)} {whose}" if things in _THINGS else f"{count} {what}"
+            yield Loss(self.where, reason=f"{told}, which the first look at the file did not meet")
 
     def _count(self, what: str, count: int) -> None:
         what = what if what in self.unmet or len(self.unmet) < 20 else "rows or values of others"

@@ -15,6 +15,9 @@ _NUMBER = re.compile(r"[-+]?\d(?:[\d.,:TZ+-]*\d)?(?:[eE][-+]?\d+)?")
 # what may differ between lines of one cause: a number comes with its unit
 _TOKEN = re.compile(rf"{_QUOTED.pattern}|{_PATH.pattern}|{_NUMBER.pattern}(?: ?(?:°C|[%A-Za-z]{{1,4}})\b)?")
 _WORD = re.compile(r"[\w.-]+")
+# one row stands, two rows stand: of one cause
+_SEVERAL = {"are": "is", "were": "was", "they": "it", "do": "does"}
+_ENDS = re.compile(r"(?<=[a-z])e?s\b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +37,7 @@ def cause_of(text: str, names: Collection[str] = ()) -> str:
     known = set(names)
     text = _WORD.sub(lambda word: "~" if word.group() in known else word.group(), _QUOTED.sub("~", text))
     text = _NUMBER.sub("#", _PATH.sub("~", text))
+    text = _ENDS.sub("", _WORD.sub(lambda word: _SEVERAL.get(word.group(), word.group()), text))
     return re.sub(r"~(, ~)+", "~", text)  # lists of names of any length
 
 
@@ -121,7 +125,9 @@ def _heads(notes: Sequence[str]) -> set[str]:
 
 
 def _place(loss: Mapping[str, Any]) -> str:
-    parts = [str(loss[k]) for k in ("test", "source", "file", "where") if loss.get(k) is not None]
+    sources = ", ".join(loss.get("sources") or [s for s in [loss.get("source")] if s])
+    told = (loss.get("test"), sources or None, loss.get("file"), loss.get("where"))
+    parts = [str(part) for part in told if part is not None]
     share = f", {100 * loss['fraction']:.2g} % of the file" if loss.get("fraction") else ""
     return f" ({', '.join(parts)}{share})" if parts else ""
 

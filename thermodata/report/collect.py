@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
+    from thermodata.modelling.not_installed import as_stored, not_installed
     from thermodata.modelling.result import make_result
     from thermodata.modelling.run import load
     from thermodata.modelling.seen import see
@@ -38,7 +40,12 @@ def collect(store: Store, ref: str) -> ReportData:
     responses = tuple(r.name for r in loaded.fitted.responses)
     # curves, scores and parameters are of one fit; what was kept may be of data that have changed since
     result = make_result(loaded.fitted, loaded.data, stored.model)
-    scores = [_scores_today(store, m, loaded) for m in chain[:-1]] + [result.scores]
+    lacking = {m.model: some for m in chain[:-1] if (some := not_installed(m.spec))}
+    told = tuple(as_stored(lacking[m.model], m.name) for m in chain if m.model in lacking)
+    for sentence in dict.fromkeys(told):
+        warnings.warn(f"an earlier version: {sentence}", stacklevel=2)
+    scores = [m.result.scores if m.model in lacking else _scores_today(store, m, loaded) for m in chain[:-1]]
+    scores.append(result.scores)
     before = scores[-2] if len(chain) > 1 else stored.result.before or []
     conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
     return ReportData(
@@ -61,9 +68,10 @@ def collect(store: Store, ref: str) -> ReportData:
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, [m.model for m in chain]),
-        first=tuple(by_role(_first(store, chain, loaded))),
+        first=() if chain[0].model in lacking else tuple(by_role(_first(store, chain, loaded))),
         stale=stored.stale,
         systems=tuple(see(loaded.fitted, loaded.data)),
+        as_stored=tuple(dict.fromkeys(told)),
     )
 
 

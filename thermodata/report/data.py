@@ -76,7 +76,7 @@ class ReportData:
     versions: oldest first. looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
     weak: weak spots by response. first: the tests as the first version foretells them, for the scale of residuals;
     empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; stale: they changed
-    since the model was kept.
+    since the model was kept. as_stored: of each earlier version that can't be run, why, and what is told of it.
     """
 
     model: str
@@ -101,6 +101,7 @@ class ReportData:
     first: tuple[TestPart, ...] = ()
     stale: bool = False
     systems: tuple[Seen, ...] = ()
+    as_stored: tuple[str, ...] = ()
 
     @property
     def added(self) -> str | None:

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 def confirmed_text(result: Confirmed) -> str:
     """A confirmation for a person."""
     head = "; ".join(filter(None, [_confirmed_sentence(result), put_right(result.put_right)]))
-    if result.holds is False and result.probability is not None:
+    if result.holds is False and result.holds_by_shape and result.probability is not None:
+        head += f". The diagnosis claims it, with {probability(result.probability)}: it goes by the shape"
+    elif result.holds is False and result.probability is not None:
         head += (
             f". The diagnosis claims it all the same, with {probability(result.probability)}: it weighs what these "
             "tests say against the open ones, and asks them where the effects of the model may act otherwise, too"
@@ -38,8 +40,11 @@ def confirmed_text(result: Confirmed) -> str:
     return f"{head}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
 
 
+_START = "the course fits and where it starts does not (a test that began warm, or noise where its zero is taken)"
+
+
 def _confirmed_sentence(result: Confirmed) -> str:
-    """It holds by its shape, with a free offset a test; where the error as scored says otherwise both are told."""
+    """By its shape, with a free offset a test, and as scored; where these say otherwise both are told."""
     before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
     scored = "" if before is None or after is None else f"{number(before)} -> {number(after)} um"
     if result.holds is None:
@@ -47,7 +52,8 @@ def _confirmed_sentence(result: Confirmed) -> str:
             f"{result.candidate} hardly acts in the locked tests (under a fifth of its largest), so these say little "
             "of it" + (f" ({scored})" if scored else "") + ": one that moves it more would, locked, from a cold start"
         )
-    said = "holds" if result.holds else "does not hold"
+    in_shape_only = result.holds is False and result.holds_by_shape is True
+    said = "holds" if result.holds else "holds in shape only" if in_shape_only else "does not hold"
     head = f"{result.candidate} {said} on the locked tests"
     if before is None or after is None:
         return head
@@ -57,11 +63,18 @@ def _confirmed_sentence(result: Confirmed) -> str:
         shape = f"{figures} about each test's mean"
     if shape and not all(t.acts for t in result.tests):
         where = ", ".join(t.test for t in result.tests if t.acts)
-        return f"{head} in which it acts ({where}): {shape}; from their first samples on, over all, {scored}"
+        rises = ""
+        if in_shape_only:
+            rises = f", and it rises where it acts: {_START}"
+        elif result.holds and after > before:
+            rises = ", where it rises in those in which it rests"
+        return f"{head} in which it acts ({where}): {shape}; from their first samples on, over all, {scored}{rises}"
+    if in_shape_only:
+        return f"{head}: {shape}, but from their first samples on the error rises, {scored}: {_START}"
     if result.holds == (after < before) or not shape:
         return f"{head}: {scored}"
     if result.holds:
-        return f"{head} by its shape, {shape}; from their first samples on the error rises, {scored}"
+        return f"{head} by its shape, {shape}; from their first samples on it hardly changes, {scored}"
     return f"{head}: {scored}, and {shape}, less than half of what a cause of its size takes away"
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen import Seen
 from thermodata.report.words import probability_text
+from thermodata.store.base.files import whole_file
 
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
@@ -48,14 +48,11 @@ def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
             axes = figure.add_subplot(grid[at + 2 + i // 3, 2 * (i % 3) : 2 * (i % 3) + 2])
             _against(axes, state, one.unit)
         at += 2 + more
-    out.parent.mkdir(parents=True, exist_ok=True)
-    part = out.with_name(f".{out.name}.{os.getpid()}.part")
     try:
-        figure.savefig(part, format="png")
-        part.replace(out)
+        with whole_file(out) as part:
+            figure.savefig(part, format="png")
     finally:
         pyplot.close(figure)
-        part.unlink(missing_ok=True)
 
 
 def _look(colour: str, dash: str) -> dict[str, Any]:

@@ -4,26 +4,21 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import os
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from thermodata.chart import Chart, HeatMap, script, script_json, style
+from thermodata.store.base.files import whole_file
 from thermodata.version import __version__
 
 
 def write_page(out: Path | str, html: str) -> Path:
     """The page's path; a cut write leaves no half page."""
     target = Path(out)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
+    with whole_file(target) as part:
         part.write_text(html, encoding="utf-8")
-        part.replace(target)
-    finally:
-        part.unlink(missing_ok=True)
     return target
 
 

@@ -87,16 +87,22 @@ class StoreView:
             return None if not statements else "the pages of what it read were not verified: thermodata check does"
         return verify_pages(con, self.path, query)
 
+    def values_that_do_not_count(self, query: str, columns: Collection[str]) -> str | None:
+        """See `not_counting`: a sentence where a query takes flagged values and asks for no flag."""
+        from thermodata.view.not_counting import values_that_do_not_count
+
+        return values_that_do_not_count(self.store.connect(), query, columns)
+
     def signal(self, campaign: str, test: str, channel: str) -> Rows:
         """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
         return self._macro("signal", campaign, test, channel)
 
     def binned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a bin: means of the valid samples, states held. step: '30 s' or seconds."""
+        """One row a bin: means of the valid samples, states held. step: '30 s', '1 min', or seconds (60, '60')."""
         return self._macro("binned", campaign, test, str(step))
 
     def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a point: each channel's last sample and its flag. step: '30 s' or seconds."""
+        """One row a point: each channel's last sample and its flag. step: as of `binned`."""
         return self._macro("aligned", campaign, test, str(step))
 
     def residual(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError
+from thermodata.reader.counted import counted
 from thermodata.store.base.files import is_whole
 from thermodata.store.keep.check import altered
 
@@ -45,7 +46,10 @@ def verify_pages(con: duckdb.DuckDBPyConnection, folder: Path, query: str, most_
     left = [p for p in states if keys[p] not in _seen]
     size = sum(states[p].st_size for p in left)
     if size > most_bytes:
-        return f"the pages of {len(left)} files ({size >> 20} MiB) were not verified: thermodata check looks at all"
+        return (
+            f"the pages of {counted(len(left), 'file')} ({size >> 20} MiB) were not verified: thermodata "
+            "check looks at all"
+        )
     for path in left:
         if not is_whole(path):
             continue  # the query itself says it, with what to do

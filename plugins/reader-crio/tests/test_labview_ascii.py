@@ -84,8 +84,8 @@ def test_damage_is_said_and_the_rest_is_kept(tmp_path: Path) -> None:
     assert data.flags["data", "T1"][2] == Flag.NOT_MEASURING
     assert {x.reason.split(" ", 1)[1].split(":")[0] for x in data.losses} == {
         "last line has no end",
-        "lines that are no rows of 3 numbers with a time",
-        "cells that are no numbers",
+        "line that is no row of 3 numbers with a time",
+        "cell that is no number",
     }
 
 

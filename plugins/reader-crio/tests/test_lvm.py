@@ -250,7 +250,7 @@ def test_words_for_nothing_and_for_overload_are_flagged_and_no_damage(tmp_path: 
     np.testing.assert_array_equal(data.values["data", "a"], [1, np.nan, np.nan])
     np.testing.assert_array_equal(data.flags["data", "a"], [0, Flag.NOT_MEASURING, Flag.NOT_MEASURING])
     np.testing.assert_array_equal(data.flags["data", "b"], [0, Flag.SATURATED, 0])
-    assert [x.reason.split(":")[0] for x in data.losses] == ["1 cells that are no numbers"]
+    assert [x.reason.split(":")[0] for x in data.losses] == ["1 cell that is no number"]
     assert data.losses[0].where == "x.lvm line 23"
 
 

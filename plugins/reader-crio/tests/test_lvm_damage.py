@@ -24,7 +24,7 @@ def test_a_cut_last_line_is_a_loss_and_not_a_value(tmp_path: Path) -> None:
 def test_a_line_that_is_no_number_is_reported(tmp_path: Path) -> None:
     data = read(tmp_path, head("No") + packet(["a"], x="X_Value\ta") + "\t1,0\n\txx\n\t3,0\n")
     np.testing.assert_array_equal(data.values["data", "a"], [1.0, 3.0])
-    assert data.losses[0].reason.startswith("1 lines that are no rows")
+    assert data.losses[0].reason.startswith("1 line that is no row")
     assert data.losses[0].where == "x.lvm line 22"
 
 
@@ -33,14 +33,14 @@ def test_a_cell_that_is_no_number_spoils_itself_only(tmp_path: Path) -> None:
     np.testing.assert_array_equal(data.values["data", "a"], [1.0, np.nan, np.nan])
     np.testing.assert_array_equal(data.values["data", "b"], [2, 3, 4])
     np.testing.assert_array_equal(data.flags["data", "a"], [0, Flag.NOT_MEASURING, Flag.NOT_MEASURING])
-    assert "1 cells that are no numbers" in data.losses[0].reason
+    assert "1 cell that is no number" in data.losses[0].reason
 
 
 def test_a_row_with_a_cell_too_few_is_no_row(tmp_path: Path) -> None:
     text = head("No") + packet(["a", "b"], x="X_Value\ta\tb") + "\t1\t2\n\t3\n\t5\t6\n"
     data = read(tmp_path, text)
     np.testing.assert_array_equal(data.values["data", "a"], [1, 5])
-    assert "1 lines that are no rows of 3 numbers" in {x.reason for x in data.losses}
+    assert "1 line that is no row of 3 numbers" in {x.reason for x in data.losses}
 
 
 def test_fewer_rows_than_the_heading_announces_are_a_loss(tmp_path: Path) -> None:

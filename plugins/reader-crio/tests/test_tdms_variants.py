@@ -72,7 +72,7 @@ def test_seconds_since_1904_in_a_channel_are_dates(tmp_path: Path, tdms) -> None
     data = read(tmp_path, tdms.segment(objects, t.tobytes() + np.arange(4.0).tobytes()))
     np.testing.assert_array_equal(data.t_ns["G"], START + np.array([0, S // 4, S]))
     np.testing.assert_array_equal(data.values["G", "G/T"], [0, 1, 3])
-    assert "1 rows whose time channel holds no time" in data.losses[0].reason
+    assert "1 row whose time channel holds no time" in data.losses[0].reason
 
 
 def test_text_whose_offsets_cannot_be_is_flagged(tmp_path: Path, tdms) -> None:  # type: ignore[no-untyped-def]

@@ -89,7 +89,7 @@ def test_a_unit_that_changes_behind_the_first_look_is_a_loss(tmp_path: Path) -> 
     rows = [f"{stamp(k // 2 / 5)},h{k % 2},{k},degC" + " " * 40 for k in range(30_000)]
     rows[10_001] = rows[10_001].replace("degC", "degF")
     data = read(tmp_path / "a.csv", "time,host,T,unit", rows)
-    assert [loss.reason[:42] for loss in data.losses] == ["1 rows of 'h1' in another unit than 'degC'"]
+    assert [loss.reason[:41] for loss in data.losses] == ["1 row of 'h1' in another unit than 'degC'"]
     assert 10_001 not in values(data)["h1/T"]
 
 
@@ -103,7 +103,7 @@ def test_a_sensor_that_comes_later_than_the_first_look_is_a_loss(tmp_path: Path)
     rows = [f"{stamp(k / 10)},h{k % 2},{k}" + " " * 40 for k in range(30_000)]
     rows[10_001] = f"{stamp(1000.1)},h7,{10_001}" + " " * 40
     data = read(tmp_path / "a.csv", "time,host,T", rows)
-    assert [loss.reason for loss in data.losses] == ["1 rows of 'h7', which the first look at the file did not meet"]
+    assert [loss.reason for loss in data.losses] == ["1 row of 'h7', which the first look at the file did not meet"]
     assert sum(map(len, values(data).values())) == 29_999
 
 

@@ -246,7 +246,7 @@ def test_a_formula_that_no_sheet_computed_is_a_loss(tmp_path: Path, value: str) 
     rows: list[list[object]] = [["time [s]", "T1", "T2"], *([i, 20.5, 20.5] for i in range(20))]
     never = sheet(rows).replace('<c r="C9" s="0"><v>20.5</v>', f'<c r="C9" s="0"><f>B9*2</f>{value}')
     data = read(tmp_path, {"a": never})
-    assert "1 cells of the workbook hold a formula without its value" in data.losses[0].reason
+    assert "1 cell of the workbook with a formula without its value" in data.losses[0].reason
     assert np.isnan(data.values["table", "T2"][7])
 
 

@@ -183,11 +183,10 @@ def test_errors_formulas_without_value_and_hidden_rows_are_told(tmp_path: Path) 
     data = load(Reader(), least(tmp_path / "x.xlsx", HEAD + rows), Source())
     np.testing.assert_array_equal(data.values["table", "T"], [np.nan, np.nan, 5, 7.5])
     assert [x.reason.split(":")[0] for x in data.losses] == [
-        "1 cells of the workbook hold an error such as #N/A",
-        "1 cells of the workbook hold a formula without its value (open the workbook once in a spreadsheet and save "
-        "it)",
+        "1 cell of the workbook with an error such as #N/A",
+        "1 cell of the workbook with a formula without its value (open the workbook once in a spreadsheet and save it)",
     ]
-    assert "1 hidden rows: they are read like the others" in data.recording.notes
+    assert "1 hidden row: it is read like the others" in data.recording.notes
 
 
 def test_a_stray_cell_far_off_is_refused_with_what_to_do(tmp_path: Path) -> None:

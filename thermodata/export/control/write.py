@@ -12,6 +12,7 @@ from thermodata.export.control.data import json_text, write_mat
 from thermodata.export.control.program import Program
 from thermodata.export.control.python import python_module
 from thermodata.export.control.st import structured_text
+from thermodata.store.base.files import whole_file
 
 REALS = ("real", "lreal")
 
@@ -57,13 +58,14 @@ def write(program: Program, target: str, folder: Path, real: str | None = None) 
     if real is not None and chosen.real is None and real != "lreal":
         raise UsageError(f"{target} computes with 64 bits", got=real, hint="leave --real out")
     width = real or chosen.real or "lreal"
-    folder.mkdir(parents=True, exist_ok=True)
     if chosen.texts is None:
         path = folder / f"{program.name}.mat"
-        write_mat(program, path)
+        with whole_file(path, ".mat") as part:
+            write_mat(program, part)
         return Written((str(path),), target, width)
     files = []
     for name, text in chosen.texts(program, width).items():
-        (folder / name).write_text(text, encoding="utf-8")
+        with whole_file(folder / name) as part:
+            part.write_text(text, encoding="utf-8")
         files.append(str(folder / name))
     return Written(tuple(files), target, width)

@@ -8,6 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from thermodata.reader.counted import counted
 from thermodata.report.causes import Cause, by_cause
 from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, draw_test, when
@@ -61,7 +62,7 @@ def headline(tests: Sequence[TestQuality]) -> str:
             if event["flag"] not in _INFORMATION and not _overruled(event):
                 reasons[event["flag"]] += event["n"] or 0
     if not flagged:
-        return f"All of {count(samples)} samples in {len(tests)} tests count"
+        return f"All of {count(samples)} samples in {counted(len(tests), 'test')} count"
     why = ", ".join(name.replace("_", " ") for name, n in reasons.most_common(3) if n)
     return f"{share(flagged, samples)} of {count(samples)} samples do not count" + (f": {why}" if why else "")
 

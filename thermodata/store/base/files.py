@@ -9,9 +9,10 @@ import os
 import re
 import secrets
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
-from thermodata.errors import StoreError
+from thermodata.errors import StoreError, ThermodataError
 
 TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")  # DuckDB puts a .wal beside a database in the making
 
@@ -39,12 +40,8 @@ DISK_FULL = "the disk is full"
 
 def write_error(path: Path, error: Exception, needed: str | None = None) -> StoreError:
     """A failure to write below the store: full disk, read-only folder, or else. needed: how much room, in words."""
-    text = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-    full = getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or any(
-        word in text
-        for word in ("No space left", "not enough space", "Disk quota", "File too large", "Could not write file")
-    )
-    if not full:
+    text = _first_line(error)
+    if not _is_full(error):
         locked = getattr(error, "errno", None) in (errno.EACCES, errno.EPERM, errno.EROFS)
         return StoreError(
             "the store can only be read" if locked else "the store cannot be written",
@@ -59,6 +56,53 @@ def write_error(path: Path, error: Exception, needed: str | None = None) -> Stor
         got=_free(path, text),
         hint="free space ('thermodata gc' deletes what the store no longer needs) and run it again: "
         "the store is as it was before",
+    )
+
+
+@contextlib.contextmanager
+def whole_file(target: Path, suffix: str = "") -> Iterator[Path]:
+    """A path to write to, beside a file that somebody takes away; it appears under its own name once all is written,
+    and nothing is left otherwise. suffix: of the path, for a library that goes by it. ThermodataError with the file and
+    the room that is left where it can't be written."""
+    part = target.with_name(f".{target.name}.{os.getpid()}.part{suffix}")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        yield part
+        part.replace(target)
+    except OSError as error:
+        raise not_written(target, error) from error
+    finally:
+        with contextlib.suppress(OSError):
+            part.unlink()
+
+
+def not_written(target: Path, error: OSError) -> ThermodataError:
+    """What is said where a file outside of the store can't be written: it is not there, or as it was before."""
+    if _is_full(error):
+        return ThermodataError(
+            DISK_FULL,
+            where=str(target.absolute()),
+            expected="room for the file",
+            got=_free(target, _first_line(error)),
+            hint="free space there, or name a file on another disk; nothing half-written is left",
+        )
+    return ThermodataError(
+        "the file cannot be written",
+        where=str(target.absolute()),
+        got=_first_line(error),
+        hint="name a file in a folder that you may write to",
+    )
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+
+
+def _is_full(error: Exception) -> bool:
+    text = _first_line(error)
+    return getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or any(
+        word in text
+        for word in ("No space left", "not enough space", "Disk quota", "File too large", "Could not write file")
     )
 
 

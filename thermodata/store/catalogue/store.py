@@ -17,6 +17,7 @@ from thermodata.store.base.files import fsync_folder, write_text
 from thermodata.store.catalogue.ddl import FORMAT, TABLES
 from thermodata.store.catalogue.lock import catalogue_lock
 from thermodata.store.catalogue.migrate import check_format, migrate
+from thermodata.store.views.version import of_this_version
 from thermodata.version import __version__
 
 if TYPE_CHECKING:
@@ -120,6 +121,7 @@ class Store:
             with self._turn(exclusive=False):
                 mark = self.mark()
                 self._copy_into(con)
+            _our_views(con, self.path)
         except BaseException:
             con.close()
             raise
@@ -161,11 +163,12 @@ class Store:
             con = connection.memory(self.path)  # before the turn: it takes 20 ms
             try:
                 with self._turn(exclusive=True), self._opened(con):
+                    ours = of_this_version(con)  # outside of the transaction, which would end if it fails
                     con.execute("begin transaction")
                     try:
                         yield con
                         con.execute("update store set generation = generation + 1")
-                        if views:
+                        if views or not ours:
                             regenerate_views(con, self.path)
                         # before the commit: who sees the new mark waits for this turn to end, whoever dies in
                         # between causes one needless refresh; the other order could leave a stale copy in use
@@ -244,6 +247,21 @@ def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
     from thermodata.store.views.regenerate import regenerate  # only who writes needs them
 
     regenerate(con, folder)
+
+
+def _our_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
+    """Makes the views of a copy anew where another version wrote the store last: a query means the same on every store.
+    They stay as they are where a damaged file does not let them be made."""
+    if of_this_version(con):
+        return
+    import duckdb
+
+    con.execute("begin transaction")
+    try:
+        regenerate_views(con, folder)
+        con.execute("commit")
+    except (StoreError, duckdb.Error):
+        _rollback(con)
 
 
 def _commit(con: duckdb.DuckDBPyConnection, path: Path) -> None:

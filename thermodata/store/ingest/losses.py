@@ -32,10 +32,12 @@ def loss_row(
     file: str | None = None,
     loss: Loss | None = None,
 ) -> dict[str, Any]:
-    """A loss as the summary tells it; times in seconds of the file's own clock."""
+    """A loss as the summary tells it; times in seconds of the file's own clock. sources: all that miss what was lost,
+    `source` the first of them; several may read one file."""
     return {
         "test": test,
         "source": source,
+        "sources": [] if source is None else [source],
         "file": file,
         "where": loss.where if loss else None,
         "from_ns": loss.from_ns if loss else None,
@@ -43,6 +45,19 @@ def loss_row(
         "fraction": loss.fraction if loss else None,
         "reason": reason,
     }
+
+
+def add_unread(losses: Losses, reason: str, *, test: str, source: str, file: str) -> None:
+    """A file that a source can't read: one loss of all sources that fail alike."""
+    before = _by_place(losses).get((file, None, reason))
+    if before is None:
+        losses.append(loss_row(reason, test=test, source=source, file=file))
+    elif source not in before["sources"]:
+        before["sources"].append(source)
+
+
+def _by_place(losses: Losses) -> dict[tuple[Any, Any, Any], dict[str, Any]]:
+    return {(row["file"], row["where"], row["reason"]): row for row in losses}
 
 
 def unread_signals(campaign: Campaign, source: str, raws: Iterable[RawStream]) -> set[str]:
@@ -76,13 +91,20 @@ def tell(
     file: str,
 ) -> None:
     """Says of a test what a file lost. unread: signals that the source's channels do not read; own: of the test; every:
-    of all tests; again: the file was told of before, and what its other sources did not miss may be missed now."""
+    of all tests; again: the file was told of before, and what its other sources did not miss may be missed now. A loss
+    is told once of a file of the test, with all sources that miss it, whether these read it alike or each in its own
+    way."""
+    told = _by_place(own.losses)
     for loss in (x for r in raws for x in r.losses):
         note = f"{loss.where}: {loss.reason}; no channel reads that column"
         noted = [said for said in every if note in said.notes]
+        before = told.get((file, loss.where, loss.reason))
         if loss.signal in unread:
-            if not again:
+            if not again and before is None and own not in noted:
                 own.notes.append(note)
+        elif before is not None:
+            if source not in before["sources"]:
+                before["sources"].append(source)
         elif noted or not again:
             for said in noted:
                 said.notes.remove(note)

@@ -15,7 +15,7 @@ from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
 from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, Said, loss_row, tell, unread_signals
+from thermodata.store.ingest.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
 from thermodata.store.ingest.progress import counted
 from thermodata.store.ingest.resolve import file_inside, natural
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
@@ -131,7 +131,8 @@ class RawIngest:
         """A loss for each source that channels need and that has no file in any test: a pattern is wrong then."""
         found: Losses = []
         needed = {c.source for c in self.files.campaign.channels.values()}
-        told = {row["source"] for losses in (self.said[""].losses, *(t.losses for t in tests)) for row in losses}
+        every = (self.said[""].losses, *(t.losses for t in tests))
+        told = {source for losses in every for row in losses for source in (row["source"], *row.get("sources", ()))}
         for name, spec in self.files.campaign.sources.items():
             if name in needed - told and tests and not any(name in t.sources for t in tests):
                 patterns = [spec.files] if isinstance(spec.files, str) else spec.files or ["no 'files'"]
@@ -198,7 +199,7 @@ class RawIngest:
                     raise write_error(Path(error.filename), error) from error
                 self.passing = True  # the next time it may be read
                 reason = "; ".join(str(error).splitlines())
-                self.losses.append(loss_row(reason, test=test, source=source, file=path))
+                add_unread(self.losses, reason, test=test, source=source, file=path)
                 raws = self._former(path, before)
                 if not raws:
                     self.files.done(path)

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from thermodata.reader.counted import counted
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import is_whole, write_error
 from thermodata.store.catalogue.store import Store
@@ -93,7 +94,7 @@ def altered(path: Path, rows: int | None = None) -> str | None:
     try:
         with pq.ParquetFile(path, page_checksum_verification=True, memory_map=False) as file:
             if rows is not None and file.metadata.num_rows != rows:
-                return f"{file.metadata.num_rows} rows instead of {rows}"
+                return f"{counted(file.metadata.num_rows, 'row')} instead of {rows}"
             for i in range(file.num_row_groups):
                 file.read_row_group(i, use_threads=False)
     except (OSError, ValueError, pa.ArrowException) as error:  # a name that is no UTF-8 any more is a ValueError

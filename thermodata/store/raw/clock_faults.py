@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.counted import counted
 
 JITTER_NS = 1_000_000_000  # a step back up to this is disorder
 SMALL_NS = 120_000_000_000  # up to this, what a time server corrects
@@ -82,7 +83,7 @@ class Faults:
         """What was found, in words."""
         notes = []
         if self.strays:
-            notes.append(f"{self.strays} rows with a stray time: drawn between their neighbours and flagged")
+            notes.append(f"{counted(self.strays, 'row')} with a stray time: drawn between their neighbours and flagged")
         if self.leaps:
             notes.append(
                 f"the clock was set ahead by {_long(max(self.leaps))} while it ran: what came before was moved "

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.counted import counted
 from thermodata.store.raw.clock_faults import MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000
@@ -97,7 +98,7 @@ def by_time(times: Times, n: int) -> Order:
     order = replace(in_order(n), extent=(min(lowest, default=0), highest if lowest else 0), trusted=True)
     islands = _islands(times, order, lowest)
     rows = int((islands[:, 1] - islands[:, 0]).sum())
-    notes = (f"{rows} rows stand out of order: sorted by their times",) if rows else ()
+    notes = (f"{counted(rows, 'row', 'stands', 'stand')} out of order: sorted by their times",) if rows else ()
     return replace(order, islands=islands, notes=notes)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.reader.counted import counted
 from thermodata.store.raw.clock_faults import JITTER_NS
 
 CHUNK_ROWS = 500_000
@@ -52,10 +53,11 @@ class Repeats:
         left_out = int((self.cut[:, 1] - self.cut[:, 0]).sum())
         notes = []
         if left_out:
-            notes.append(f"{left_out} rows repeat earlier ones, times and values: left out")
+            notes.append(f"{counted(left_out, 'row', 'repeats', 'repeat')} earlier ones, times and values: left out")
         if self.rows > left_out:
             notes.append(
-                f"{self.rows - left_out} rows repeat earlier ones and stand among others: sorted in, and flagged"
+                f"{counted(self.rows - left_out, 'row', 'repeats', 'repeat')} earlier ones among others: "
+                "sorted in, and flagged"
             )
         return tuple(notes)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.counted import counted
 from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
 from thermodata.schema.quantity import converts, linear_conversion
 from thermodata.store.raw.raw_stream import RawStream
@@ -59,7 +60,8 @@ def evaluate(
             if beside:
                 many = len(spec.moves)
                 problems.append(
-                    f"calibration '{name}': {beside} more steps as large as the {many} commanded moves stand in "
+                    f"calibration '{name}': {counted(beside, 'more step')} as large as the "
+                    f"{counted(many, 'commanded move')} in "
                     f"'{spec.signal}' of {spec.file}; which of them the moves are is a guess: write all moves"
                 )
         elif isinstance(spec, LinearCalibration):

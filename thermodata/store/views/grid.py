@@ -28,11 +28,11 @@ MAX_POINTS = 20_000_000
 _SLACK = 1e-6
 _EMPTY = "select null::varchar as campaign, null::varchar as test, null::timestamp_ns as t, null::double as t_s limit 0"
 
+_SECONDS = "coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval)))"
 STEP = f"""create macro step_seconds(step) as case
-  when coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval))) > 0
-  then coalesce(try_cast(cast(step as varchar) as double), epoch(try_cast(cast(step as varchar) as interval)))
+  when {_SECONDS} > 0 and isfinite({_SECONDS}) then {_SECONDS}
   else error({literal("no step '")} || coalesce(cast(step as varchar), 'NULL') ||
-             {literal("'; a step is positive: '30 s', INTERVAL '1 minute', or seconds")}) end"""
+             {literal("'; a step is positive: '30 s', '1 min', INTERVAL '1 minute', or seconds: 60, '60'")}) end"""
 
 
 def grid_macros(catalogue: Catalogue) -> Iterator[str]:

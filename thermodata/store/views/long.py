@@ -1,4 +1,4 @@
-"""The long views over all numeric channels, and the macro `signal` for one of them."""
+"""The long views over all numeric channels, the macro `signal` for one of them, and `valid` for what counts."""
 
 from __future__ import annotations
 
@@ -20,8 +20,11 @@ _COMMENTS = {
     "t_s": "[s] from the start of the test",
     "value": "in channel.unit",
     "flag": "bit mask: 1 gap, 2 held, 4 saturated, 8 spike, 16 out of range, 32 interpolated, 64 clock "
-    "suspect, 128 not measuring, 256 stuck, 512 offset, 1024 duplicate time, 2048 rate change",
+    "suspect, 128 not measuring, 256 stuck, 512 offset, 1024 duplicate time, 2048 rate change, 4096 foreign; "
+    "where valid(flag): what counts in means",
 }
+# of gaps, drawn values, suspect clocks and changes of rate the values count: `flag = 0` would lose them
+VALID = f"create macro valid(flag) as (coalesce(flag, 0) & {int(INVALID)}) = 0"
 
 VIEWS: dict[str, Callable[[Column], bool]] = {
     "sample": lambda column: True,
@@ -35,8 +38,9 @@ _LONG_ROWS, _MOST_OPENED = 5_000, 4_000
 
 
 def long_views(catalogue: Catalogue) -> Iterator[str]:
-    """The statements that make `sample`, of all samples, and its selections by quantity, of the valid ones: a mean or
-    an extreme over them is one of measurements, not of defects."""
+    """The statements that make `sample` and its selections by quantity, flagged samples too, and `valid`, by which who
+    asks for a mean or an extreme leaves the defects out."""
+    yield VALID
     for name, wanted in VIEWS.items():
         parts = [
             _unpivoted(g, columns)
@@ -44,8 +48,6 @@ def long_views(catalogue: Catalogue) -> Iterator[str]:
             if (columns := [c for c in g.columns if not c.text and wanted(c)])
         ]
         text = " union all ".join(parts)
-        if text and name != "sample":
-            text = f"select * from ({text}) where value is not null and coalesce(flag, 0) & {int(INVALID)} = 0"
         yield f"create view {name} as {text or _EMPTY}"
         for column, comment in _COMMENTS.items():
             yield f"comment on column {name}.{column} is {literal(comment)}"

@@ -19,6 +19,7 @@ from thermodata.store.views.dispatch import lookup_macros
 from thermodata.store.views.grid import grid_macros
 from thermodata.store.views.long import long_views, signal_macros
 from thermodata.store.views.result import SCORE_COMMENTS, result_views
+from thermodata.store.views.version import MACRO
 from thermodata.store.views.wide import wide_views
 
 if TYPE_CHECKING:
@@ -106,6 +107,7 @@ def statements(con: duckdb.DuckDBPyConnection, catalogue: Catalogue, folder: Pat
         "where part = 'test' and test <> '' order by all"
     ).fetchall():
         tests.setdefault(campaign, []).append(test)
+    yield MACRO
     yield from wide_views(catalogue)
     yield from long_views(catalogue)
     yield from lookup_macros(catalogue, tests)

@@ -30,11 +30,15 @@ SCORE = """create view score as
 select campaign, test, model, role, response, phase, fit, rmse_um, ptp_um, ptp_residual_um, max_um, n
 from score_row"""
 
-WEAK_SPOT = """create view weak_spot as
+# a model may have several responses; a diagnosis is of one of them
+_ASKED = "(select max(d.payload->>'$.response') from finding d where d.kind = 'diagnosis' and d.model = finding.model)"
+
+WEAK_SPOT = f"""create view weak_spot as
 select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        coalesce(nullif(test, ''), payload->>'$.test') as test, model, rank,
        cast(payload->>'$.from_s' as double) as from_s, cast(payload->>'$.to_s' as double) as to_s,
-       cast(payload->>'$.rmse_um' as double) as rmse_um, payload->>'$.state' as state
+       cast(payload->>'$.rmse_um' as double) as rmse_um, payload->>'$.state' as state,
+       {_ASKED} as response
 from finding where kind = 'weak_spot'"""
 
 _NUMBERS = (
@@ -52,14 +56,14 @@ select campaign, test, model, coalesce(rank, cast(payload->>'$.rank' as integer)
        cast(payload->'$.drivers' as varchar[]) as drivers, cast(payload->>'$.claimed' as boolean) as claimed,
        {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
-       payload->>'$.why' as why
+       payload->>'$.why' as why, {_ASKED} as response
 from finding where kind = 'candidate'"""
 
-ARTEFACT = """create view artefact as
+ARTEFACT = f"""create view artefact as
 select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        coalesce(nullif(test, ''), nullif(payload->>'$.test', '')) as test, model, payload->>'$.kind' as kind,
        cast(payload->>'$.at_s' as double) as at_s, cast(payload->>'$.size_um' as double) as size_um,
-       payload->>'$.why' as why
+       payload->>'$.why' as why, {_ASKED} as response
 from finding where kind = 'artefact'"""
 
 DIAGNOSIS = """create view diagnosis as
@@ -146,7 +150,7 @@ _COMMENTS = {
     "weak_spot": {
         "from_s": "[s] from the start of the test",
         "to_s": "[s] from the start of the test",
-        "rmse_um": "[um]",
+        "rmse_um": _OF_RESPONSE,
     },
     "history": {
         "rmse_um_calibration": "[um]",

@@ -10,6 +10,7 @@ from thermodata.chart.spec import Axis, Chart, Panel, Series, Span
 from thermodata.draft.fill_in import questions
 from thermodata.draft.jump_seen import JumpSeen, jump_seen
 from thermodata.errors import UsageError
+from thermodata.reader.counted import counted
 from thermodata.web.render import desk_of, page
 
 
@@ -52,5 +53,5 @@ def _chart(seen: JumpSeen) -> Chart:
         for i, (s, end) in enumerate(zip(seen.steps, ends, strict=True), 1)
     ]
     panel = Panel(seen.signal, unit, [Series(seen.signal, unit, seen.values, "measured", label="")], height=190)
-    about = f"{seen.signal} in {seen.file}: {len(seen.steps)} steps"
+    about = f"{seen.signal} in {seen.file}: {counted(len(seen.steps), 'step')}"
     return Chart(about, Axis("time", "s"), seen.t_s, [panel], spans=spans)

@@ -25,7 +25,7 @@ EXAMPLES = (
     ("a test on one grid", "select * from binned('{campaign}', '{test}', '60 s')"),
     (
         "extremes of each channel",
-        "select channel, min(value), max(value) from temperature group by all order by 3 desc",
+        "select channel, min(value), max(value) from temperature where valid(flag) group by all order by 3 desc",
     ),
 )
 _KINDS: dict[str, str] = {"csv": "text/csv", "parquet": "application/vnd.apache.parquet"}

@@ -10,6 +10,7 @@ from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
+from thermodata.reader.counted import counted
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
 from thermodata.view.window import Channel, Window
@@ -39,7 +40,7 @@ def test_chart(
     known = [c for c in channels if c.name in values]
     panels: list[Panel | Strip] = [*_of_model(predicted, order), *_of_channels(known, values, named)]
     return Chart(
-        f"Test {about.row['test']} over {length:.3g} hours: {len(known)} channels"
+        f"Test {about.row['test']} over {length:.3g} hours: {counted(len(known), 'channel')}"
         + (", with the model's prediction and what it leaves over" if predicted else ""),
         Axis("time", "h", range=(0.0, length)),
         np.empty(0),

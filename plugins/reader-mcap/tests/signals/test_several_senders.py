@@ -64,7 +64,7 @@ def test_a_sender_that_comes_later_than_the_first_look_is_a_loss(tmp_path: Path,
     topic, at, _ = messages[4000]
     messages[4000] = (topic, at, {"sensor": "door", "value": 3.0})
     _, _, values, _, losses = read(write(tmp_path / "a.mcap", messages))
-    assert [loss.reason for loss in losses] == ["1 rows of 'door', which the first look at the file did not meet"]
+    assert [loss.reason for loss in losses] == ["1 row of 'door', which the first look at the file did not meet"]
     assert sum(len(v) for v in values.values()) == 8999
 
 

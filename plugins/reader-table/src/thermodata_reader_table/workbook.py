@@ -152,10 +152,18 @@ def read(path: Path, source: Source) -> Read:
     groups = [g for sheet in found for g in tables[sheet].groups]
     for kind, count in book.odd.items():
         if count and kind == "hidden":
-            notes.append(f"{count} hidden rows: they are read like the others")
+            notes.append(
+                f"{counted(count, 'hidden row')}: {'it is' if count == 1 else 'they are'} read like the others"
+            )
         elif count:
             losses.append(
-                Loss(f"{path.name}", None, None, None, f"{count} cells of the workbook {kind}: they are empty")
+                Loss(
+                    f"{path.name}",
+                    None,
+                    None,
+                    None,
+                    f"{counted(count, 'cell')} of the workbook {kind}: {'it is' if count == 1 else 'they are'} empty",
+                )
             )
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)

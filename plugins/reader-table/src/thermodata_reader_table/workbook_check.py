@@ -26,8 +26,8 @@ _ROW = re.compile(rb"""<(?:\w+:)?row\s[^>]*?\br\s*=\s*["']\s*(\d+)""")
 
 # what calamine gives as an empty cell, or does not tell
 _ODD = {
-    "hold an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
-    "hold a formula without its value (open the workbook once in a spreadsheet and save it)": re.compile(
+    "with an error such as #N/A": re.compile(rb'<(?:\w+:)?c [^>]*?t="e"'),
+    "with a formula without its value (open the workbook once in a spreadsheet and save it)": re.compile(
         rb"(?:</(?:\w+:)?f>|<(?:\w+:)?f [^>]*/>)\s*(?:<(?:\w+:)?v\s*/>|<(?:\w+:)?v>\s*</(?:\w+:)?v>)?\s*</(?:\w+:)?c>"
     ),
     "hidden": re.compile(rb'<(?:\w+:)?row [^>]*?hidden="(?:1|true)"'),

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.plugin import Block, Loss
+from thermodata.reader.counted import counted
 from thermodata.reader.series import SERIES, Declaration, find_series
 from thermodata.reader.zone import NAT
 from thermodata_reader_table.workbook_sheet import Stream
@@ -34,7 +35,13 @@ def taken_apart(
     losses: list[Loss] = []
     for one, rows in series.rows(Block(stream.name, t_ns, stream.values)).items():
         if one not in series.held:
-            losses.append(Loss(where, reason=f"{rows.size} rows that name no series by {' and '.join(series.tags)}"))
+            losses.append(
+                Loss(
+                    where,
+                    reason=f"{counted(rows.size, 'row', 'that names', 'that name')} no series by "
+                    f"{' and '.join(series.tags)}",
+                )
+            )
             continue
         called = {k: named(one, k) for k in stream.values if k in series.held[one]}
         parts.append(

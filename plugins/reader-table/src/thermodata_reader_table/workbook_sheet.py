@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.clock_numbers import clock_of_numbers
@@ -246,7 +247,7 @@ class Table:
             texts = np.array([None if c is None else clean(str(c)) or None for c in cells], object)
             return texts, None, np.zeros(len(cells), bool)
         if odd:
-            reason = f"{len(odd)} cells are no numbers, such as '{odd[0]}'"
+            reason = f"{counted(len(odd), 'cell', 'is no number', 'are no numbers')}, such as '{odd[0]}'"
             self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason, name))
         return numbers, unit, over
 

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of
 from thermodata.reader.text.losses import Losses
@@ -167,9 +168,12 @@ class _Rows:
                 yield Loss(
                     where,
                     fraction=1 - self.seen[curve.name] / curve.count,
-                    reason=(f"the header announces {curve.count} values, the file holds {self.seen[curve.name]}"),
+                    reason=(
+                        f"the header announces {counted(curve.count, 'value')}, the file holds {self.seen[curve.name]}"
+                    ),
                 )
             if self.behind[curve.name]:
                 yield Loss(
-                    where, reason=f"{self.behind[curve.name]} values behind the announced {curve.count} are not read"
+                    where,
+                    reason=f"{counted(self.behind[curve.name], 'value')} behind the announced {curve.count}: not read",
                 )

@@ -13,6 +13,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.lines import chunks, from_line, sample, split_last_line
@@ -185,7 +186,10 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         if not good.all():
             first, many = int(np.argmin(good)), int((~good).sum())
             losses.add(
-                int(rows.line[first]), f"{many} rows without a time, or with one that is none, from here on", 0, first
+                int(rows.line[first]),
+                f"{counted(many, 'row')} without a time, or with one that is none, from here on",
+                0,
+                first,
             )
         if tail:
             line = chunk.line + data.count(b"\n")

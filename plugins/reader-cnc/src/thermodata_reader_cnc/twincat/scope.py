@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.locate import line_of
 from thermodata.reader.text.losses import Losses
@@ -218,12 +219,12 @@ class _Groups:
                     lost = lost | (blank & ~rows.empty[channel.column])
             if lost.any():
                 line = int(rows.line[np.argmax(lost)])
-                losses.add(line, f"{int(lost.sum())} rows of '{channels[0].name}' with a blank cell", 0, 0)
+                losses.add(line, f"{counted(int(lost.sum()), 'row')} of '{channels[0].name}' with a blank cell", 0, 0)
             t_ns = _to_ns(rows.columns[time], self.header)
             good = there & (t_ns != NAT)
             if (there & ~good).any():
                 line = int(rows.line[np.argmax(there & ~good)])
-                losses.add(line, f"{int((there & ~good).sum())} rows whose time is none", 0, 0)
+                losses.add(line, f"{counted(int((there & ~good).sum()), 'row')} whose time is none", 0, 0)
             if not good.any():
                 continue
             names = {c.name: c.column for c in channels}

@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.grid import Grid, Rows
 from thermodata.reader.text.lines import ODD, Chunk, chunks, sample, without_cut_line
 from thermodata.reader.text.rows import parse
@@ -63,8 +64,8 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     if layout.doubtful:
         yield Loss(
             f"{path.name} line {layout.doubtful[0]}",
-            reason=f"{len(layout.doubtful)} lines before the first "
-            "row that hold numbers: damaged rows, or a header of another kind",
+            reason=f"{counted(len(layout.doubtful), 'line')} with numbers before the first row: "
+            "damaged rows, or a header of another kind",
         )
     rows = _RowReader(path.name, layout, source, 1.0 if wanted.period_s is None else wanted.period_s)
     for chunk in chunks(path, encoding):
@@ -144,19 +145,21 @@ class _RowReader:
         if lost:
             yield Loss(
                 f"{self.name} line {min(lost) + 1}",
-                reason=f"{len(lost)} lines that are no rows of {len(layout.names)} numbers with a time",
+                reason=f"{counted(len(lost), 'line', 'that is no row', 'that are no rows')} of "
+                f"{counted(len(layout.names), 'number')} with a time",
             )
         moved = [] if words is None else [r for r, w in enumerate(words.tolist()) if w and is_odd(w, layout.decimal)]
         if moved:
             yield Loss(
                 f"{self.name} line {int(rows.line[moved[0]]) + 1}",
-                reason=f"{len(moved)} rows with a number, or bytes of no text, where the comment stands",
+                reason=f"{counted(len(moved), 'row')} with a number, or bytes of no text, where the comment stands",
             )
         wrong = [int(rows.line[r]) for i in range(len(layout.names)) for r, _ in rows.columns[i].odd if good[r]]
         if wrong:
             yield Loss(
                 f"{self.name} line {min(wrong) + 1}",
-                reason=f"{len(wrong)} cells that are no numbers: these values are flagged",
+                reason=f"{counted(len(wrong), 'cell', 'that is no number', 'that are no numbers')}: these "
+                "values are flagged",
             )
 
 

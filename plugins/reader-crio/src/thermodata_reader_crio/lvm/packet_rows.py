@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Loss, Source
+from thermodata.reader.counted import counted
 from thermodata.reader.text.grid import Grid, Rows
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
@@ -129,14 +130,16 @@ class PacketRows:
         if lost:
             yield Loss(
                 f"{self.name} line {min(lost) + 1}",
-                reason=f"{len(lost)} lines that are no rows of {self.packet.width} numbers",
+                reason=f"{counted(len(lost), 'line', 'that is no row', 'that are no rows')} of "
+                f"{counted(self.packet.width, 'number')}",
             )
         lines = [int(rows.line[r]) for c in range(self.packet.width) for r, _ in rows.columns[c].odd]
         wrong = [line for line in lines if line not in lost]
         if wrong:
             yield Loss(
                 f"{self.name} line {min(wrong) + 1}",
-                reason=f"{len(wrong)} cells that are no numbers: their rows are kept, these values are flagged",
+                reason=f"{counted(len(wrong), 'cell', 'that is no number', 'that are no numbers')}: their rows "
+                "are kept, these values are flagged",
             )
         if cells.words is None:
             return
@@ -146,5 +149,5 @@ class PacketRows:
             moved = [r for r, word in enumerate(comments) if word in odd]
             yield Loss(
                 f"{self.name} line {int(rows.line[moved[0]]) + 1}",
-                reason=f"{len(moved)} rows with a number, or bytes of no text, where the comment stands",
+                reason=f"{counted(len(moved), 'row')} with a number, or bytes of no text, where the comment stands",
             )

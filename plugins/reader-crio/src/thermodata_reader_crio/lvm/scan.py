@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
+from thermodata.reader.counted import counted
 from thermodata.reader.text.encoding import is_wide
 from thermodata.reader.text.lines import CHUNK, ODD, Chunk, chunks
 from thermodata_reader_crio.lvm.header import (
@@ -142,7 +143,7 @@ class _Scan:
             if self.strays:
                 yield Loss(
                     f"{self.path.name} line {self.strays[0]}",
-                    reason=f"{len(self.strays)} lines before a heading's end that belong to no heading",
+                    reason=f"{counted(len(self.strays), 'line')} before a heading's end, of no heading",
                 )
                 self.strays = []
             if self.header is None or is_file_header(self.lines):

@@ -9,6 +9,7 @@ from typing import BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Source
+from thermodata.reader.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.file import File, open_file
@@ -86,7 +87,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
                 yield Loss(
                     f"{path.name} stream '{stream.name}'",
                     fraction=timeless / stream.rows,
-                    reason=f"{timeless} rows whose time channel holds no time",
+                    reason=f"{counted(timeless, 'row')} whose time channel holds no time",
                 )
     yield from losses(file, path, last_ns)
 

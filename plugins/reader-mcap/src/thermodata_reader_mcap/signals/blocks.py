@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Source
+from thermodata.reader.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import U64, Batch
@@ -192,7 +193,7 @@ class Writer:
                     tally.first_ns,
                     tally.last_ns,
                     None,
-                    f"{tally.count - _NAMED} more values that do not read",
+                    f"{counted(tally.count - _NAMED, 'more value', 'that does', 'that do')} not read",
                 )
         for count, (key, tally) in enumerate(self._new.items()):
             if count == _NAMED:

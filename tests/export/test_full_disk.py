@@ -1,0 +1,66 @@
+"""Where a file that is taken away can't be written, the error says which, and what room there is."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from thermodata.errors import ThermodataError
+from thermodata.export import export_test
+from thermodata.report.write import write_page
+from thermodata.store.base.files import whole_file
+from thermodata.view import StoreView
+
+from .test_take_away import view as view  # a store with one test
+
+resource = pytest.importorskip("resource")
+
+
+@contextmanager
+def full_after(size: int) -> Iterator[None]:
+    """No file may grow beyond `size` bytes: EFBIG, as a disk that is full says ENOSPC."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+@pytest.mark.parametrize("name", ["out.csv", "out.parquet", "out.mat", "out.mf4"])
+def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, name: str) -> None:
+    out = tmp_path / "away" / name
+    with full_after(200), pytest.raises(ThermodataError, match="the disk is full") as error:
+        export_test(view, "c", "sp9000", out, step="1 s")
+    assert error.value.where == str(out)
+    assert "MB free" in str(error.value.got)
+    assert error.value.exit_code == 1, "the store is neither busy nor damaged"
+    assert list(out.parent.iterdir()) == []
+    export_test(view, "c", "sp9000", out, step="1 s")
+    assert [p.name for p in out.parent.iterdir()] == [name]
+
+
+def test_a_page_on_a_full_disk_says_where_and_the_old_page_stays(tmp_path: Path) -> None:
+    page = write_page(tmp_path / "r.html", "old")
+    with full_after(200), pytest.raises(ThermodataError, match="the disk is full") as error:
+        write_page(page, "new" * 1000)
+    assert error.value.where == str(page)
+    assert page.read_text() == "old"
+
+
+def test_without_a_right_it_is_not_called_full(tmp_path: Path) -> None:
+    with pytest.raises(ThermodataError, match="cannot be written") as error, whole_file(tmp_path / "a") as part:
+        raise OSError(errno.EACCES, "Permission denied", str(part))
+    assert error.value.where == str(tmp_path / "a")
+    assert "Permission denied" in str(error.value.got)
+
+
+def test_a_folder_that_is_a_file_is_said(tmp_path: Path) -> None:
+    (tmp_path / "a").write_text("")
+    with pytest.raises(ThermodataError, match="cannot be written") as error, whole_file(tmp_path / "a" / "b.csv"):
+        raise AssertionError("nothing can be written there")
+    assert error.value.where == str(tmp_path / "a" / "b.csv")
