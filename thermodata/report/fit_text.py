@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.glossary import explained
+from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled
 
@@ -24,6 +24,7 @@ HISTORY = (
     ("rmse_um", "RMSE [um]"),
     ("calibration_rmse_um", "calibration [um]"),
     ("verification_rmse_um", "verification [um]"),
+    ("in_sample", "in-sample"),
     ("stale", "stale"),
 )
 """The columns of `report.collect.history_rows`."""
@@ -98,8 +99,23 @@ def compare_text(results: list[FitResult]) -> str:
         for s in result.scores:
             key = (s.campaign, s.test, s.response, s.phase)
             row = rows.setdefault(key, {"campaign": s.campaign, "test": s.test, "role": s.role, "phase": s.phase})
+            if row["role"] != s.role:  # in one model a verification test was fitted, in the other not
+                row["role"] = base_role(s.role)
             row[f"rmse {result.model}"], row[f"fit {result.model}"] = s.rmse_um, s.fit
-    return table(list(rows.values()), columns)
+            row[f"role {result.model}"] = "yes" if s.role != base_role(s.role) else ""
+    fitted = [r for r in results if any(s.role != base_role(s.role) for s in r.scores)]
+    if 0 < len(fitted) < len(results):
+        for result in fitted:
+            at = next(i for i, (key, _) in enumerate(columns) if key == f"rmse {result.model}") + 2
+            columns.insert(at, (f"role {result.model}", "in-sample"))
+    told = f"\n\n{explained('verification')}" if fitted else ""
+    return table(list(rows.values()), columns) + told
+
+
+def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
+    """The versions of a model, as rows of `report.history.history_rows`."""
+    told = f"\n\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
+    return table(chain, HISTORY) + told
 
 
 def differences_text(found: Sequence[TestDifference], results: Sequence[FitResult]) -> str:

@@ -150,6 +150,7 @@ class Model(Strict):
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
+    taken_back: set by remove: id of the version in which all that was added since is taken out again
     notes: free text
     """
 
@@ -166,6 +167,7 @@ class Model(Strict):
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = False
+    taken_back: str | None = None
     notes: str = ""
 
     @field_validator("response")

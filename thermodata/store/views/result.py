@@ -88,7 +88,8 @@ with recursive chain as (
   where parent is null or parent not in (select model from model)
   union
   select m.model, c.root, c.version + 1 from model m join chain c on m.parent = c.model),
-errors as (select s.model, s.response, count(distinct (s.campaign, s.test)) as tests, {_POOLED}
+errors as (select s.model, s.response, count(distinct (s.campaign, s.test)) as tests, {_POOLED},
+                  coalesce(bool_or(s.role = 'verification (in-sample)'), false) as in_sample
            from score_row s where s.phase = 'all' group by s.model, s.response)
 select m.name, c.version, m.model, m.parent, c.root, m.created_at, m.stale, m.campaigns,
        coalesce(e.response, m.response) as response, e.* exclude (model, response)
@@ -153,9 +154,10 @@ _COMMENTS = {
         "rmse_um": _OF_RESPONSE,
     },
     "history": {
-        "rmse_um_calibration": "[um]",
-        "rmse_um_verification": "[um]",
-        "rmse_um_locked": "[um]",
+        "rmse_um_calibration": _OF_RESPONSE,
+        "rmse_um_verification": _OF_RESPONSE,
+        "rmse_um_locked": _OF_RESPONSE,
+        "in_sample": "whether verification tests were fitted too, for they helped to choose an effect",
         "fit_calibration": "[%]",
         "fit_verification": "[%]",
         "fit_locked": "[%]",
