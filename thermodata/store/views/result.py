@@ -151,7 +151,7 @@ _COMMENTS = {
         "residual": "measured - predicted, in channel.unit",
     },
     "portability": {
-        "g": "[1] gain that fits the test best",
+        "g": "[1] gain of the largest FIT, through the zero of the first samples",
         "g_end": "[1] from the end of heating",
         "fit_n": "[%] as it is",
         "fit_c": "[%] with the gain",
