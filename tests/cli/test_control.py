@@ -135,6 +135,15 @@ def test_a_test_without_a_driver_is_left_out_with_its_reason(say: Say, campaign:
     assert "left out: march/run_2: nothing in its logs is read by the model" in said.err
     assert "run_10" in said.out
     assert "run_2" not in said.out
+    # also where none of the tests that are asked for has it
+    predict = ("--store", campaign / "thermodata.store", "predict", "baseline")
+    (logs / "run_10.csv").write_bytes((logs / "run_2.csv").read_bytes())
+    said = say(*predict, logs, "--json")
+    assert said.code == 3
+    answer = json.loads(said.out)
+    assert (answer["tests"], answer["file"]) == ([], None)
+    assert len(answer["left_out"]) == 2
+    assert say(*predict, logs, "--csv").out == ""
 
 
 def _touched(path: Path) -> Path:

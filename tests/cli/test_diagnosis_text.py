@@ -73,7 +73,7 @@ def test_without_a_claim_the_first_candidate_has_its_reason_and_nothing_is_promi
     assert "why sun:T" not in said
     assert "could be explained" not in said
     assert "nothing logged explains" not in said
-    assert "one candidate alone takes away up to 90 % of the squared residual" in said
+    assert "the best candidate alone takes away 90 % of the squared residual, which by itself names no cause" in said
 
 
 def test_errors_that_are_not_of_the_users_own_model_say_what_stands_beside() -> None:

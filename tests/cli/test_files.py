@@ -60,7 +60,7 @@ def test_init_says_how_many_files_it_leaves_out_and_which(say: Say, tmp_path: Pa
     assert "not used" not in say("init", tmp_path).err
     for k in range(7):
         (tmp_path / f"notes{k}.txt").write_text("nothing\n")
-    *_, left_out, summary = say("init", tmp_path, "--force").err.splitlines()
+    *_, left_out, summary, _ = say("init", tmp_path, "--force").err.splitlines()
     assert left_out.startswith("7 of 8 files are not used (notes0.txt, notes1.txt, ")
     assert left_out.endswith("notes4.txt and 2 more): the end of campaign.yaml says why")
     assert summary.startswith("1 file, ")

@@ -91,8 +91,9 @@ def after(level: float) -> Float1D:
     [
         ("feed", 0.011, "u 0.011 x"),
         ("feed", 0.009, "idle"),
-        ("state", 0.51, "u on"),
-        ("state", 0.49, "idle"),
+        ("state", 0.96, "u on"),
+        ("state", 0.51, "u on 51 % of the time"),
+        ("state", 0.04, "idle"),
         ("rotational_speed", 0.5, "spindle at rest"),
         ("rotational_speed", 0.0, "spindle at rest"),
         ("temperature", 5.0, "idle"),
@@ -122,6 +123,21 @@ def test_a_table_that_turns_does_not_hide_that_the_spindle_rests() -> None:
     channels = {n: ChannelInfo(n, "rotational_speed", "rpm", at=at) for n, at in places.items()}
     test: TestData = a_test(n=100, values=values, channels=channels)
     assert describe_state(test, 50, 100) == "spindle at rest, C_speed 60 rpm"
+
+
+@pytest.mark.parametrize(
+    ("levels", "said"),
+    [
+        ([0.0] * 25 + [3000.0] * 25, "u 0 to 3000 rpm"),  # whose median is 1500, which never was
+        ([0.0] * 24 + [1500.0] + [3000.0] * 25, "u 0 to 3000 rpm"),  # a mean of 60 s over the change
+        ([0.0] * 12 + [3000.0] * 38, "u 3000 rpm"),
+        ([0.0] * 38 + [3000.0] * 12, "spindle at rest"),
+        ([2990.0] * 20 + [3000.0] * 10 + [3010.0] * 20, "u 3000 rpm"),
+        ([1000.0] * 20 + [2000.0] * 15 + [6000.0] * 15, "u 1000 to 6000 rpm"),
+    ],
+)
+def test_a_speed_that_is_said_is_one_that_was(levels: list[float], said: str) -> None:
+    assert state("rotational_speed", np.array([9000.0] * 50 + levels), "spindle", "rpm") == said
 
 
 @pytest.mark.parametrize(("low", "said"), [(23.4, "u 24 V"), (23.6, "idle")])

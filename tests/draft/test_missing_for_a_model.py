@@ -38,6 +38,11 @@ def test_init_and_first_model_say_what_is_missing_and_which_line_asks(
     (line,) = [x for x in said.err.splitlines() if "no model.yaml" in x]
     assert lacks in line
     assert f"answer the '# ?' of {asked}," in line
+    campaign = tmp_path / "campaign.yaml"
+    steps = f"then thermodata ingest {campaign}, thermodata first-model {campaign}, thermodata fit "
+    assert steps in said.err.splitlines()[-1]
+    again = say("init", tmp_path)
+    assert (again.code, f"thermodata first-model {campaign} drafts a model" in again.err) == (2, True)
     refused = say("first-model", tmp_path / "campaign.yaml")
     assert refused.code != 0
     assert f"answer the '# ?' of {asked}" in refused.err
@@ -48,6 +53,8 @@ def test_init_says_nothing_of_a_model_that_it_wrote(tmp_path: Path, say: Say) ->
     said = say("init", _logged(tmp_path, ";Probe Z [um];Spindle bearing front [°C]"))
     assert (tmp_path / "model.yaml").exists()
     assert "no model.yaml" not in said.err
+    assert "first-model" not in said.err
+    assert said.err.splitlines()[-1].endswith(f"thermodata fit {tmp_path / 'model.yaml'}")
 
 
 @pytest.mark.parametrize(

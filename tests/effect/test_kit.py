@@ -224,6 +224,16 @@ def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -
         kit.check_effect(broken())
 
 
+def test_an_effect_that_wants_two_samples_is_told_that_it_was_asked_with_one() -> None:
+    class Steps(Good):
+        def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+            step = drivers.t_s[1] - drivers.t_s[0]
+            return (drivers.values["u"] * p["a"] * step / step).reshape(-1, 1)
+
+    said = kit.faults(Steps())[kit.it_gives_one_column_a_gain.__name__]
+    assert said.startswith("asked with 1 sample, as a test may be, it raises IndexError: ")
+
+
 def test_every_rule_has_a_broken_twin() -> None:
     marks = test_each_rule_catches_its_broken_twin.pytestmark  # type: ignore[attr-defined]
     assert {rule for _, rule in marks[0].args[1]} == set(kit.RULES)

@@ -81,6 +81,7 @@ CANDIDATE = {
     "locked_shape_um_before",
     "locked_shape_um_after",
     "locked_tests_asked",
+    "beside",
     "parameters",
     "equivalent",
     "unread",

@@ -125,6 +125,17 @@ def test_with_several_responses_a_check_says_whose_it_is(world: Dataset, spec: S
     assert {"effective_samples", "condition_number"} <= {c.name for c in alone}
 
 
+def test_a_response_that_drives_its_own_effect_is_told(world: Dataset, spec: Spec) -> None:
+    both = [{"channel": "dZ"}, {"channel": "T_bearing"}]
+    found = [c for c in fit_model(spec(*EFFECTS, response=both), world).checks() if c.name.startswith("own_channel")]
+    assert [(c.name, c.passed) for c in found] == [("own_channel:T_bearing/spindle_bearing", False)]
+    assert "is driven by 'T_bearing' itself" in found[0].advice
+    apart = {"effect": "spindle_bearing", "acts_on": [{"channel": "dZ"}]}
+    others = [e for e in EFFECTS if e != "spindle_bearing"]
+    names = [c.name for c in fit_model(spec(apart, *others, response=both), world).checks()]
+    assert not any(n.startswith("own_channel") for n in names)
+
+
 def test_what_a_test_lacks_for_either_response_is_one_check(world: Dataset, spec: Spec) -> None:
     data = _with_another(world, "t1", "t2")
     bare = tuple(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import replace
 from typing import Any
 
@@ -9,8 +10,9 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.errors import UsageError
+from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import coarse, fit_model
+from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import EFFECTS, TRUTH, Change, Spec
@@ -170,6 +172,17 @@ def _idle(world: Dataset) -> TestData:
 def fit_hall(world: Dataset) -> Any:
     hall = world.tests[0].values["T_hall"]
     return lag(hall - hall[0], 14400.0, 60.0)
+
+
+def test_values_may_carry_a_unit_of_their_own(world: Dataset, spec: Spec) -> None:
+    said = {"fixed": {"tau": "0.5 h"}, "bounds": {"gain": [0, "3 um/K"]}}
+    model = Model.model_validate_json(spec({"effect": "spindle_bearing", **said}).model_dump_json(by_alias=True))
+    assert copy.deepcopy(model.effects[0].fixed["tau"]).text == "0.5 h"  # type: ignore[attr-defined]
+    found = fit_model(model, world).parameters()["spindle_bearing.tau"]
+    assert (found.value, found.unit) == (30.0, "min")
+    with pytest.raises(SpecError, match="'tau' has another unit") as caught:
+        fit_model(spec({"effect": "spindle_bearing", "fixed": {"tau": "3 K"}}), world)
+    assert (caught.value.expected, caught.value.got) == ("min, or what converts to it", "3 K")
 
 
 def test_fixed_values_and_bounds_are_kept(world: Dataset, spec: Spec) -> None:

@@ -102,3 +102,10 @@ def test_what_predict_writes_is_read(tmp_path: Path) -> None:
     t, y = read_prediction(path).tables["c/a"]
     assert t.tolist() == [0.0, 30.0]
     assert y.tolist() == [0.5, 1.5]
+
+
+def test_a_prediction_file_that_is_not_there_is_told_with_what_it_should_be(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="no such prediction file") as caught:
+        read_prediction(tmp_path / "theirs.csv")
+    assert caught.value.got == "theirs.csv"
+    assert "test, t_s, predicted" in (caught.value.expected or "")

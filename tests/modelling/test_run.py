@@ -8,6 +8,8 @@ import yaml
 
 from thermodata.errors import UsageError
 from thermodata.modelling import run
+from thermodata.modelling.named import fit_named
+from thermodata.report.history import history_rows
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec
@@ -97,6 +99,33 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
     assert grown.notes == ["no second lag: none takes 20 % off the error on left-out tests"]
     assert find_model(store, grown.model).result == grown
     assert (parent.added, parent.notes) == (None, [])
+
+
+def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec: Spec) -> None:
+    parent = run.fit(store, spec("spindle_bearing", name="back"))
+    grown = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    back = run.remove(store, grown.model, "feed_screw")
+    assert (back.parameters, back.checks) == (parent.parameters, parent.checks)
+    assert [(s.role, s.rmse_um) for s in back.scores] == [(s.role, s.rmse_um) for s in parent.scores]
+    assert back.notes == [
+        "removed: feed_screw",
+        f"taken back: the effects, the tests and the fit are those of {parent.model} again",
+    ]
+    # a version of its own, which goes by the name
+    assert back.model not in (parent.model, grown.model)
+    assert find_model(store, "back").model == back.model
+    rows = history_rows(store, "back")
+    assert [(r["model"], r["in_sample"]) for r in rows] == [
+        (parent.model, False),
+        (grown.model, True),
+        (back.model, False),
+    ]
+    # fitted again it stays where it is
+    assert fit_named(store, back.model).model == back.model
+    # what is left was chosen with the verification tests
+    other = run.remove(store, grown.model, "spindle_bearing")
+    assert {s.role for s in other.scores} == {"calibration", "verification (in-sample)"}
+    assert other.notes[1:] == ["verification tests stay fitted (in-sample), for they helped to choose what is left"]
 
 
 def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spec: Spec) -> None:

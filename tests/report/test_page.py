@@ -47,15 +47,13 @@ def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportDa
 
 
 def test_the_headline_says_what_was_missing_what_else_it_could_be_and_one_error(data: ReportData) -> None:
-    assert headline(data) == (
-        "Missing in dZ was feed_screw (T_nut_Z), or feed_motor (T_motor_Z); these tests can't tell which"
-    )
+    assert headline(data) == "Missing in dZ was feed_screw (T_nut_Z), not told from feed_motor (T_motor_Z)"
     assert error_sentence(data) == "The error on locked tests falls: 4.60 -> 0.950 um (-79 %)"
 
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
     _keep(render(blind), "before")
-    assert headline(blind).startswith("dZ misses feed_screw (T_nut_Z), or feed_motor (T_motor_Z)")
+    assert headline(blind).startswith("dZ misses feed_screw (T_nut_Z), not told from feed_motor (T_motor_Z)")
     assert error_sentence(blind) == "The error on locked tests is 4.60 um"
 
 

@@ -13,7 +13,7 @@ from thermodata.report.data import ReportData
 from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
-from thermodata.report.verdict import explainable, in_parts, listed, named, probability, told, verdict_sentence
+from thermodata.report.verdict import beside, explainable, in_parts, listed, named, probability, told, verdict_sentence
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import ClockMoved, Diagnosis, PutRight
 
@@ -141,6 +141,11 @@ def test_errors_beside_other_candidates_are_none_of_the_users_model_and_say_so()
     assert "error on left-out tests: screw alone 4.00 -> 1.00 um, sun beside screw:T 4.00 -> 1.00 um; " in (
         verdict_sentence(found("effect", [screw, sun]))
     )
+    known = claim("screw", beside=["oil:T"], why=among("sun:T"))
+    assert beside(known, 4.0) == ["oil:T"], "what the answer says itself goes first"
+    assert beside(claim("screw", beside=[], why=among("sun:T")), 9.0) == []
+    apart = [claim("screw", beside=["sun:T"], rmse_um_after=0.196), claim("sun", beside=["screw:T"])]
+    assert "(fitted in turn, the others as they stand, so these end apart)" in verdict_sentence(found("effect", apart))
     both = [claim("screw", why=among("sun:T")), sun]
     assert "each beside the other: screw 4.00 -> 1.00 um, sun 4.00 -> 1.00 um" in verdict_sentence(
         found("effect", both)
@@ -202,7 +207,7 @@ def test_what_is_unknown_does_not_deny_what_is_named_below() -> None:
     )
     assert "the likeliest that was logged is sun (T), probability 35 %" in text
     assert "nothing logged" not in text
-    assert verdict_sentence(found("unknown", [])) == "something is missing that nothing logged explains"
+    assert verdict_sentence(found("unknown", [])) == ("something is missing, and nothing logged may be named for it")
 
 
 def rung(name: str, *, holds: bool) -> Rung:
@@ -251,7 +256,10 @@ def test_what_a_candidate_could_take_away_is_no_promise() -> None:
     assert explainable(found("none", [], explainable=None)) == ""
     assert explainable(found("none", [], explainable=0.0)) == ""
     assert explainable(found("none", [], explainable=0.4)) == (
-        "one candidate alone takes away up to 40 % of the squared residual"
+        "the best candidate alone takes away 40 % of the squared residual, which by itself names no cause"
+    )
+    assert explainable(found("effect", [claim("sun")], explainable=0.996)) == (
+        "the best candidate alone takes away over 99 % of the squared residual"
     )
 
 
@@ -275,7 +283,8 @@ def test_what_leaves_far_less_than_the_claim_is_told_too(after: float, also: boo
 def test_a_page_names_all_claims_with_their_probabilities(blind: ReportData) -> None:
     asked = found("effect", [claim("screw"), claim("sun", 0.7), one("mode", refinement=True), one("rest")])
     page = dataclasses.replace(blind, diagnosis=asked)
-    assert headline(page) == "dZ misses 1. screw (T); 94 % sure; and 2. sun (T); 70 % sure"
+    assert headline(page) == "dZ misses screw (T), probability 94 %, and sun (T), probability 70 %"
+    assert verdict_sentence(asked).startswith("missing: screw (T), probability 94 %, and sun (T), probability 70 %;")
     html = render(page)
     html = html[: html.index("<script>")]
     assert html.count('<span class="badge good">claimed</span>') == 2
@@ -291,7 +300,8 @@ def test_a_page_tells_why_of_each_claim_that_was_added(data: ReportData) -> None
     html = render(dataclasses.replace(data, reason=asked, effects=("air", "screw", "sun")))
     assert "screw:T: because of screw." in html
     assert "sun:T: because of sun." in html
-    assert "2. sun (T), or oil (T), or air (T); these tests can&#39;t tell which; 94\u00a0% sure" in html
+    assert "and sun (T), probability 94\u00a0%" in html
+    assert "These tests can&#39;t tell sun:T from oil:T and air:T." in html
 
 
 def test_locked_errors_are_those_of_all_claims_only_where_all_were_added(data: ReportData) -> None:

@@ -25,6 +25,8 @@ effects:
         ("response, campaign c", None, "m.yaml:4 (response), campaign c"),
         ("locked, model 'm'", "verify_on and locked", "m.yaml:5 (locked), model 'm'"),
         ("effect 'lag', campaign c", "T_x", "m.yaml:7 (effects[0].drivers.u), effect 'lag', campaign c"),
+        ("effect 'lag', campaign c", "u: T_a; u: T_b", "m.yaml:7 (effects[0]), effect 'lag', campaign c"),
+        ("expression 'T_x'", "rpm", "m.yaml:7 (effects[0].drivers.u), expression 'T_x'"),
         ("verify_on, model 'm'", None, "verify_on, model 'm'"),
     ],
 )

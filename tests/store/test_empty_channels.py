@@ -84,7 +84,11 @@ def test_rows_whose_times_stand_still_are_told_and_asked(store: Store, tmp_path:
         ("zero: {over: 100 h}", "a: zero is the mean over 100 h, and the test lasts 0.65 h: the mean of all of it"),
         ("zero: {over: 10 min}", ""),
         ("phases: {late: [2 h, 3 h]}", "a: the phase 'late' begins at 2 h, and the recording ends at 0.65 h"),
-        ("phases: {most: [0 h, 3 h]}", ""),
+        (
+            "phases: {most: [0 h, 3 h]}",
+            "a: the phase 'most' ends at 3 h, and the recording ends at 0.65 h: it is taken",
+        ),
+        ("phases: {all: [0 h, 0.65 h]}", ""),
     ],
 )
 def test_times_behind_the_end_of_the_recording_are_told(store: Store, tmp_path: Path, keys: str, said: str) -> None:
@@ -94,6 +98,17 @@ def test_times_behind_the_end_of_the_recording_are_told(store: Store, tmp_path: 
         told = [n for n in ingest(store, path).notes if n.startswith("a: ")]
         assert len(told) == bool(said)
         assert all(n.startswith(said) for n in told)
+
+
+def test_a_phase_goes_no_further_than_the_recording(store: Store, tmp_path: Path) -> None:
+    path = write(tmp_path / "lab", {"a": "3000", "b": "6000"})
+    keys = "phases: {heat: [0.1 h, 90 h], late: [2 h, 3 h], all: [0 h, 0.3 h]}"
+    path.write_text(path.read_text().replace("{id: a,", f"{{id: a, {keys},"))
+    ingest(store, path)
+    with store.reader() as con:
+        (lasts,) = con.execute("select duration_s from test where test = 'a'").fetchone()
+        rows = con.execute("select phase, from_s, to_s from phase where test = 'a' order by phase").fetchall()
+    assert rows == [("all", 0.0, 1080.0), ("heat", 360.0, lasts), ("late", 7200.0, 10800.0)]
 
 
 @pytest.mark.parametrize("history", ["test", "recording"])

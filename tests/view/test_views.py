@@ -366,6 +366,7 @@ def test_findings_and_history(build: Build) -> None:
             "claimed": True,
             "p_value": None,
             "rmse_um_before": 4,
+            "beside": ["y"],
             "equivalent": [],
             "parameters": {},
             "why": "it's",
@@ -402,7 +403,9 @@ def test_findings_and_history(build: Build) -> None:
     assert sql(store, "select rank, id, drivers, claimed, p_value, rmse_um_before, why from candidate") == [
         (1, "x", ["T1"], True, None, 4.0, "it's")
     ]
-    assert sql(store, "select verdict from diagnosis") == [("effect",)]
+    # of the whole model: its campaign, and no single test
+    assert sql(store, "select campaign, test, beside from candidate") == [("c", None, ["y"])]
+    assert sql(store, "select campaign, test, verdict from diagnosis") == [("c", None, "effect")]
     assert sql(store, "select machine, campaign, test, g, fit_n, verdict from portability") == [
         ("139", "d", "t", 0.5, None, "portable")
     ]

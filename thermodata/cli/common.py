@@ -86,14 +86,20 @@ def known_failure(error: Exception) -> ThermodataError | None:
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
-    """A text that says um, in the unit of the response: a model may be one of temperatures."""
+    """A text that says um, in the unit of the response: a model may be one of temperatures. Of responses in several
+    units each row is in its own, and a line below says which."""
     names = [response] if isinstance(response, str) else response
-    query = "select distinct unit from channel where list_contains($names, channel)"
-    units = [str(row[0]) for row in session.view().sql(query, {"names": names}).fetchall()]
-    if len(units) != 1 or units[0] == "um":
-        return text
-    unit = "K" if units[0] == "degC" else units[0]
+    query = "select distinct channel, unit from channel where list_contains($names, channel) order by all"
+    found = session.view().sql(query, {"names": names}).fetchall()
+    units = {str(name): "K" if unit == "degC" else str(unit) for name, unit in found}
+    each = set(units.values())
     # headings keep their width, or the columns below would not stand under them
+    if len(each) > 1:
+        told = ", ".join(f"{name} [{units[name]}]" for name in names if name in units)
+        return f"{text.replace('[um]', ' [*]')}\n\n[*] in the unit of the row's response: {told}"
+    if not each or "um" in each:
+        return text
+    unit = each.pop()
     return re.sub(r"(?<=\d )um\b", unit, text.replace("[um]", f"[{unit}]".ljust(4)))
 
 

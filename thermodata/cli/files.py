@@ -69,7 +69,9 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         f"{counted(made.questions, 'line', 'holds', 'hold')} a question: "
         f"grep '# ?' {made.campaign}"
     )
-    answer = as_json(draft, made.campaign, made.files, made.questions, _first_model(made))
+    model = _first_model(made)
+    session.say(_next_steps(made, model))
+    answer = as_json(draft, made.campaign, made.files, made.questions, model)
     session.answer(answer, lambda: str(made.campaign))
     return 3 if failed_readers() else 0
 
@@ -99,6 +101,14 @@ def first_model_command(session: Session, campaign: Path, response: str | None) 
         },
         lambda: str(made.model),
     )
+
+
+def _next_steps(made: Drafted, model: Path | None) -> str:
+    """What to type once the questions are answered."""
+    draft_it = f"thermodata first-model {made.campaign}, " if model is None else ""
+    fitted = made.campaign.with_name("model.yaml")
+    answer = "answer the '# ?', then " if made.questions else ""
+    return f"next: {answer}thermodata ingest {made.campaign}, {draft_it}thermodata fit {fitted}"
 
 
 def _first_model(made: Drafted) -> Path | None:

@@ -11,11 +11,11 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.errors import UsageError
 from thermodata.report.fit_text import (
-    HISTORY,
     before_after_text,
     compare_text,
     differences_text,
     fit_text,
+    history_text,
     made_worse,
     spots_text,
 )
@@ -227,7 +227,7 @@ def history_command(session: Session, model: str | None) -> None:
 
     store = session.store()
     chain = history_rows(store, resolve(store, model, session))
-    session.answer(chain, lambda: table(chain, HISTORY))
+    session.answer(chain, lambda: history_text(chain))
 
 
 @command("portability")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
 
 
 @command("ingest")
@@ -23,10 +26,24 @@ def ingest_command(session: Session, campaign: Path) -> int:
     from thermodata.cli.progress import progress_line
     from thermodata.store.ingest.run import ingest, store_for
 
+    store = store_for(session.store_path, campaign)
     with progress_line() as line:
-        summary = plain(ingest(store_for(session.store_path, campaign), campaign, progress=line).to_json())
+        summary = plain(ingest(store, campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
+    if (step := _next_step(store, summary["campaign"], campaign)) is not None:
+        session.say(step)
     return 3 if summary["losses"] else 0
+
+
+def _next_step(store: Store, name: str, campaign: Path) -> str | None:
+    """What leads to a model, where the campaign has none."""
+    with store.reader() as con:
+        if con.execute("select 1 from model where list_contains(campaigns, ?) limit 1", [name]).fetchone():
+            return None
+    model = campaign.with_name("model.yaml")
+    if model.exists():
+        return f"next: thermodata fit {model}"
+    return f"next: thermodata first-model {campaign} drafts {model}; thermodata fit {model}"
 
 
 def ingest_text(summary: dict[str, Any]) -> str:

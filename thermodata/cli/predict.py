@@ -72,21 +72,22 @@ def predict_command(
     left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
     for reason in left_out:
         session.say(f"left out: {reason}")
-    if not made:
-        raise UsageError("no test can be predicted", where=target, got="; ".join(left_out) or "no test")
-    if out is not None and kind is not None:
+    if not made and not left_out:
+        raise UsageError("no test can be predicted", where=target, got="no test")
+    if made and out is not None and kind is not None:
         write_table(made, out, kind)
     if as_csv and not session.as_json:
         import pyarrow.csv
 
-        pyarrow.csv.write_csv(as_table(made, unit_in_names=True), sys.stdout.buffer)
+        if made:
+            pyarrow.csv.write_csv(as_table(made, unit_in_names=True), sys.stdout.buffer)
         return 3 if left_out else 0
     rows = [_row(p) for p in made]
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
         "step_s": loaded.data.step_s,
-        "file": None if out is None else str(out),
+        "file": None if out is None or not made else str(out),
         "tests": [{**row, "t_s": p.t_s, "predicted": p.predicted} for row, p in zip(rows, made, strict=True)],
         "left_out": left_out,
     }
@@ -111,6 +112,8 @@ def _row(p: Predicted) -> dict[str, Any]:
 
 
 def _text(rows: list[dict[str, Any]], made: list[Predicted], out: Path | None) -> str:
+    if not made:
+        return "no test can be predicted"
     unit = made[0].unit
     shown = [
         {**r, "length": duration(r["hours"] * 3600), "known": f"{100 * r['known']:.0f} %", "rmse": r["rmse"]}

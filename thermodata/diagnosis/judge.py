@@ -109,7 +109,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
         f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
-        f"logged explains them{because}"
+        f"logged may be named for them{because}"
     )
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
 
@@ -147,7 +147,8 @@ def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
     """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
     return (
         f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags "
-        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged explains it"
+        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged may be named "
+        "for it"
     )
 
 

@@ -18,7 +18,7 @@ from thermodata.diagnosis.probability import elsewhere, probability
 from thermodata.diagnosis.rules import explained, failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
-from thermodata.diagnosis.why import among, why
+from thermodata.diagnosis.why import among, judged_beside, why
 from thermodata.schema.candidate import Candidate
 from thermodata.view.dataset import Dataset
 
@@ -72,7 +72,7 @@ def candidate(
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     shape = held.on(held.asked) if held else None
-    told = _beside_the_model(s, investigation)
+    told, of_model = _beside_the_model(s, investigation)
     twins = [t.candidate for t in equivalents(s, beside)]
     return Candidate(
         rank=rank,
@@ -97,10 +97,11 @@ def candidate(
         locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
+        beside=[] if of_model else judged_beside(s, member, investigation, judgement),
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
-        why=why(s, member, investigation, judgement, held),
+        why=why(s, member, investigation, judgement, held, told if of_model else None),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
@@ -115,25 +116,28 @@ def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[
     return [place for place in elsewhere(s) if not reads(beside, place)]
 
 
-def _beside_the_model(s: Scored, investigation: Investigation) -> Scored:
-    """The candidate beside the user's own model, where it shows there what it does; else beside what hides it."""
+def _beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
+    """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
+    whether it is the former."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
-    alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), s)
+    alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), None)
+    if alone is None:
+        return s, False
     if not len(s.rows):
-        return alone
+        return alone, True
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
     judged = investigation.judgement.judged
     if len(judged) == 1 and judged[0].scored.columns is s.columns:
         s = replace(s, sse_before=alone.sse_before)
-    return alone if fall(alone) >= fall(s) else s
+    return (alone, True) if fall(alone) >= fall(s) else (s, False)
 
 
 def explainable(shown: Sequence[Scored], investigation: Investigation) -> float | None:
     """What one candidate alone takes off the squared error, as a share: the most of those listed, and of all others
     beside the model. Beside others a candidate takes away what they leave; of one alone that says nothing."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
-    told = [_beside_the_model(s, investigation) for s in shown]
+    told = [_beside_the_model(s, investigation)[0] for s in shown]
     alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
     return max((float(np.clip(fall(s), 0.0, 1.0)) for s in alone), default=None)
 

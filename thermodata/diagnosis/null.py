@@ -32,6 +32,13 @@ def p_value(evidence: float, chance: Float1D) -> float:
     return float((1 + np.sum(chance >= evidence)) / (len(chance) + 1))
 
 
+def in_words(evidence: float, chance: Float1D) -> str:
+    """That share, in words; where chance never did as well it is no more than the smallest share that so many tell."""
+    share = f"{100 * p_value(evidence, chance):.1f} %"
+    none = not np.any(chance >= evidence)
+    return f"chance does as well in {'at most ' if none else ''}{share} of responses in which nothing is missing"
+
+
 def _responses(known: Known, rng: np.random.Generator) -> list[Float2D]:
     """Whitened, a test each, shape (m, DRAWS)."""
     mean = known.mean(known.every)

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.measure import Measure
+from thermodata.diagnosis.null import in_words as chance_in_words
 from thermodata.diagnosis.null import p_value
 from thermodata.diagnosis.present import CONTROL
 from thermodata.diagnosis.probability import limit_of, may_be_confirmed, probability, sharpness
@@ -75,7 +76,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             P_LIMIT,
             "most",
             p <= P_LIMIT,
-            f"chance does as well in {p:.1%} of responses in which nothing is missing (limit {P_LIMIT:.0%})",
+            f"{chance_in_words(scored.evidence, measure.chance)} (limit {100 * P_LIMIT:.0f} %)",
         ),
         Rule(
             "fall",

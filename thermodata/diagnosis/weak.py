@@ -19,6 +19,9 @@ STANDS_OUT = 1.3
 SHOWN = 12
 _AT_REST_RPM = 5.0  # what an analogue speed still shows
 _STEADY = 0.02  # of its size: a supply that stays so all test long says nothing of a window
+_MOST = 0.75  # a level that stood for this share of a window is what it was; else it is said from where to where
+_ALIKE = 0.05  # of the largest in the window: values that are one level
+_HARDLY = 0.05  # of the window: a level that stood for less is not told
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +88,9 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
 
 
 def describe_state(test: TestData, start: int, stop: int) -> str:
-    """What the machine did in rows start:stop, in words: speeds, feeds, what was on, which way the air went."""
+    """What the machine did in rows start:stop, in words: speeds, feeds, what was on, which way the air went.
+
+    Only what occurred is said: the level that stood for most of the window, else from where to where it went."""
     words: list[str] = []
     turning, spindles = False, False
     for name, info in test.channels.items():
@@ -97,21 +102,23 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
         if not len(part):
             continue
         if info.quantity in ("rotational_speed", "feed", "power", "load", "current", "voltage", "flow"):
-            level, largest = float(np.median(np.abs(part))), float(np.nanmax(np.abs(values)))
+            largest = float(np.nanmax(np.abs(values)))
+            low, high = _levels(np.abs(part), largest)
             of_spindle = info.quantity == "rotational_speed" and (info.at is None or is_spindle(info.at))
             spindles = spindles or of_spindle
-            if of_spindle and level < _AT_REST_RPM:
+            if of_spindle and high < _AT_REST_RPM:
                 continue
             if (
                 info.quantity in ("current", "voltage")
                 and largest - float(np.nanmin(np.abs(values))) < _STEADY * largest
             ):
                 continue
-            if level > 0.01 * largest:
+            if high > 0.01 * largest:
                 turning = turning or of_spindle
-                words.append(f"{name} {level:.0f} {info.unit}" if level >= 100 else f"{name} {level:.2g} {info.unit}")
-        elif info.quantity == "state" and float(part.mean()) > 0.5:
-            words.append(f"{name} on")
+                span = _figure(high) if low == high else f"{_figure(low)} to {_figure(high)}"
+                words.append(f"{name} {span} {info.unit}")
+        elif info.quantity == "state" and (share := float(part.mean())) > _HARDLY:
+            words.append(f"{name} on" if share > 1 - _HARDLY else f"{name} on {100 * share:.0f} % of the time")
         elif info.quantity == "temperature" and (info.at or "").startswith("hall"):
             rise = float(part[-1] - part[0])
             if abs(rise) > 0.3:
@@ -119,3 +126,20 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
     if spindles and not turning:
         words.insert(0, "spindle at rest")
     return ", ".join(words) if words else "idle"
+
+
+def _levels(sizes: Float1D, largest: float) -> tuple[float, float]:
+    """(from, to), values that occurred: alike where one level stood for most of it. largest: of the whole test."""
+    ordered = np.sort(sizes)
+    ends = np.searchsorted(ordered, ordered + max(_ALIKE * float(ordered[-1]), 0.01 * largest), side="right")
+    counts = ends - np.arange(len(ordered))
+    first = int(np.argmax(counts))
+    if counts[first] >= _MOST * len(ordered):
+        level = float(ordered[(first + int(ends[first]) - 1) // 2])
+        return level, level
+    low, high = (float(ordered[round(share * (len(ordered) - 1))]) for share in (_HARDLY, 1 - _HARDLY))
+    return low if low > 0.01 * largest else 0.0, high
+
+
+def _figure(size: float) -> str:
+    return f"{size:.0f}" if size >= 100 else f"{size:.2g}"

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from thermodata.diagnosis.confirm import Confirmation
 from thermodata.diagnosis.foretold import Foretold, Looked
 from thermodata.diagnosis.investigate import Investigation
 from thermodata.diagnosis.judge import Judged, Judgement
 from thermodata.diagnosis.measure import Measure
-from thermodata.diagnosis.null import p_value
+from thermodata.diagnosis.null import in_words as chance_in_words
 from thermodata.diagnosis.probability import sharpness
 from thermodata.diagnosis.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.scored import Scored
@@ -24,14 +26,27 @@ _OUTWEIGHED = {
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
-def why(
-    s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement, held: Confirmation | None
-) -> str:
-    """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests."""
-    unit, count = investigation.problem.unit, int(s.acts.sum())
-    others = [j.scored.candidate.id for j in judgement.judged if member is not None and j.alone is not member.alone]
+def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:
+    """Ids of what is in the model too where a candidate is judged, as the answer names them."""
+    if member is None:
+        return list(s.others)
+    others = [j.scored.candidate.id for j in judgement.judged if j.alone is not member.alone]
     context = () if investigation.selection is None else investigation.selection.context
-    others = [*others, *(c.candidate.id for c in context)] if member is not None else list(s.others)
+    return [*others, *(c.candidate.id for c in context)]
+
+
+def why(
+    s: Scored,
+    member: Judged | None,
+    investigation: Investigation,
+    judgement: Judgement,
+    held: Confirmation | None,
+    alone: Scored | None = None,
+) -> str:
+    """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
+    alone: the same beside the model alone, where the answer's errors are those, and not of what it is judged by."""
+    unit, count = investigation.problem.unit, int(s.acts.sum())
+    others = judged_beside(s, member, investigation, judgement)
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     tests = investigation.measure.tests
@@ -43,11 +58,13 @@ def why(
         f"fitted to all, and it makes {improves} of {count} more probable; "
         f"its gain differs between {tests} by {s.spread:.0%}"
     )
-    chance = p_value(s.evidence, investigation.measure.chance)
+    if alone is not None and others:
+        left = " -> ".join(f"{np.sqrt(np.mean(sse / alone.rows)):.2f}" for sse in (alone.sse_before, alone.sse_after))
+        numbers = f"alone it takes the error on left-out {tests} {left} {unit}; it is judged beside others: {numbers}"
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
-        of_chance = f"chance does as well in {chance:.1%} of responses in which nothing is missing"
+        of_chance = chance_in_words(s.evidence, investigation.measure.chance)
         broken = failed_rules(s, investigation.measure, unit)
         broken += [member.refines] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""

@@ -53,7 +53,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         raise UsageError(
             "the campaign file exists, and is never overwritten",
             where=str(out),
-            hint="--force keeps it as campaign.1.yaml and drafts anew",
+            hint=f"thermodata ingest {out} reads it as it stands, thermodata first-model {out} drafts a model of it; "
+            "--force keeps it as campaign.1.yaml and drafts it anew",
         )
     found = scan(folder, progress, declared_before(out) if out.exists() else None)
     if not found.logs and not found.ignored:

@@ -12,7 +12,8 @@ _MOST = 6
 
 
 def missing_for_a_model(text: str, campaign: Campaign) -> str:
-    """In words, of a campaign file of which no first model can be drafted. text: of the file."""
+    """In words, of a campaign file of which no first model can be drafted. text: of the file. What drafts one once that
+    is answered is told with the next steps."""
     if not any(campaign.channels[r].axis and campaign.channels[r].at == "tcp" for r in responses_of(campaign)):
         what, asked = (
             "a displacement of the tool (quantity: displacement, axis:, at: tcp)",
@@ -20,7 +21,7 @@ def missing_for_a_model(text: str, campaign: Campaign) -> str:
         )
     else:
         what, asked = "a temperature or a speed with its place (at:) that drives a plain effect", asked_of_drivers(text)
-    return f"no model.yaml: it needs {what}" + (f"; answer the '# ?' of {asked}, then first-model" if asked else "")
+    return f"no model.yaml: it needs {what}" + (f"; answer the '# ?' of {asked}, then draft it" if asked else "")
 
 
 def asked_of_a_displacement(text: str) -> str:

@@ -53,6 +53,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     ]
     for term in response.terms:
         rows += [
+            *_own(response, term, tests),
             *at_bounds(response, term),
             *_long(term, tests),
             *_second_lag(term),
@@ -75,6 +76,25 @@ def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
             + ("" if count >= need else f"; {parameters} parameters want {need:.0f}: add tests"),
         )
     ]
+
+
+def _own(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
+    """A response among the drivers of its own effect: it explains itself, whatever the machine does."""
+    for test in tests:
+        own = response.bound.channel_of(test)
+        read = [text for text in term.bound.binding_of(test).values() if own in names_of(text)]
+        if read and term.bound.covers(test):
+            return [
+                Check(
+                    name=f"own_channel:{term.id}",
+                    value=None,
+                    threshold=None,
+                    passed=False,
+                    advice=f"'{term.id}' of '{own}' is driven by '{own}' itself, which explains it whatever the "
+                    "machine does: drive it by another channel, or say with acts_on which responses it acts on",
+                )
+            ]
+    return []
 
 
 def _lost(response: FittedResponse, tests: Sequence[TestData]) -> list[Check]:

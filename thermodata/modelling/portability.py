@@ -21,7 +21,8 @@ END_S = 1800.0  # the end of heating is a mean over this long
 
 @dataclass(frozen=True)
 class Portability:
-    """One test. g: least squares; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
+    """One test. g: least squares through the zero of the first samples, as the FITs are taken, so that it never makes
+    them worse; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
     unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain. verdict "x"
     where it can't be predicted, for a sensor is missing on that machine: `why` says which."""
 
@@ -76,10 +77,10 @@ def classify(
 
 
 def gain_least_squares(measured: Float1D, predicted: Float1D) -> float | None:
-    """g of measured = g predicted + constant; None where the prediction does not move."""
-    p = predicted - predicted.mean()
-    power = float(p @ p)
-    return float(p @ (measured - measured.mean())) / power if power > 1e-12 * max(1, len(p)) else None
+    """g of measured = g predicted, both from their zero; None where the prediction does not move."""
+    power = float(predicted @ predicted)
+    moves = float(np.var(predicted)) * len(predicted) > 1e-12 * max(1, len(predicted))
+    return float(predicted @ measured) / power if moves else None
 
 
 def _carry(response: FittedResponse, test: TestData, role: str) -> Portability:

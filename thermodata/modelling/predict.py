@@ -9,6 +9,7 @@ from typing import cast
 import numpy as np
 
 from thermodata.errors import ThermodataError, UsageError
+from thermodata.modelling.drivers import names_of
 from thermodata.modelling.fitted import FittedModel
 from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.nested import ModelOutput
@@ -47,8 +48,8 @@ class Predicted:
 
 
 def predict(fitted: FittedModel, data: Dataset) -> tuple[list[Predicted], list[str]]:
-    """(predictions, why tests are left out). Channels are found as the model file names them; UsageError where the
-    data has none for an effect."""
+    """(predictions, why tests are left out). Channels are found as the model file names them; UsageError where several
+    fit."""
     made, why = list[Predicted](), list[str]()
     responses = [rebound(r, fitted, data) for r in fitted.responses]
     for test in data.tests:
@@ -86,7 +87,14 @@ def _rebound(term: FittedTerm, by_campaign: Mapping[str, Mapping[str, ChannelInf
     for campaign, channels in by_campaign.items():
         if campaign not in bindings:
             given = old.spec.drivers or dict(old.binding)  # what was found by place in the fit goes by its name
-            bindings[campaign] = bind(effect, given, channels, f"effect '{old.id}', campaign {campaign}")
+            try:
+                bindings[campaign] = bind(effect, given, channels, f"effect '{old.id}', campaign {campaign}")
+            except UsageError:
+                # what no test of it has, each test lacks: it is left out by the name that the fit knows
+                needed = {n for text in old.binding.values() for n in names_of(text)}
+                if needed <= channels.keys():
+                    raise
+                bindings[campaign] = dict(old.binding)
     return replace(term, bound=replace(old, bindings=bindings, _drivers={}))
 
 

@@ -89,6 +89,14 @@ def read_prediction(path: Path) -> Prediction:
                 table = tables.setdefault(prefix + row[names["test"]], ([], []))
                 table[0].append(t)
                 table[1].append(y)
+    except FileNotFoundError:
+        raise SpecError(
+            "no such prediction file",
+            where=str(path.parent),
+            expected=f"a CSV file with the columns {', '.join(_COLUMNS)}; its path counts from the model file",
+            got=path.name,
+            hint="thermodata predict MODEL CAMPAIGN --out FILE.csv writes one",
+        ) from None
     except (OSError, UnicodeDecodeError) as error:
         raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
     series: dict[str, tuple[Float1D, Float1D]] = {}

@@ -16,6 +16,7 @@ from thermodata.modelling.driver_quantity import refuse_another_quantity
 from thermodata.modelling.drivers import names_of
 from thermodata.modelling.make_effect import make_effect, refuse_unknown_effects
 from thermodata.modelling.nuisance import known_weights
+from thermodata.modelling.own_units import in_own_units
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.modelling.said_conditions import refuse_unsaid_of
 from thermodata.plugin import Effect
@@ -176,6 +177,7 @@ def bind_terms(
         for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
+        spec = in_own_units(spec, effect, f"effect '{name}'")
         family = family_of(effect, bound_by[first], by_campaign[first])
         terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate, seen_at))
     return tuple(terms)

@@ -25,8 +25,9 @@ def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
         for key in _LATER & effect.keys():
             if effect[key] is None or effect[key] is False or effect[key] in ({}, []):
                 del effect[key]
-    if not content["weights"]:
-        del content["weights"]
+    for key in ("weights", "taken_back"):
+        if not content[key]:
+            del content[key]
     text = json.dumps(content, sort_keys=True, ensure_ascii=False)
     digest = hashlib.sha256(f"{text}\n{data_version}".encode())
     for given in spec.effects:

@@ -184,9 +184,10 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
 
 def remove(store: Store, ref: str, effect: str) -> FitResult:
     """A new version with one effect less: by its id, or its name where that is one effect only; its second lag goes
-    with it, and the others keep their ids. `before` has the parent's scores, `notes` what went. UsageError for no such
-    effect."""
-    from thermodata.store.catalogue.models import find_model
+    with it, and the others keep their ids. Where that takes back all that was added to an earlier version, it is fitted
+    as that one was; else verification tests that helped to choose what is left stay fitted. `before` has the parent's
+    scores, `notes` what went. UsageError for no such effect."""
+    from thermodata.store.catalogue.models import find_model, model_chain
 
     parent = find_model(store, ref)
     ids = term_ids(parent.spec.effects)
@@ -206,8 +207,23 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     effects = bare if term_ids(bare) == [e.id for e in kept] else kept
     old = load(store, parent.model)
     before = make_result(old.fitted, old.data, parent.model).scores
-    spec = parent.spec.model_copy(update={"effects": effects})
-    return fit(store, spec, parent=parent.model, before=before, notes=[f"removed: {', '.join(gone)}"])
+    spec, notes = parent.spec.model_copy(update={"effects": effects}), [f"removed: {', '.join(gone)}"]
+    earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]
+    if earlier:
+        spec = earlier[-1].spec.model_copy(update={"taken_back": parent.model})
+        notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
+    elif spec.in_sample:
+        notes.append("verification tests stay fitted (in-sample), for they helped to choose what is left")
+    return fit(store, spec, parent=parent.model, before=before, notes=notes)
+
+
+def _alike(one: Model, other: Model) -> bool:
+    """Whether two versions have the same effects, however their ids are written."""
+    mine, theirs = (
+        [(i, e.model_copy(update={"id": None})) for i, e in zip(term_ids(m.effects), m.effects, strict=True)]
+        for m in (one, other)
+    )
+    return mine == theirs
 
 
 def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:

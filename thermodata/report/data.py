@@ -51,7 +51,7 @@ class TestPart:
 @dataclass(frozen=True, slots=True)
 class Version:
     """One version of the model. added: the effect that it has more than its parent. *_um: pooled RMSE [um].
-    removed: the effect that its parent has more."""
+    removed: the effect that its parent has more. in_sample: whether its verification tests were fitted too."""
 
     model: str
     name: str
@@ -61,6 +61,7 @@ class Version:
     verification_um: float | None
     stale: bool = False
     removed: str | None = None
+    in_sample: bool = False
 
     @property
     def change(self) -> str:

@@ -40,6 +40,10 @@ def confirmed_text(result: Confirmed) -> str:
     return f"{head}\n\n{table(rows, columns)}\n\nthe locked tests have been opened {times(result.looks)} so far"
 
 
+BOTH_WITH = (
+    "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
+    "noise that its own effects leave, so that errors before differ a little between rows beside the same effects"
+)
 _START = "the course fits and where it starts does not (a test that began warm, or noise where its zero is taken)"
 
 
@@ -158,4 +162,5 @@ def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str
         *([("beside", "both with")] if any(r["beside"] for r in rows) else []),
         ("equivalent", "can't be told from"),
     ]
-    return table(rows, columns, widest=44)
+    told = f"\n\n{BOTH_WITH}" if any(r["beside"] for r in rows) else ""
+    return table(rows, columns, widest=44) + told

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.glossary import explained
+from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled
 
@@ -24,6 +24,7 @@ HISTORY = (
     ("rmse_um", "RMSE [um]"),
     ("calibration_rmse_um", "calibration [um]"),
     ("verification_rmse_um", "verification [um]"),
+    ("in_sample", "in-sample"),
     ("stale", "stale"),
 )
 """The columns of `report.collect.history_rows`."""
@@ -91,15 +92,34 @@ def compare_text(results: list[FitResult]) -> str:
         head = f"{results[0].name}  {results[0].model}"
         return "\n\n".join([head, scores_text(results[0].scores, phases=True)])
     rows: dict[tuple[str, ...], dict[str, Any]] = {}
-    columns = [("campaign", "campaign"), ("test", "test"), ("role", "role"), ("phase", "phase")]
+    many = len({s.response for r in results for s in r.scores}) > 1
+    columns = [("campaign", "campaign"), ("test", "test"), ("role", "role")]
+    columns += [("response", "response")] if many else []
+    columns += [("phase", "phase")]
     for result in results:
         label = f"{result.name} {result.model[:6]}"
         columns += [(f"rmse {result.model}", f"{label} RMSE [um]"), (f"fit {result.model}", "FIT [%]")]
         for s in result.scores:
             key = (s.campaign, s.test, s.response, s.phase)
-            row = rows.setdefault(key, {"campaign": s.campaign, "test": s.test, "role": s.role, "phase": s.phase})
+            told = {"campaign": s.campaign, "test": s.test, "role": s.role, "response": s.response, "phase": s.phase}
+            row = rows.setdefault(key, told)
+            if row["role"] != s.role:  # in one model a verification test was fitted, in the other not
+                row["role"] = base_role(s.role)
             row[f"rmse {result.model}"], row[f"fit {result.model}"] = s.rmse_um, s.fit
-    return table(list(rows.values()), columns)
+            row[f"role {result.model}"] = "yes" if s.role != base_role(s.role) else ""
+    fitted = [r for r in results if any(s.role != base_role(s.role) for s in r.scores)]
+    if 0 < len(fitted) < len(results):
+        for result in fitted:
+            at = next(i for i, (key, _) in enumerate(columns) if key == f"rmse {result.model}") + 2
+            columns.insert(at, (f"role {result.model}", "in-sample"))
+    below = f"\n\n{explained('verification')}" if fitted else ""
+    return table(list(rows.values()), columns) + below
+
+
+def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
+    """The versions of a model, as rows of `report.history.history_rows`."""
+    told = f"\n\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
+    return table(chain, HISTORY) + told
 
 
 def differences_text(found: Sequence[TestDifference], results: Sequence[FitResult]) -> str:
@@ -163,13 +183,18 @@ def before_after_text(result: FitResult) -> str:
         old = before.get((s.campaign, s.test, s.response, s.phase))
         if s.phase == "all" and old:
             rows.append({**s.model_dump(), "before": old.rmse_um, "change": change(old.rmse_um, s.rmse_um)})
+    names = list(dict.fromkeys(s.response for s in result.scores))
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
-        a, b = pooled(result.before or [], role), pooled(result.scores, role)
-        rows.append({"test": "all", "role": role, "before": a, "rmse_um": b, "change": change(a, b)})
+        for name in names:  # responses may be in several units
+            a, b = ([s for s in some if s.response == name] for some in (result.before or [], result.scores))
+            was, now = pooled(a, role), pooled(b, role)
+            pool = {"before": was, "rmse_um": now, "change": change(was, now)}
+            rows.append({"test": "all", "role": role, "response": name, **pool})
     columns = [
         ("campaign", "campaign"),
         ("test", "test"),
         ("role", "role"),
+        *([("response", "response")] if len(names) > 1 else []),
         ("before", "before [um]"),
         ("rmse_um", "after [um]"),
         ("change", "change"),

@@ -12,6 +12,7 @@ ERRORS = {
 }
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 
+IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too"
 PARTS = "parts of the open tests in turn, foretold by a fit to the others"
 
 HOW = "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once."

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
-from thermodata.report.verdict import as_named, claims_of, listed, named, other_heat, probability, verdict_sentence
+from thermodata.report.verdict import causes, claims_of, listed, verdict_sentence
 from thermodata.report.words import change, number
-from thermodata.schema.candidate import Candidate
-
-_MOST_NAMES = 3
 
 
 def headline(data: ReportData) -> str:
@@ -45,24 +40,6 @@ def tests_of(row: ErrorRow) -> str:
     return "the tests that were fitted" if row.word == "fitted" else f"{row.word} tests"
 
 
-def causes(claims: Sequence[Candidate]) -> str:
-    """'coolant (coolant_on), or lag (coolant_on); these tests can't tell which; 98 % sure', for each claim."""
-    told = [_cause(c) for c in claims]
-    if len(claims) == 1:
-        return told[0]
-    return "; and ".join(f"{number}. {text}" for number, text in enumerate(told, 1))
-
-
-def _cause(claim: Candidate) -> str:
-    others = [as_named(e) for e in claim.equivalent[:_MOST_NAMES]]
-    more = len(claim.equivalent) - len(others)
-    elsewhere = [other_heat(claim)] if claim.unread else []
-    names = [named(claim), *others, *([f"{more} more"] if more else []), *elsewhere]
-    which = ["these tests can't tell which"] if others or elsewhere else []
-    sure = [f"{probability(claim.probability)} sure"] if claim.probability is not None else []
-    return "; ".join([", or ".join(names), *which, *sure])
-
-
 def sentences(data: ReportData) -> list[str]:
     """What stands below: the error, the evidence of what was added, and the verdict of now."""
     row = headline_error(error_rows(data))
@@ -74,7 +51,8 @@ def sentences(data: ReportData) -> list[str]:
         # ids stay as they are typed
         why = f"{claim.id}: {claim.why}" if len(claims) > 1 else capital(claim.why)
         lines.append(why)
-        if len(claim.equivalent) > _MOST_NAMES:
+    for claim in claims or (claims_of(data.diagnosis) if data.diagnosis and not data.added else []):
+        if claim.equivalent:
             lines.append(f"These tests can't tell {claim.id} from {listed(claim.equivalent)}")
     if data.diagnosis and (data.added or claims_of(data.diagnosis)):
         lines.append(("Now: " if data.added else "") + capital(verdict_sentence(data.diagnosis)))

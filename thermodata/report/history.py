@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from thermodata.report.data import Version
-from thermodata.report.words import pooled
+from thermodata.report.words import base_role, pooled
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Score
 
@@ -46,6 +46,7 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
                 pooled(scores, "verification"),
                 m.stale,
                 ", ".join(gone) or None,
+                any(s.role != base_role(s.role) for s in scores),
             )
         )
         words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
@@ -69,6 +70,7 @@ def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
             "verification_rmse_um": v.verification_um,
             "stale": v.stale,
             "removed": v.removed,
+            "in_sample": v.in_sample,
         }
         for v, m in zip(versions(chain), chain, strict=True)
     ]

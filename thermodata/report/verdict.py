@@ -147,10 +147,14 @@ def _not_excluded(found: Diagnosis) -> str:
 
 
 def _missing(claims: Sequence[Candidate], left: float | None) -> str:
+    return f"missing: {causes(claims)}; {_left_out(claims, left)}{_locked(claims)}"
+
+
+def causes(claims: Sequence[Candidate]) -> str:
+    """'screw (T_nut), probability 94 %, not told from motor (T_mot)', the same wherever a claim is told."""
     names = [", ".join(filter(None, [_or_elsewhere(c), _how_sure(c), _not_told_from(c)])) for c in claims]
     # commas stand within a name and its probability
-    text = f"missing: {names[0] if len(names) == 1 else ', and '.join([', '.join(names[:-1]), names[-1]])}"
-    return f"{text}; {_left_out(claims, left)}{_locked(claims)}"
+    return names[0] if len(names) == 1 else ", and ".join([", ".join(names[:-1]), names[-1]])
 
 
 def _or_elsewhere(one: Candidate) -> str:
@@ -186,7 +190,9 @@ def _left_out(some: Sequence[Candidate], left: float | None) -> str:
     ids = {c.id for c in some}
     if all(set(beside(c, left)) == ids - {c.id} for c in some):
         each = [_from_to(c.effect, c) for c in some]
-        return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}"
+        apart = len({number(c.rmse_um_after) for c in some}) > 1
+        turns = " (fitted in turn, the others as they stand, so these end apart)" if apart else ""
+        return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}{turns}"
     each = [_from_to(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
     return f"error on left-out tests: {', '.join(each)}"
 
@@ -198,6 +204,8 @@ def _beside_or_alone(others: Sequence[str]) -> str:
 def beside(one: Candidate, left: float | None) -> list[str]:
     """Ids of the candidates that its errors on left-out tests have in the model too, without it and with it, as its
     sentence names them; empty where they are of the user's own model. left: the error of that [um]."""
+    if one.beside is not None:
+        return one.beside
     before = one.rmse_um_before
     if before is None or (left is not None and math.isclose(before, left, rel_tol=1e-6)):
         return []
@@ -246,7 +254,7 @@ def _unclaimed(found: Diagnosis) -> str:
     far = _far_on_locked(found)
     seen = f" on the locked tests, which an earlier claim left with {far}" if far else ""
     if first is None:
-        return f"something is missing{seen} that nothing logged explains"
+        return f"something is missing{seen}, and nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     if (first.probability or 0.0) < UNLIKELY:
         return (
@@ -290,4 +298,5 @@ def explainable(found: Diagnosis) -> str:
     """What the best single candidate takes away, which is no claim; '' where nothing is known of it."""
     if not found.explainable:
         return ""
-    return f"one candidate alone takes away up to {percent(found.explainable)} of the squared residual"
+    said = f"the best candidate alone takes away {percent(found.explainable)} of the squared residual"
+    return said if claims_of(found) else f"{said}, which by itself names no cause"

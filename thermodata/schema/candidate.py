@@ -93,6 +93,8 @@ class Candidate(Result):
     locked_shape_um_after: with it
     locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
         where it is not known, or nothing was opened for it
+    beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
+        where these are of the user's own model without and with this one; null in an answer of an older version
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     unread: places of other parts that it may be as well, for nothing that it reads tells them apart
@@ -125,6 +127,7 @@ class Candidate(Result):
     locked_shape_um_before: float | None = None
     locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None
+    beside: list[str] | None = None
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     unread: list[str] = []

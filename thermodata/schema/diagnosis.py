@@ -107,8 +107,8 @@ class Diagnosis(Result):
     model: id
     response: name
     verdict: effect: one is missing; refine: none is missing, but an effect that is there acts otherwise than modelled;
-        none: what is left is noise; unknown: something is left that nothing logged explains; not_testable: the tests
-        cannot tell
+        none: what is left is noise; unknown: something is left, and nothing logged may be named for it; not_testable:
+        the tests cannot tell
     noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate, where the effects of the model may act otherwise than by

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 
 from thermodata.errors import SpecError, nearest
 from thermodata.schema.declared import WrongKeyError, WrongValueError
-from thermodata.schema.explain_types import wanted
+from thermodata.schema.explain_types import missed, wanted
 from thermodata.schema.lines import Document, Place, at_place, dotted_place
 
 M = TypeVar("M", bound=BaseModel)
@@ -37,8 +37,15 @@ def _as_error(document: Document, problems: list[SpecError]) -> SpecError:
         where=first.where,
         expected=first.expected,
         got=first.got,
-        hint=". ".join(filter(None, [first.hint, f"then also {others}{more}"])),
+        hint=_sentences(first.hint, f"then also {others}{more}"),
     )
+
+
+def _sentences(first: str | None, second: str) -> str:
+    """Two hints, each a sentence of its own."""
+    if first is None:
+        return second
+    return f"{first}{'' if first.endswith(('?', '.', '!')) else '.'} {second[:1].upper()}{second[1:]}"
 
 
 def _problems(model: type[BaseModel], document: Document, error: ValidationError) -> Iterator[SpecError]:
@@ -136,8 +143,7 @@ def _one(model: type[BaseModel], document: Document, place: Place, detail: Any, 
     else:
         of_model = kind in ("model_type", "model_attributes_type")
         expected = wanted(kind, detail.get("ctx", {}), _keys_at(model, place, tags) if of_model else ())
-        if expected is not None and expected.startswith(("a ", "{")):
-            message = "no mapping" if expected.startswith("{") else f"no {expected.partition(':')[0]}"
+        message = (missed(kind, expected) if expected is not None else None) or message
     return SpecError(
         f"'{name}': {message}" if name != "" else message, where=where, expected=expected, got=_short(value), hint=hint
     )

@@ -27,6 +27,18 @@ _BOUNDS = {
 }
 
 
+_COUNTED = {"too_long": "too many values", "too_short": "too few values"}
+
+
+def missed(kind: str, expected: str) -> str | None:
+    """What is wrong of such a value, in a few words; None where pydantic's message says it."""
+    if expected.startswith("{"):
+        return "no mapping"
+    if expected.startswith("a "):
+        return f"no {expected.partition(':')[0].removeprefix('a ')}"
+    return _COUNTED.get(kind)
+
+
 def wanted(kind: str, context: dict[str, Any], keys: Collection[str]) -> str | None:
     """What would be right in place of a value that pydantic refuses with an error of this kind; None where only its
     message tells. keys: those of the model that is meant, empty where any will do."""

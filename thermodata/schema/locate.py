@@ -7,7 +7,9 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.lines import Document, Place, at_place, dotted_place, read_document
+from thermodata.schema.terms import ids_of
 
+_EXPRESSION = re.compile(r"expression '([^']+)'")
 _EFFECT = re.compile(r"effect '([^']+)'")
 
 
@@ -23,7 +25,10 @@ def located(error: ThermodataError, path: Path) -> ThermodataError:
         document = read_document(path)
     except (ThermodataError, OSError):
         return error
-    place = _place(document, error.got.strip("'"), _EFFECT.search(error.where or ""))
+    named = _EFFECT.search(error.where or "")
+    of_text = _EXPRESSION.search(error.where or "")
+    place = _place(document, of_text[1] if of_text else error.got.strip("'"), named)
+    place = place or (_effect(document, named[1]) if named else None)
     if place is None:
         return error
     return error.at(document.where(place) + (f", {error.where}" if error.where else ""))
@@ -63,6 +68,15 @@ def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place
         ),
         None,
     )
+
+
+def _effect(document: Document, name: str) -> Place | None:
+    """Where an effect stands, by its id in the answers."""
+    effects = document.data.get("effects")
+    if not isinstance(effects, list) or not all(isinstance(e, dict) for e in effects):
+        return None
+    ids = ids_of((str(e.get("effect")), e.get("id")) for e in effects)
+    return ("effects", ids.index(name)) if name in ids else None
 
 
 def _is_effect(document: Document, place: Place, name: str) -> bool:

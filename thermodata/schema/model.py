@@ -68,7 +68,7 @@ class EffectSpec(Strict):
     groups: values of gain_by that have one gain: {[D25, D63]: k1, D100: k2}
     one_gain: one factor g for each value of gain_by, over all gains of the effect
     shared: parameters that all groups of gain_by share; by default all; none: a function of its own for each
-    fixed: parameter or gain -> value, in the effect's unit
+    fixed: parameter or gain -> value, in the effect's unit or with one: {tau: 18 min}
     start: parameter -> where its search starts
     bounds: parameter -> [lower, upper], in the effect's unit
     file: of a prediction: CSV with the columns test, t_s [s], predicted, or as `predict --out` writes it
@@ -95,8 +95,8 @@ class EffectSpec(Strict):
     one_gain: bool = False
     shared: list[str] | Literal["none"] = []
     fixed: dict[str, PrintedNumber] = {}
-    start: dict[str, float] = {}
-    bounds: dict[str, tuple[float, float]] = {}
+    start: dict[str, PrintedNumber] = {}
+    bounds: dict[str, tuple[PrintedNumber, PrintedNumber]] = {}
     file: str | None = None
     name: str | None = None
     gain: float | str | None = None
@@ -150,6 +150,7 @@ class Model(Strict):
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
+    taken_back: set by remove: id of the version in which all that was added since is taken out again
     notes: free text
     """
 
@@ -166,6 +167,7 @@ class Model(Strict):
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = False
+    taken_back: str | None = None
     notes: str = ""
 
     @field_validator("response")

@@ -11,6 +11,10 @@ from typing import Annotated, Any
 
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 
+from thermodata.errors import UsageError
+from thermodata.schema.declared import WrongValueError
+from thermodata.schema.quantity import split_value
+
 
 class Printed(float):
     """A number with the text that it was read from. Calculates, compares and hashes as the number."""
@@ -24,6 +28,18 @@ class Printed(float):
 
     def __reduce__(self) -> tuple[type[Printed], tuple[str]]:
         return Printed, (self.text,)
+
+
+class WithUnit(Printed):
+    """A number with its unit, '18 min': as a number 18, which means nothing until it is in the effect's own unit."""
+
+    def __new__(cls, text: str) -> WithUnit:
+        made = float.__new__(cls, split_value(text)[0])
+        made.text = text
+        return made
+
+    def __reduce__(self) -> tuple[type[WithUnit], tuple[str]]:
+        return WithUnit, (self.text,)
 
 
 def rounding(value: float) -> float:
@@ -42,9 +58,18 @@ def _read(value: Any) -> float:
     try:
         number = Printed(value if isinstance(value, str) else float(value) if isinstance(value, int) else value)
     except ValueError:
-        raise ValueError(f"'{value}' is no number") from None
+        return _with_unit(str(value))
     # the shortest text of a number says no more than the number
     return number if number.text != repr(float(number)) else float(number)
+
+
+def _with_unit(text: str) -> float:
+    try:
+        if split_value(text)[1]:
+            return WithUnit(text)
+    except UsageError:
+        pass
+    raise WrongValueError(f"'{text}' is no number", expected="a number, in the effect's unit or with one: 18 min")
 
 
 def _written(value: float) -> str | float:
@@ -55,6 +80,6 @@ PrintedNumber = Annotated[
     float,
     PlainValidator(_read),
     PlainSerializer(_written, when_used="json"),
-    WithJsonSchema({"type": "number"}),
+    WithJsonSchema({"type": ["number", "string"]}),
 ]
-"""A number of a file; as JSON it is text where only that keeps its digits."""
+"""A number of a file, or one with its unit; as JSON it is text where only that keeps its digits or the unit."""

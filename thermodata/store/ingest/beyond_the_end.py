@@ -19,13 +19,31 @@ def beyond_the_end(test: Test, duration_s: float | None) -> list[str]:
             f"{test.id}: zero is the mean over {_hours(test.zero.over)}, and the test lasts {_hours(duration_s)}: "
             "the mean of all of it"
         )
-    for name, (start, _) in test.phases.items():
+    for name, (start, stop) in test.phases.items():
         if start >= end:
             said.append(
                 f"{test.id}: the phase '{name}' begins at {_hours(start)}, and the recording ends at {_hours(end)}: "
                 "it has no sample"
             )
+        elif stop > begin + _MORE * duration_s:
+            said.append(
+                f"{test.id}: the phase '{name}' ends at {_hours(stop)}, and the recording ends at {_hours(end)}: "
+                "it is taken to there"
+            )
     return said
+
+
+def phases_of(test: Test, duration_s: float | None) -> dict[str, tuple[float, float]]:
+    """name -> (from, to) [s], from the window's start where there is one, and no further than the recording goes; what
+    begins behind it stays as it is declared."""
+    shift = test.window[0] if test.window is not None else 0.0
+    found: dict[str, tuple[float, float]] = {}
+    for name, (start, stop) in test.phases.items():
+        ends = stop - shift
+        if duration_s and start - shift < duration_s and ends > _MORE * duration_s:
+            ends = duration_s
+        found[name] = (start - shift, ends)
+    return found
 
 
 def _hours(seconds: float) -> str:

@@ -13,6 +13,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.schema.campaign import Campaign, Measuring
 from thermodata.schema.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
+from thermodata.store.ingest.beyond_the_end import phases_of
 from thermodata.store.ingest.inventory import Row
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_to_json
@@ -23,7 +24,6 @@ from thermodata.store.tidy.source_clock import Clock, Span, is_relative
 def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
     """Row of `test`. phases are moved to t_s, which counts from the window where there is one."""
     test = plan.test
-    shift = test.window[0] if test.window is not None else 0.0
     measuring: Any = (
         test.measuring.model_dump(mode="json", by_alias=True)
         if isinstance(test.measuring, Measuring)
@@ -40,7 +40,7 @@ def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
         "conditions": _json(plain_values(dict(test.conditions))),
         "pose": _json(plain_values(dict(test.pose))),
         "tool": None if test.tool is None else _json(plain_values(test.tool.model_dump(exclude_none=True))),
-        "phases": _json({k: [a - shift, b - shift] for k, (a, b) in test.phases.items()}),
+        "phases": _json({k: list(ends) for k, ends in phases_of(test, duration_s).items()}),
         "window_s": None if test.window is None else list(test.window),
         "history": test.history,
         "measuring": None if measuring is None else _json(measuring),

@@ -50,11 +50,15 @@ _NUMBERS = (
     "locked_rmse_um_before",
     "locked_rmse_um_after",
 )
+# what is of a whole model belongs to its campaign, where that is one
+_OWN = """coalesce(nullif(campaign, ''), (select m.campaigns[1] from model m
+         where m.model = finding.model and len(m.campaigns) = 1)) as campaign, nullif(test, '') as test, model"""
 CANDIDATE = f"""create view candidate as
-select campaign, test, model, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payload->>'$.id' as id,
+select {_OWN}, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payload->>'$.id' as id,
        payload->>'$.effect' as effect, payload->>'$.family' as family,
        cast(payload->'$.drivers' as varchar[]) as drivers, cast(payload->>'$.claimed' as boolean) as claimed,
        {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
+       cast(payload->'$.beside' as varchar[]) as beside,
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
        payload->>'$.why' as why, {_ASKED} as response
 from finding where kind = 'candidate'"""
@@ -66,8 +70,8 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        payload->>'$.why' as why, {_ASKED} as response
 from finding where kind = 'artefact'"""
 
-DIAGNOSIS = """create view diagnosis as
-select campaign, test, model, payload->>'$.response' as response, payload->>'$.verdict' as verdict,
+DIAGNOSIS = f"""create view diagnosis as
+select {_OWN}, payload->>'$.response' as response, payload->>'$.verdict' as verdict,
        cast(payload->>'$.noise_um' as double) as noise_um, cast(payload->>'$.rmse_um' as double) as rmse_um,
        cast(payload->>'$.explainable' as double) as explainable, payload->>'$.next_test' as next_test,
        payload, created_at
@@ -88,7 +92,8 @@ with recursive chain as (
   where parent is null or parent not in (select model from model)
   union
   select m.model, c.root, c.version + 1 from model m join chain c on m.parent = c.model),
-errors as (select s.model, s.response, count(distinct (s.campaign, s.test)) as tests, {_POOLED}
+errors as (select s.model, s.response, count(distinct (s.campaign, s.test)) as tests, {_POOLED},
+                  coalesce(bool_or(s.role = 'verification (in-sample)'), false) as in_sample
            from score_row s where s.phase = 'all' group by s.model, s.response)
 select m.name, c.version, m.model, m.parent, c.root, m.created_at, m.stale, m.campaigns,
        coalesce(e.response, m.response) as response, e.* exclude (model, response)
@@ -105,6 +110,8 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
 from finding where kind = 'portability'"""
 
 _OF_RESPONSE = "[um], or in the response's unit where that is no displacement"
+_CAMPAIGN = "of the model; NULL where it has several"
+_TEST = "NULL: it is of all open tests of the model together"
 SCORE_COMMENTS = {
     "fit": "[%] free run, not clipped",
     "rmse_um": _OF_RESPONSE,
@@ -118,7 +125,10 @@ _COMMENTS = {
     "quality": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
     "score": SCORE_COMMENTS,
     "candidate": {
+        "campaign": _CAMPAIGN,
+        "test": _TEST,
         "p_value": "[1]",
+        "beside": "ids of what stands in the model too where errors are told; empty: in the user's own model",
         "rmse_um_before": _OF_RESPONSE,
         "rmse_um_after": _OF_RESPONSE,
         "fit_before": "[%]",
@@ -128,6 +138,8 @@ _COMMENTS = {
     },
     "artefact": {"at_s": "[s] from the start of the test", "size_um": _OF_RESPONSE},
     "diagnosis": {
+        "campaign": _CAMPAIGN,
+        "test": _TEST,
         "noise_um": _OF_RESPONSE,
         "rmse_um": _OF_RESPONSE,
         "explainable": "[1] largest fall of the squared error that a candidate gives",
@@ -139,7 +151,7 @@ _COMMENTS = {
         "residual": "measured - predicted, in channel.unit",
     },
     "portability": {
-        "g": "[1] gain that fits the test best",
+        "g": "[1] gain of the largest FIT, through the zero of the first samples",
         "g_end": "[1] from the end of heating",
         "fit_n": "[%] as it is",
         "fit_c": "[%] with the gain",
@@ -153,9 +165,10 @@ _COMMENTS = {
         "rmse_um": _OF_RESPONSE,
     },
     "history": {
-        "rmse_um_calibration": "[um]",
-        "rmse_um_verification": "[um]",
-        "rmse_um_locked": "[um]",
+        "rmse_um_calibration": _OF_RESPONSE,
+        "rmse_um_verification": _OF_RESPONSE,
+        "rmse_um_locked": _OF_RESPONSE,
+        "in_sample": "whether verification tests were fitted too, for they helped to choose an effect",
         "fit_calibration": "[%]",
         "fit_verification": "[%]",
         "fit_locked": "[%]",

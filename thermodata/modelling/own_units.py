@@ -1,0 +1,35 @@
+"""Values of a model file that carry a unit of their own."""
+
+from __future__ import annotations
+
+from thermodata.errors import SpecError, UsageError
+from thermodata.plugin import Effect
+from thermodata.schema.model import EffectSpec
+from thermodata.schema.printed import WithUnit
+from thermodata.schema.quantity import value_in
+
+
+def in_own_units(spec: EffectSpec, effect: Effect, where: str) -> EffectSpec:
+    """What is fixed, started or bounded with a unit, in the effect's own. SpecError for a unit of another kind."""
+    units = {p.name: p.unit for p in effect.params} | {g.name: g.unit for g in effect.gains}
+
+    def own(name: str, value: float) -> float:
+        if not isinstance(value, WithUnit):
+            return value
+        try:
+            return value_in(value.text, units.get(name, "1"))
+        except UsageError as error:
+            raise SpecError(
+                f"'{name}' has another unit",
+                where=where,
+                expected=f"{units.get(name, '1')}, or what converts to it",
+                got=value.text,
+            ) from error
+
+    return spec.model_copy(
+        update={
+            "fixed": {n: own(n, v) for n, v in spec.fixed.items()},
+            "start": {n: own(n, v) for n, v in spec.start.items()},
+            "bounds": {n: (own(n, low), own(n, high)) for n, (low, high) in spec.bounds.items()},
+        }
+    )
