@@ -20,6 +20,7 @@ from thermodata.reader.text.footer import footer_notes
 from thermodata.reader.text.lines import Chunk, chunks
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.number import clean
+from thermodata.reader.text.quality_columns import QUALITY_OF
 from thermodata.reader.text.table import Table
 from thermodata.reader.text.table_rows import RowReader
 from thermodata.reader.time_units import EPOCHS
@@ -34,13 +35,20 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
+    flagging = {quality: value for value, (quality, _) in table.quality.items()}
     found = tuple(
-        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_of(i))
+        Signal(names[i], timed.stream, units[i], kind, properties=_said_of(table, i, flagging.get(names[i])))
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
     )
     return found if table.series is None else table.series.signals(found)
+
+
+def _said_of(table: Table, column: int, flagged: str | None) -> dict[str, str]:
+    """flagged: the column whose quality this one tells."""
+    said = table.layout.said_of(column)
+    return said if flagged is None else {**said, QUALITY_OF: flagged}
 
 
 def describe(table: Table, source: Source) -> Recording:

@@ -17,6 +17,7 @@ _QUALITY = re.compile(
 _CODE = re.compile(r"^[+-]?\d*$")
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
+QUALITY_OF = "quality_of"  # property of a signal: the one that it flags
 Pairs = Mapping[str, tuple[str, bool]]
 
 

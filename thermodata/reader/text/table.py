@@ -105,7 +105,7 @@ class Table:
     def grid(self, decimal: str) -> Grid:
         """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own; one with a
         delimiter too much is none, for that may have shifted its cells."""
-        edges = [min(g.group.time) for g in self.groups[1:]]
+        edges = [min((*g.group.time, *g.group.columns)) for g in self.groups[1:]]
         least = min(edges) if edges else None
         return Grid(
             self.delimiter,
