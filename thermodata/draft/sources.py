@@ -129,10 +129,10 @@ def _with_their_tests(clusters: Sequence[list[RawFile]], jumps: Sequence[RawFile
 def _kind(file: RawFile) -> tuple[object, ...]:
     """What the files of one source have in common: who reads them, and what has to be declared for it."""
     # a day above 12 settles the order of day and month in some files, and is asked of the others; so is the decimal
-    # mark where only some tests turn at thousands, the start where only some have a line on it, and names where only
-    # some have a header
+    # mark where only some tests turn at thousands, the start where only some have a line on it, names where only some
+    # have a header, and what a quality of 0 means where only some have other codes
     told = [a.declare for a in file.asked if not {"format", "start"} & {*a.declare.get("time", {})}]
-    told = [d for d in told if not {"decimal", "names"} & {*d}]
+    told = [d for d in told if not {"decimal", "names", "quality_zero"} & {*d}]
     return file.reader, file.path.suffix.lower(), file.sheet is not None, repr(told)
 
 

@@ -60,6 +60,8 @@ class TableLayout(Strict):
     delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
     series: columns whose words name the sensor or host that a row is of: [host, sensor]; none: all rows are of one
+    quality_zero: what the code 0 of its quality columns says of their values: good or bad; told by other codes where
+        the file has them; or unknown
     """
 
     sheet: int | str | None = None
@@ -75,6 +77,9 @@ class TableLayout(Strict):
     )
     series: Literal["none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
         default=None, exclude_if=lambda series: series is None
+    )
+    quality_zero: Literal["good", "bad", "unknown"] | None = Field(
+        default=None, exclude_if=lambda quality_zero: quality_zero is None
     )
 
 

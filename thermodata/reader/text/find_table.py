@@ -24,6 +24,7 @@ from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
+from thermodata.reader.text.status import declared_zero
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
@@ -133,7 +134,8 @@ def find_table(
     lines = map(cells, head[: layout.first])
     groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
     cells_of = _cells_of(layout, groups, body)
-    quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
+    own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
+    quality = quality_pairs(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
     times = {
         i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time

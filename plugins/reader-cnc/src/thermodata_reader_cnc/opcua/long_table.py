@@ -23,7 +23,7 @@ from thermodata.reader.text.locate import line_of, lines_of
 from thermodata.reader.text.losses import NAMED
 from thermodata.reader.text.number import clean, to_float
 from thermodata.reader.text.rows import parse
-from thermodata.reader.text.status import BAD, is_good
+from thermodata.reader.text.status import BAD, declared_zero, is_good
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
@@ -73,7 +73,7 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Even
             yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
             continue
         flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
-        if status is not None and not is_good(status, layout.zero_good):
+        if status is not None and not is_good(status, bool(layout.zero_good)):
             flag |= BAD
         if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
             value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
@@ -131,6 +131,9 @@ def _look(path: Path, source: Source) -> _Look:
             expected="columns of time, tag and value",
             got=first.head[0][:80] if first.head else "nothing",
         )
+    if layout.status is not None:
+        name = clean(fields(layout.header, layout.delimiter)[layout.status])
+        layout = replace(layout, zero_good=declared_zero(source.table, layout.zero_good, name, path.name))
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     head, rest = (
         [
