@@ -62,6 +62,8 @@ class TableLayout(Strict):
     series: columns whose words name the sensor or host that a row is of: [host, sensor]; none: all rows are of one
     quality_zero: what the code 0 of its quality columns says of their values: good or bad; told by other codes where
         the file has them; or unknown
+    stands: columns whose empty cells say that the value before them still stands, as where a log writes what changed:
+        [n, mode], all or none; told by the cells of a text where they prove it
     """
 
     sheet: int | str | None = None
@@ -80,6 +82,9 @@ class TableLayout(Strict):
     )
     quality_zero: Literal["good", "bad", "unknown"] | None = Field(
         default=None, exclude_if=lambda quality_zero: quality_zero is None
+    )
+    stands: Literal["all", "none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
+        default=None, exclude_if=lambda stands: stands is None
     )
 
 

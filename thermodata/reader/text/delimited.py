@@ -36,8 +36,16 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     flagging = {quality: value for value, (quality, _) in table.quality.items()}
+    stands = table.stands if table.series is None else frozenset[int]()
     found = tuple(
-        Signal(names[i], timed.stream, units[i], kind, properties=_said_of(table, i, flagging.get(names[i])))
+        Signal(
+            names[i],
+            timed.stream,
+            units[i],
+            kind,
+            properties=_said_of(table, i, flagging.get(names[i])),
+            held=i in stands,
+        )
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None

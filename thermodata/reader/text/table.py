@@ -66,7 +66,7 @@ class Table:
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
-    hosts are taken apart."""
+    hosts are taken apart; stands: columns whose empty cells say that the value before them still stands."""
 
     name: str
     sample: Sample
@@ -84,6 +84,7 @@ class Table:
     begin: Begin | None = None
     zone: tuple[str, str] | None = None
     series: Series | None = None
+    stands: frozenset[int] = frozenset()
 
     @property
     def absolute(self) -> bool:
