@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.draft.filenames import unrotated
 from thermodata.draft.naming import parts_of, plain, words
 from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
@@ -133,7 +134,7 @@ def _kind(file: RawFile) -> tuple[object, ...]:
     # have a header, and what a quality of 0 means where only some have other codes
     told = [a.declare for a in file.asked if not {"format", "start"} & {*a.declare.get("time", {})}]
     told = [d for d in told if not {"decimal", "names", "quality_zero"} & {*d}]
-    return file.reader, file.path.suffix.lower(), file.sheet is not None, repr(told)
+    return file.reader, unrotated(file.path).suffix.lower(), file.sheet is not None, repr(told)
 
 
 def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:
