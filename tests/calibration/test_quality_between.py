@@ -131,6 +131,22 @@ def test_streams_on_times_of_their_own_are_compared_at_the_same_moments() -> Non
     assert offsets_between_tests(tests[:2]) == {}
 
 
+def test_streams_that_follow_each_other_are_no_neighbours() -> None:
+    def in_pieces(t: Levels) -> Levels:
+        """Each sensor in three streams, one a third of the day, as pieces of one log that are read as three."""
+        end, series = float(t.series["T_bed"].t_s[-1]) / 3, {}
+        for k in range(3):
+            t_s = np.linspace(k * end, (k + 1) * end - 10, POINTS)
+            for name in ("T_bearing", "T_column"):
+                own = t.series[name]
+                series[f"{name}_{k}"] = Course(t_s, np.interp(t_s, own.t_s, own.values))
+        return replace(t, series=series)
+
+    tests = [day(1, heat=5), day(2, heat=40), day(3, heat=40, T_column=-14.0)]
+    assert offsets_between_tests([in_pieces(t) for t in tests]) == {}
+    assert found(tests) == {("day3", "T_column"): -17}
+
+
 def test_too_few_neighbours_and_no_data() -> None:
     lone = [
         replace(t, series={k: t.series[k] for k in ("T_column", "T_bed", "T_hall")})

@@ -252,3 +252,39 @@ def test_numbers_that_read_in_two_ways_are_asked_whoever_reads_them(tmp_path: Pa
         "{'time': {'column': 1, 'unit': 'unknown'}}",
         "{'time': {'period': 'unknown'}}",
     ]
+
+
+@pytest.mark.parametrize(
+    ("name", "pieces", "template"),
+    [
+        ("{test}/thermo.log{piece}", (".2", ".1", ""), "{test}/thermo.log*"),
+        ("{test}.log{piece}", (".2", ".1", ""), "{test}.log*"),
+        ("{test}.csv{piece}", ("-20260301", "-20260302", ""), "{test}.csv*"),
+    ],
+)
+def test_pieces_that_logrotate_put_aside_are_one_log(
+    tmp_path: Path, name: str, pieces: tuple[str, ...], template: str
+) -> None:
+    n = 300
+    for k, test in enumerate(("heat", "cool")):
+        for part, piece in enumerate(pieces):
+            begin = START + timedelta(days=k, seconds=3000 * part)
+            path = tmp_path / name.format(test=test, piece=piece)
+            path.parent.mkdir(exist_ok=True)
+            columns = [local(n, 10, begin, "UTC", "%Y-%m-%d %H:%M:%S"), numbers(warm(n, 20, 1, 1, 1))]
+            text(path, ["Time", "T hall [degC]"], columns)
+    _, made = drafted(tmp_path)
+    assert sorted(t.id for t in made.tests) == ["cool", "heat"]
+    assert [s.files for s in made.sources.values()] == [template]
+    assert list(made.channels) == ["T_hall"]
+
+
+@pytest.mark.parametrize("pieces", [(".1", ".2", ".3"), ("", ".1", ".2")])
+def test_logs_of_other_days_are_tests_also_where_they_are_numbered(tmp_path: Path, pieces: tuple[str, ...]) -> None:
+    n = 300
+    for day, piece in enumerate(pieces):
+        columns = [local(n, 10, START + timedelta(days=day), "UTC", "%Y-%m-%d %H:%M:%S"), numbers(warm(n, 20, 1, 1, 1))]
+        text(tmp_path / f"heat.log{piece}", ["Time", "T hall [degC]"], columns)
+    _, made = drafted(tmp_path)
+    assert len(made.tests) == 3
+    assert len(made.sources) == 1

@@ -123,3 +123,25 @@ def test_two_columns_with_those_speeds_are_asked(tmp_path: Path, say: Say) -> No
         log(tmp_path / f"sp{named}.csv", {"Velocidad": turns, "Consigna": turns, "T_hall": WAVE}, day)
     campaign, _ = drafted(tmp_path, say)
     assert list(campaign.channels) == ["T_hall"]
+
+
+def test_numbers_of_tags_and_qualities_of_columns_are_no_channels(tmp_path: Path, say: Say) -> None:
+    tags = ("T_front", "speed")
+    head = ",".join(f"{k}_NUMERICID,{k}_VALUE,{k}_TIMESTAMP,{k}_QUALITY" for k in tags) + "\n"
+    rows = (
+        f"7,{20 + i / 50:.2f},2026-04-17 08:{i // 60:02}:{i % 60:02},192,"
+        f"8,{3000 * (i > 30)},2026-04-17 08:{i // 60:02}:{i % 60:02},192\n"
+        for i in range(120)
+    )
+    (tmp_path / "R1.csv").write_text(head + "".join(rows))
+    campaign, text = drafted(tmp_path, say)
+    assert {c.signal for c in campaign.channels.values()} == {"T_front_VALUE", "speed_VALUE"}
+    assert "NUMERICID: {" not in text
+
+
+def test_a_quality_that_flags_nothing_and_a_number_that_changes_are_asked(tmp_path: Path, say: Say) -> None:
+    rows = (f"2026-04-17 08:{i // 60:02}:{i % 60:02},{20 + i / 50:.2f},{i // 7 + 3},192\n" for i in range(120))
+    (tmp_path / "R1.csv").write_text("time,T_front,tag_id,weld_quality\n" + "".join(rows))
+    _, text = drafted(tmp_path, say)
+    assert "# tag_id: {" in text
+    assert "# weld_quality: {" in text

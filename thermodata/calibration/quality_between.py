@@ -29,6 +29,7 @@ _FOLLOWS_SHARE = (
 _FOLLOWS_K = 2.0
 _SET_POINTS, _SET_APART_K = 4, 5.0
 _LEAST_OTHERS = 3
+_NEAR = 1.5  # of the times between points
 _UNTOLD: tuple[Float1D, Float1D] = np.empty(0), np.empty(0)
 _LEAST_BEFORE = 3  # points, or nobody knows what was usual
 
@@ -225,10 +226,14 @@ def _median_of_others(x: Float2D) -> Float2D:
 
 def _at(own_s: Float1D, x: Float1D, t_s: Float1D, apart: float) -> Float1D:
     """A course x at other times than its own; NaN where its next point lies further away than its points from each
-    other, apart [s] as a rule."""
+    other, apart [s] as a rule, and everywhere where both do not run at once: of one that follows the other, the points
+    at the joint are no neighbours."""
     known = np.isfinite(x)
     near = np.abs(t_s[:, None] - own_s[known][None]).min(axis=1)
-    return np.where(near <= 1.5 * apart, np.interp(t_s, own_s[known], x[known]), np.nan)
+    at_once_s = min(float(own_s[known][-1]), float(t_s[-1])) - max(float(own_s[known][0]), float(t_s[0]))
+    if np.isfinite(apart) and at_once_s <= _NEAR * apart:
+        return np.full(len(t_s), np.nan)
+    return np.where(near <= _NEAR * apart, np.interp(t_s, own_s[known], x[known]), np.nan)
 
 
 def _from_the_failure_on(

@@ -28,10 +28,12 @@ from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.quality_columns import QUALITY_OF
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
 _STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
+_TAG_NUMBER = re.compile(r"(?i)(?:numeric|tag|item|point|node)[ _]?id$")
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
 
 
@@ -50,7 +52,7 @@ def channels_of(
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
-    made, seen = [], set()
+    made, seen, beside = [], set(), list[str]()
     streams = {one.signal.stream for one in found}
     for one in found[:_MOST_SIGNALS]:
         signal = one.signal
@@ -63,6 +65,9 @@ def channels_of(
             continue
         if (of := _unit_of(one, found)) is not None:
             notes.append(f"{group.source}: '{one.written}' holds the unit of '{of.written}', which is taken: left out")
+            continue
+        if _is_of_others(one):
+            beside.append(one.written)
             continue
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
@@ -84,7 +89,24 @@ def channels_of(
         stream = signal.stream if len(streams) > 1 else None
         note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
+    if beside:
+        shown = ", ".join(beside[:4]) + (f" and {len(beside) - 4} more" if len(beside) > 4 else "")
+        notes.append(
+            f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
+        )
     return made, notes
+
+
+def _is_of_others(one: OneSignal) -> bool:
+    """Whether a signal says something of another one and nothing of the machine: the quality by which its reader flags
+    a column beside it, or the constant number of a tag (`T_air_NUMERICID`)."""
+    own = [(f, one.of(f) or one.signal) for f in one.files]
+    if own and all(QUALITY_OF in s.properties for _, s in own):
+        return True
+    if one.signal.unit is not None or not _TAG_NUMBER.search(one.signal.name):
+        return False
+    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    return bool(seen) and all(v is not None and v.constant and v.whole for v in seen)
 
 
 def _counts_rows(one: OneSignal) -> bool:

@@ -9,6 +9,8 @@ from pathlib import PurePosixPath
 
 _PIECE = re.compile(r"[_\-. ]+")
 _PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
+_ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.\d{1,3}|[.-]\d{8})$")
+_PIECES_COST = 0.1
 _PART_NUMBER = re.compile(r"(?:[_\-. ]\(?|\()\d{1,5}\)?$")
 
 
@@ -39,8 +41,34 @@ def without_part(name: str) -> str:
     return next((s for strip in (_PART_WORD, _PART_NUMBER) if (s := strip.sub("", name)) and s != name), name)
 
 
+def unrotated(path: PurePosixPath) -> PurePosixPath:
+    """A path without the number, or the day, of a piece that was put aside as logrotate does: `a.log` of `a.log.2`,
+    `a.log-20260403`."""
+    bare = _ROTATED.sub("", path.name)
+    return path.with_name(bare) if bare and PurePosixPath(bare).suffix else path
+
+
 def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
     """The ways to read these names, the plainest first. paths: at least one."""
+    bare = [unrotated(p) for p in paths]
+    if bare != list(paths):
+        # pieces of one log are parts, whatever its name says beside that
+        own = {n.ids: n for n in _namings(list(dict.fromkeys(bare)))}.values()
+        rotated = [_of_pieces(n, bare) for n in own]
+        # where these are no pieces of one recording, each has its whole name
+        whole = Naming(tuple(str(p).replace("/", "_") for p in paths), None, 0.5)
+        return sorted([*rotated, *_namings(paths), whole], key=lambda n: n.cost)
+    return _namings(paths)
+
+
+def _of_pieces(way: Naming, bare: Sequence[PurePosixPath]) -> Naming:
+    """A way to read the names of logs, of all their pieces. bare: the log of each piece."""
+    of_log = dict(zip(dict.fromkeys(bare), way.ids, strict=True))
+    template = None if way.template is None else f"{way.template}*"
+    return Naming(tuple(of_log[p] for p in bare), template, way.cost + _PIECES_COST, True)
+
+
+def _namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
     found = list(_by_stem(paths)) + list(_by_folder(paths))
     whole = tuple(str(p.with_suffix("")).replace("/", "_") for p in paths)
     if not any(len(set(n.ids)) == len(n.ids) and not n.parts for n in found):

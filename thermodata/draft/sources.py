@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from thermodata.draft.filenames import unrotated
 from thermodata.draft.naming import parts_of, plain, words
 from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
@@ -129,11 +130,11 @@ def _with_their_tests(clusters: Sequence[list[RawFile]], jumps: Sequence[RawFile
 def _kind(file: RawFile) -> tuple[object, ...]:
     """What the files of one source have in common: who reads them, and what has to be declared for it."""
     # a day above 12 settles the order of day and month in some files, and is asked of the others; so is the decimal
-    # mark where only some tests turn at thousands, the start where only some have a line on it, and names where only
-    # some have a header
+    # mark where only some tests turn at thousands, the start where only some have a line on it, names where only some
+    # have a header, and what a quality of 0 means where only some have other codes
     told = [a.declare for a in file.asked if not {"format", "start"} & {*a.declare.get("time", {})}]
-    told = [d for d in told if not {"decimal", "names"} & {*d}]
-    return file.reader, file.path.suffix.lower(), file.sheet is not None, file.sensor, repr(told)
+    told = [d for d in told if not {"decimal", "names", "quality_zero"} & {*d}]
+    return file.reader, unrotated(file.path).suffix.lower(), file.sheet is not None, file.sensor, repr(told)
 
 
 def _twin(file: RawFile, cluster: Sequence[RawFile]) -> bool:

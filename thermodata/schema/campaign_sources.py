@@ -60,6 +60,10 @@ class TableLayout(Strict):
     delimiter: between cells: itself, or tab, semicolon, comma, blanks
     decimal: mark of decimals: '.' or ','; unknown: nothing is read until it is written
     series: columns whose words name the sensor or host that a row is of: [host, sensor]; none: all rows are of one
+    quality_zero: what the code 0 of its quality columns says of their values: good or bad; told by other codes where
+        the file has them; or unknown
+    stands: columns whose empty cells say that the value before them still stands, as where a log writes what changed:
+        [n, mode], all or none; told by the cells of a text where they prove it
     """
 
     sheet: int | str | None = None
@@ -75,6 +79,12 @@ class TableLayout(Strict):
     )
     series: Literal["none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
         default=None, exclude_if=lambda series: series is None
+    )
+    quality_zero: Literal["good", "bad", "unknown"] | None = Field(
+        default=None, exclude_if=lambda quality_zero: quality_zero is None
+    )
+    stands: Literal["all", "none"] | Annotated[list[str], Field(min_length=1)] | None = Field(
+        default=None, exclude_if=lambda stands: stands is None
     )
 
 

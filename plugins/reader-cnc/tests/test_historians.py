@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from thermodata_reader_cnc import Reader
+from thermodata_reader_cnc.opcua import long_table, sections
 
 from thermodata.plugin import Source
 from thermodata.testing.reader import load
@@ -42,12 +43,60 @@ def test_tags_of_influxdb_that_differ_are_part_of_the_name(tmp_path: Path) -> No
 
 
 def test_columns_that_are_named_anew_end_a_long_table(tmp_path: Path) -> None:
-    other = INFLUX.replace("_field,_measurement,machine", "hall,_measurement,_field")
-    text = INFLUX + of_influx(0, "T1") + of_influx(1, "T2") + other + of_influx(2, "T3")
-    data = load(Reader(), written(tmp_path, text, "influx.csv"), Source())
-    assert sorted(n for _, n in data.values) == ["T1", "T2"]
-    assert [loss.where for loss in data.losses] == ["influx.csv line 42"]
+    rows = "".join(f"2026-03-02 08:00:{k:02d},T1,{k}.5\n" for k in range(40))
+    other = "Time,Value,Tag\n" + "".join(f"2026-03-02 08:01:{k:02d},{k}.5,T2\n" for k in range(40))
+    data = load(Reader(), written(tmp_path, "Time,Tag,Value\n" + rows + other, "pi.csv"), Source(timezone="UTC"))
+    assert sorted(n for _, n in data.values) == ["T1"]
+    assert [loss.where for loss in data.losses] == ["pi.csv line 42"]
     assert "other columns" in data.losses[0].reason
+
+
+SPINDLE = ",result,table,_start,_stop,_time,_value,_field,_measurement\n"
+
+
+def of_spindle(table: int, field: str, first: int = 0, n: int = 20) -> str:
+    span = "2026-03-02T00:00:00Z,2026-03-03T00:00:00Z"
+    times = (f"2026-03-02T08:{k // 60:02d}:{k % 60:02d}Z" for k in range(first, first + n))
+    return "".join(f",,{table},{span},{t},{1000 + k},{field},drive\n" for k, t in enumerate(times, first))
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize("part", [1 << 20, 700])
+def test_tables_of_influxdb_with_other_columns_are_all_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: str, part: int
+) -> None:
+    monkeypatch.setattr(long_table, "_PART", part)
+    monkeypatch.setattr(sections, "_PART", part)
+    temperatures = of_influx(0, "T", "m1") + of_influx(1, "T", "m2")
+    text = NOTES + INFLUX + temperatures + "\n" + NOTES + SPINDLE + of_spindle(2, "speed")
+    text += "\n" + NOTES + INFLUX + of_influx(3, "T", "m3")
+    path = written(tmp_path, text.replace("\n", end), "influx.csv")
+    data = load(Reader(), path, Source())
+    assert not data.losses
+    assert {n: v.tolist() for (_, n), v in data.values.items()} == {
+        **{f"m{1 + k}": [i + table / 4 for i in range(20)] for k, table in enumerate((0, 1, 3))},
+        "speed": [1000.0 + k for k in range(20)],
+    }
+    line = text.split("\n").index(of_spindle(2, "speed").split("\n")[5]) + 1
+    assert Reader().locate(path, Source(), "speed", 5) == f"line {line}"
+
+
+def test_a_long_second_table_is_known_though_the_first_look_ends_before_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(long_table, "_LOOK", 2000)
+    second = of_spindle(2, "speed", n=3000) + of_spindle(3, "load", n=3000)
+    text = NOTES + INFLUX + of_influx(0, "T1") + of_influx(1, "T2") + NOTES + SPINDLE + second
+    data = load(Reader(), written(tmp_path, text, "influx.csv"), Source())
+    assert not data.losses
+    assert {n: v.size for (_, n), v in data.values.items()} == {"T1": 20, "T2": 20, "speed": 3000, "load": 3000}
+
+
+def test_a_field_of_two_tables_is_called_by_all_that_tells_it(tmp_path: Path) -> None:
+    text = NOTES + INFLUX + of_influx(0, "value") + NOTES + SPINDLE + of_spindle(1, "value")
+    data = load(Reader(), written(tmp_path, text, "influx.csv"), Source())
+    assert sorted(n for _, n in data.values) == ["value/drive", "value/m1/temp"]
+    assert not data.losses
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from thermodata_reader_cnc import Reader
 from thermodata_reader_cnc.opcua import long_table
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Scaling, Source
 from thermodata.reader.registry import head
 from thermodata.schema.flag import Flag
@@ -177,6 +177,21 @@ def test_a_table_sorted_by_tag_is_a_stream_a_tag(tmp_path: Path) -> None:
             [0, 128],
         ),
         (
+            "TagName,DateTime,Value,QualityDetail\nT1,2026-03-02 08:00:00,1,192\nT1,2026-03-02 08:00:01,0,24\n",
+            [1, 0],
+            [0, 128],
+        ),
+        (
+            "TagName,DateTime,Value,Quality,OPCQuality\nT1,2026-03-02 08:00:00,1,0,192\nT1,2026-03-02 08:00:01,0,1,0\n",
+            [1, 0],
+            [0, 128],
+        ),
+        (
+            "TagName,DateTime,Value,quality_code\nT1,2026-03-02 08:00:00,1,0\nT1,2026-03-02 08:00:01,0,2147483648\n",
+            [1, 0],
+            [0, 128],
+        ),
+        (
             "SourceTime,NodeId,Value,StatusCode\n2026-03-02T08:00:00Z,T1,1,0x00000000\n2026-03-02T08:00:01Z,T1,2,0\n",
             [1, 2],
             [0, 0],
@@ -190,6 +205,17 @@ def test_the_layouts_of_loggers(tmp_path: Path, text: str, t1: list[float], flag
     assert data.values["nc", "T1"].tolist() == t1
     assert data.flags.get(("nc", "T1"), np.zeros(2)).tolist() == flagged
     assert not data.losses
+
+
+def test_a_quality_of_0_alone_is_asked(tmp_path: Path) -> None:
+    rows = "".join(f"2026-03-02 08:00:{k:02d},T1,{k},0\n" for k in range(30))
+    path = written(tmp_path, OPC + rows, "opc.csv")
+    assert "OPC UA" in (Reader().sniff(head(path)) or "")
+    with pytest.raises(QuestionError, match="may mean good or bad"):
+        load(Reader(), path, Source(timezone="UTC"))
+    good, bad = (load(Reader(), path, Source(timezone="UTC", table={"quality_zero": x})) for x in ("good", "bad"))
+    assert not good.flags["nc", "T1"].any()
+    assert bad.flags["nc", "T1"].tolist() == [Flag.NOT_MEASURING] * 30
 
 
 def test_a_quoted_value_may_hold_line_ends_and_one_node_needs_no_tag(tmp_path: Path) -> None:

@@ -204,3 +204,50 @@ def test_a_second_time_of_another_pace_is_asked_and_one_that_goes_along_is_a_sig
         read(tmp_path, head + rows([10.0 * a for a in A], VA, A, VA))
     data = read(tmp_path, head + rows(A, VA, [a + 0.001 for a in A], VA))
     assert {n for _, n in data.values} == {"T1", "Fast time [s]", "dZ"}
+
+
+DATES = [f"2026-03-01 08:{i:02}:00" for i in range(12)]
+LATER = [f"2026-03-01 08:{i:02}:07" for i in range(12)]
+
+
+@pytest.mark.parametrize(
+    ("header", "order"),
+    [
+        ("CH1_VALUE;CH1_TIMESTAMP;CH1_QUALITY;CH2_VALUE;CH2_TIMESTAMP;CH2_QUALITY", "vtqvtq"),
+        ("CH1.Time;CH1.Value;CH1.Quality;CH2.Value;CH2.Quality;CH2.Time", "tvqvqt"),
+        ("CH1 Date Time;CH2 Date Time;CH1;CH2", "ttvv"),
+        ("Timestamp_CH1;Timestamp_CH2;Value_CH1;Value_CH2", "ttvv"),
+        ("CH1;;CH2;\nValue;Time;Value;Time", "vtvt"),
+    ],
+)
+def test_a_name_that_they_share_tells_which_time_columns_have(tmp_path: Path, header: str, order: str) -> None:
+    columns = {"t": [DATES, LATER], "v": [VA, VA[::-1]], "q": [[192] * 12, [192, 0] * 6]}
+    text = header + "\n" + rows(*(columns[kind].pop(0) for kind in order))
+    data = read(tmp_path, text, delimiter=";")
+    assert "each with the columns that share its name" in data.recording.notes[0]
+    values = {s.name: s.stream for s in data.recording.signals if "qual" not in s.name.casefold()}
+    assert [int(data.t_ns[stream][0]) // S % 60 for stream in values.values()] == [0, 7]
+    for (name, stream), own in zip(values.items(), (VA, VA[::-1]), strict=True):
+        np.testing.assert_array_equal(data.values[stream, name], own)
+    if "q" in order:
+        told = {s.name: s.properties for s in data.recording.signals if "quality_of" in s.properties}
+        assert [p["quality_of"] for p in told.values()] == list(values)
+
+
+def test_a_number_of_a_row_goes_with_the_first_time_and_what_shares_no_name_is_asked(tmp_path: Path) -> None:
+    head = "NUMERICID;CH1_VALUE;CH1_TIMESTAMP;CH2_VALUE;CH2_TIMESTAMP"
+    body = (range(1, 13), VA, DATES, VA, LATER)
+    data = read(tmp_path, head + "\n" + rows(*map(list, body)), delimiter=";")
+    assert ("CH1_TIMESTAMP", "NUMERICID") in data.values
+    with pytest.raises(FormatError, match="share their name with none") as error:
+        read(tmp_path, head + ";pressure\n" + rows(*map(list, body), VA), delimiter=";")
+    assert "'pressure'" in str(error.value)
+
+
+def test_a_tag_that_others_begin_with_takes_none_of_theirs(tmp_path: Path) -> None:
+    head = "T_VALUE;T_TIMESTAMP;T_2_VALUE;T_2_TIMESTAMP\n"
+    data = read(tmp_path, head + rows(VA, DATES, VA, LATER), delimiter=";")
+    assert {(stream, name) for stream, name in data.values} == {
+        ("T_TIMESTAMP", "T_VALUE"),
+        ("T_2_TIMESTAMP", "T_2_VALUE"),
+    }

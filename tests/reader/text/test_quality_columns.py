@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.quality_columns import bad_rows, quality_pairs, worded
-from thermodata.reader.text.status import BAD
+from thermodata.reader.text.status import BAD, declared_zero, tells_quality, zero_is_good
 
 
 @pytest.mark.parametrize(
@@ -18,6 +19,13 @@ from thermodata.reader.text.status import BAD
         ({"T1": ["20"], "T1 status code": ["0"]}, {"T1": ("T1 status code", True)}),
         ({"T1.Value": ["20"], "T1.Quality": ["192"]}, {"T1.Value": ("T1.Quality", False)}),
         ({"T1": ["20"], "Quality (T1)": ["Good"]}, {"T1": ("Quality (T1)", False)}),
+        ({"T1": ["20"], "T1_quality_code": ["0", "2147483648"]}, {"T1": ("T1_quality_code", True)}),
+        ({"T1": ["20"], "T1_OPCQuality": ["192", "24"]}, {"T1": ("T1_OPCQuality", False)}),
+        ({"T1": ["20"], "T1.QualityDetail": ["192"]}, {"T1": ("T1.QualityDetail", False)}),
+        (  # what one column shows of its codes tells those of the others
+            {"T1": ["20"], "T1.Quality": ["0"], "T2": ["20"], "T2.Quality": ["0", "-2147483648"]},
+            {"T1": ("T1.Quality", True), "T2": ("T2.Quality", True)},
+        ),
         ({"T1": ["20"], "T2 quality": ["192"]}, {}),
         ({"quality": ["20"], "T1": ["1"]}, {}),
     ],
@@ -50,3 +58,44 @@ def test_qualities_in_words_or_hexadecimal_are_text() -> None:
 )
 def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]) -> None:
     assert bad_rows(values, zero).tolist() == [b * BAD for b in bad]
+
+
+@pytest.mark.parametrize(
+    ("codes", "name", "zero"),
+    [
+        (["192", "0"], "Quality", False),
+        (["192"], "OPCQuality", False),
+        (["0", "64"], "Quality", False),
+        (["0", "2147483648"], "quality_code", True),
+        (["0", "-2146762752"], "Quality", True),
+        (["0", "1"], "Validity", False),
+        (["0"], "StatusCode", True),
+        (["0"], "Quality", None),
+        (["Good"], "Quality", False),
+    ],
+)
+def test_what_the_code_0_means_is_told_by_the_others(codes: list[str], name: str, zero: bool | None) -> None:
+    assert zero_is_good(codes, name) is zero
+
+
+def test_a_quality_of_0_alone_is_asked_and_the_answer_has_the_last_word() -> None:
+    with pytest.raises(QuestionError) as error:
+        declared_zero(None, None, "Quality", "a.csv")
+    assert error.value.declare == {"quality_zero": "unknown"}
+    with pytest.raises(FormatError, match="not answered yet"):
+        declared_zero({"quality_zero": "unknown"}, None, "Quality", "a.csv")
+    assert declared_zero({"quality_zero": "unknown"}, True, "Quality", "a.csv")
+    assert declared_zero({"quality_zero": "good"}, None, "Quality", "a.csv")
+    assert not declared_zero({"quality_zero": "bad"}, True, "Quality", "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        *((n, True) for n in ("quality", "opcquality", "qualitydetail", "qualitycode", "status", "tagquality")),
+        *((n, True) for n in ("statuscode", "statusname", "validity", "opcstatus", "qualität", "dataquality")),
+        *((n, False) for n in ("machinestatus", "weldquality", "stat", "qualityofair", "value", "statusbar")),
+    ],
+)
+def test_columns_of_quality_are_known_by_their_names(name: str, told: bool) -> None:
+    assert (tells_quality(name) is not None) is told

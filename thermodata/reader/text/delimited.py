@@ -20,6 +20,7 @@ from thermodata.reader.text.footer import footer_notes
 from thermodata.reader.text.lines import Chunk, chunks
 from thermodata.reader.text.local_clock import DayCount
 from thermodata.reader.text.number import clean
+from thermodata.reader.text.quality_columns import QUALITY_OF
 from thermodata.reader.text.table import Table
 from thermodata.reader.text.table_rows import RowReader
 from thermodata.reader.text.unit_column import in_one_unit
@@ -35,8 +36,17 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
+    flagging = {quality: value for value, (quality, _) in table.quality.items()}
+    stands = table.stands if table.series is None else frozenset[int]()
     found = tuple(
-        Signal(names[i], timed.stream, units[i], kind, properties=table.layout.said_of(i))
+        Signal(
+            names[i],
+            timed.stream,
+            units[i],
+            kind,
+            properties=_said_of(table, i, flagging.get(names[i])),
+            held=i in stands,
+        )
         for timed in table.groups
         for i in timed.group.columns
         if (kind := table.kinds[i]) is not None
@@ -45,6 +55,12 @@ def signals(table: Table) -> tuple[Signal, ...]:
         return table.series.signals(found)
     told = table.unit
     return found if told is None else tuple(replace(s, unit=told.unit) if s.name == told.of else s for s in found)
+
+
+def _said_of(table: Table, column: int, flagged: str | None) -> dict[str, str]:
+    """flagged: the column whose quality this one tells."""
+    said = table.layout.said_of(column)
+    return said if flagged is None else {**said, QUALITY_OF: flagged}
 
 
 def describe(table: Table, source: Source) -> Recording:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,9 @@ from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
+from thermodata.reader.text.cell import number_of
+from thermodata.reader.text.changed_cells import KEY as STANDING
+from thermodata.reader.text.changed_cells import declared_standing, find_standing
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.date_parts import PART, column_times, row_time
 from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
@@ -24,6 +27,7 @@ from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.quality_columns import quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
+from thermodata.reader.text.status import declared_zero
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
@@ -134,7 +138,8 @@ def find_table(
     lines = map(cells, head[: layout.first])
     groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
     cells_of = _cells_of(layout, groups, body)
-    quality = quality_pairs({layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns})
+    own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
+    quality = quality_pairs(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
     times = {
         i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
@@ -165,6 +170,7 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
+    standing, standing_note = _standing(said, layout, groups, kinds, cells_of, {q for q, _ in quality.values()}, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
     if not any(g.absolute for g in groups):
@@ -179,7 +185,16 @@ def find_table(
     else:
         doubt = unused_start(declared_start(said))
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
-    found = [first.note, *layout.notes, *_notes(layout, kinds, groups), *midnights, *units_noted, doubt, open_zone]
+    found = [
+        first.note,
+        *layout.notes,
+        *_notes(layout, kinds, groups),
+        *midnights,
+        *units_noted,
+        standing_note,
+        doubt,
+        open_zone,
+    ]
     return Table(
         name=where,
         sample=first,
@@ -197,7 +212,41 @@ def find_table(
         begin=begin,
         zone=zone,
         unit=unit_column(bare, cells_of) if len(groups) == 1 else None,
+        stands=standing,
     )
+
+
+def _standing(
+    said: Mapping[str, Any],
+    layout: Layout,
+    groups: Sequence[TimedGroup],
+    kinds: Sequence[str | None],
+    cells_of: Mapping[str, Sequence[str]],
+    qualities: Collection[str],
+    where: str,
+) -> tuple[frozenset[int], str | None]:
+    """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell."""
+    names = [layout.names[i] for g in groups for i in g.group.columns if kinds[i] is not None]
+    told = declared_standing(said.get(STANDING), names, where)
+    note = None
+    if told is None:
+        if len(groups) > 1 or groups[0].group.counted or _runs_back(groups[0], layout, cells_of):
+            return frozenset(), None
+        told, note = find_standing({name: cells_of[name] for name in names if name not in qualities})
+    return frozenset(i for i, name in enumerate(layout.names) if name in told), note
+
+
+def _runs_back(timed: TimedGroup, layout: Layout, cells_of: Mapping[str, Sequence[str]]) -> bool:
+    """Whether a table stands newest first: there a value does not stand over the cells below it."""
+    columns = [cells_of[layout.names[i]] for i in timed.group.time]
+    ends = ([c[0] for c in columns], [c[-1] for c in columns]) if columns and columns[0] else None
+    if ends is None:
+        return False
+    if timed.formats:
+        first, last = (row_time(cells, timed.formats) for cells in ends)
+        return NAT not in (first, last) and last < first
+    first_s, last_s = (number_of(cells[0]) for cells in ends)
+    return first_s is not None and last_s is not None and last_s < first_s
 
 
 def _records(lines: Sequence[str]) -> list[str]:

@@ -187,22 +187,20 @@ def _groups(
     groups = []
     for span in found:
         rows = [[r[i] for i in span.columns] for r in data if any(not is_empty(r[i]) for i in span.times)]
-        start = span.columns[0]
         time, unit, form, more = time_of(
             said,
             [names[i] for i in span.columns],
             [units[i] for i in span.columns],
             rows,
             where,
-            tuple(i - start for i in span.times),
+            tuple(span.columns.index(i) for i in span.times),
         )
-        time = tuple(i + start for i in time)
+        time = tuple(span.columns[i] for i in time)
         groups.append(_group(names[time[0]], time, unit, form, tuple(i for i in span.columns if i not in time)))
         notes += more
-    return groups, [
-        f"{len(groups)} time columns, each with the columns behind it: streams " + ", ".join(g.stream for g in groups),
-        *notes,
-    ]
+    which = "that share its name" if found[0].named else "behind it"
+    streams = ", ".join(g.stream for g in groups)
+    return groups, [f"{len(groups)} time columns, each with the columns {which}: streams {streams}", *notes]
 
 
 def declared_groups(

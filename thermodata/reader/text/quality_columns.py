@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -12,28 +12,38 @@ from thermodata.reader.text.number import clean
 from thermodata.reader.text.status import BAD, is_good, zero_is_good
 
 _QUALITY = re.compile(
-    r"^(?P<base>.+?)[ ._:/-]*(?:quality|qualit[äa]t|tagquality|status ?code|validity)$", re.IGNORECASE
+    r"^(?P<base>.+?)[ ._:/-]*(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
+    r"|status[ _]?code|opc[ _]?status|validity)$",
+    re.IGNORECASE,
 )
 _CODE = re.compile(r"^[+-]?\d*$")
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
+QUALITY_OF = "quality_of"  # property of a signal: the one that it flags
 Pairs = Mapping[str, tuple[str, bool]]
+Told = Callable[[bool | None, str], bool | None]
 
 
-def quality_pairs(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, bool]]:
-    """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells."""
-    pairs: dict[str, tuple[str, bool]] = {}
-    for name, cells in columns.items():
+def quality_pairs(
+    columns: Mapping[str, Sequence[str]], told: Told = lambda zero, name: zero
+) -> dict[str, tuple[str, bool]]:
+    """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells; told: what the
+    campaign file adds to what the codes of all columns of one word say (None: nothing)."""
+    found: dict[str, tuple[str, str]] = {}
+    for name in columns:
         match = _QUALITY.match(name) or _ROUND.match(name)
         if match is None:
             continue
         base = match["base"].casefold()
-        for other in columns:
-            bare = _VALUE.sub("", other).casefold()
-            if other != name and bare == base:
-                pairs[other] = name, zero_is_good(cells, name)
-                break
-    return pairs
+        value = next((o for o in columns if o != name and _VALUE.sub("", o).casefold() == base), None)
+        if value is not None:
+            found[value] = name, (match.groupdict().get("word") or "quality").casefold()
+    zeros: dict[str, bool] = {}
+    for _, word in found.values():
+        if word not in zeros:
+            own = [name for name, w in found.values() if w == word]
+            zeros[word] = bool(told(zero_is_good((c for name in own for c in columns[name]), word), own[0]))
+    return {value: (name, zeros[word]) for value, (name, word) in found.items()}
 
 
 def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:

@@ -74,7 +74,8 @@ class Table:
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
-    hosts are taken apart; unit: the column that holds the one of its numbers."""
+    hosts are taken apart; unit: the column that holds the one of its numbers; stands: columns whose empty cells say
+    that the value before them still stands."""
 
     name: str
     sample: Sample
@@ -93,6 +94,7 @@ class Table:
     zone: tuple[str, str] | None = None
     series: Series | None = None
     unit: UnitColumn | None = None
+    stands: frozenset[int] = frozenset()
 
     @property
     def absolute(self) -> bool:
@@ -126,7 +128,7 @@ class Table:
     def grid(self, decimal: str) -> Grid:
         """How its rows lie. A row may end with the columns of a group, for groups have lengths of their own; one with a
         delimiter too much is none, for that may have shifted its cells."""
-        edges = [min(g.group.time) for g in self.groups[1:]]
+        edges = [min((*g.group.time, *g.group.columns)) for g in self.groups[1:]]
         least = min(edges) if edges else None
         return Grid(
             self.delimiter,

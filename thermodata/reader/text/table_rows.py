@@ -11,6 +11,7 @@ from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.another_header import another_header, last_repeated
 from thermodata.reader.text.arrow import values
 from thermodata.reader.text.begin import Begin
+from thermodata.reader.text.changed_cells import Standing
 from thermodata.reader.text.date_parts import column_times
 from thermodata.reader.text.days import Days, have_days
 from thermodata.reader.text.delimiter import fields
@@ -54,6 +55,8 @@ class RowReader:
         self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
+        # of rows that are of several sensors, each has values of its own
+        self._standing = {i: Standing() for i in (table.stands if table.series is None else ())}
         self.stopped = False
         self._read = 0  # bytes of the file up to the end of a chunk
         self._short: Int1D = np.empty(0, np.int64)
@@ -175,7 +178,12 @@ class RowReader:
             if kind not in ("float64", "str") and cells.empty.any():  # no NaN in them: 0, and not valid
                 none = (cells.empty & ~cells.over) * _NONE
                 flag = none if flag is None else flag | none
-            if flag is not None and (flag := flag.astype(np.uint16)[good]).any():
+            if flag is not None:
+                flag = flag.astype(np.uint16)[good]
+            if i in self._standing:
+                written = np.array([v is not None for v in values[name]], bool) if kind == "str" else ~cells.empty[good]
+                values[name], flag = self._standing[i].over(values[name], flag, written)
+            if flag is not None and flag.any():
                 flags[name] = flag
         for name, (quality, zero) in self.table.quality.items():
             if name in values and quality in values and (bad := bad_rows(values[quality], zero)).any():

@@ -1,8 +1,9 @@
 """Columns that bring times of their own: `t1;T1;t2;T2;T3`, "Time,CH1,Time,CH2". Each such group is a stream.
 
-A later column starts a group where it is named like the first time (the same word, numbered, or with the name of the
-column behind it), rises like a time, and has columns behind it. Two times of the same rows are one group: the second
-is a signal. What may be either is asked.
+Where each time shares its name with other columns, that tells which are its own (tagged_columns.py). Else a later
+column starts a group where it is named like the first time (the same word, numbered, or with the name of the column
+behind it), rises like a time, and has columns behind it. Two times of the same rows are one group: the second is a
+signal. What may be either is asked.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cell import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
 from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.tagged_columns import tagged
 from thermodata.reader.time_units import SECONDS, known_unit
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
@@ -29,10 +31,12 @@ _HINT = (
 
 @dataclass(frozen=True)
 class Span:
-    """A group before its time is known. times: columns that may be its time; columns: all of it, in order."""
+    """A group before its time is known. times: columns that may be its time; columns: all of it, in order; named:
+    whether a name that they share tells so."""
 
     times: tuple[int, ...]
     columns: tuple[int, ...]
+    named: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,6 +93,11 @@ def spans(
     FormatError where a second time may be one of its own rows or of the first's.
     """
     said = {i: n for i in range(len(names)) if (n := time_name(names[i])) and _rises(i, n, units[i], data)}
+    by_name, left = tagged(names, tuple(said), data)
+    if by_name and left:
+        raise _of_no_name([names[i] for i in left], names, where)
+    if by_name:
+        return [Span(one.times, one.columns, named=True) for one in by_name], []
     runs = _runs(said)
     if len(runs) < 2:
         return [], []
@@ -213,6 +222,16 @@ def _apart(first: int, second: int, units: Sequence[str | None], data: Sequence[
     step = float(np.median(np.abs(np.diff(a)))) or 1.0
     spread = float(np.ptp(b - a))
     return spread if spread > max(2 * step, 1e-3 * float(np.ptp(a))) else 0.0
+
+
+def _of_no_name(left: Sequence[str], names: Sequence[str], where: str) -> FormatError:
+    return FormatError(
+        "columns that share their name with none of several times",
+        where=where,
+        got=", ".join(f"'{name}'" for name in left[:6]) + " of " + ", ".join(names[:12]),
+        expected="each column to share its name with its time, as the others do",
+        hint=_HINT,
+    )
 
 
 def _question(first: int, second: int, names: Sequence[str], where: str) -> FormatError:

@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
+from thermodata.reader.set_values import are_set
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.timeline import Timeline
 
@@ -27,7 +28,6 @@ DENSER = 10.0  # the densest log beside it has so many rows where it has one
 MOST_BY_HAND = 200  # rows
 _MINUTE_NS, _ASKED_NS, _LONG_NS = 60 * 10**9, 300 * 10**9, 1200 * 10**9
 _STEPS = 0.5  # of its rows that change something, unless they lie far apart
-_ROUND = 25  # of the largest value, set ones are multiples of no less than such a part
 # rows, and what they change of the largest, that are asked for where they are not round; more, at even times, are asked
 # for where they are
 _FEW_ROWS, _LARGE = 24, 0.3
@@ -73,7 +73,7 @@ def written_by_hand(quantity: str, t_ns: Int1D, values: Array, beside_ns: int) -
         return None
     if np.count_nonzero(np.diff(x)) < (1 if apart >= _LONG_NS else _STEPS * (x.size - 1)):
         return None
-    if _are_set(np.abs(x)):
+    if are_set(np.abs(x)):
         return "asked" if x.size > _FEW_ROWS and _comes_evenly(t) else "on change"
     large = float(np.ptp(x)) >= _LARGE * float(np.abs(x).max())
     return "asked" if large and apart >= _ASKED_NS and x.size <= _FEW_ROWS else None
@@ -83,13 +83,6 @@ def _comes_evenly(t_ns: Int1D) -> bool:
     """Whether rows come as a clock calls them: hours of them nobody writes down so."""
     apart = np.diff(t_ns)
     return bool(apart.max() <= 1.01 * apart.min())
-
-
-def _are_set(x: Array) -> bool:
-    """Whether values >= 0 are multiples of one that is no small part of the largest: 0, 2000, 4500; not 5.23, 5.31."""
-    largest = float(x.max())
-    parts = x[:, None] / largest * np.arange(1, _ROUND + 1) if largest > 0 else np.zeros((1, 1))
-    return bool((np.abs(parts - np.rint(parts)) < 1e-6).all(axis=0).any())
 
 
 def asked(name: str, rows: int) -> str:

@@ -14,7 +14,7 @@ from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.grid import Grid
 from thermodata.reader.text.number import clean
 from thermodata.reader.text.odd_stamps import guess_format
-from thermodata.reader.text.status import zero_is_good
+from thermodata.reader.text.status import tells_quality, zero_is_good
 from thermodata.reader.text.time_formats import find_format
 from thermodata.reader.text.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
@@ -24,8 +24,7 @@ _TIMES = (
     *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
-_STATUS = (*("statusname", "statustext", "tagquality", "quality", "statuscode", "status", "validity", "dataintegrity"),)
-_OTHERS = (*_STATUS, *UNIT_WORDS, "datatype")
+_OTHERS = (*UNIT_WORDS, "datatype")
 _ROWS = 2000  # below the header, by which the times are known
 
 
@@ -33,8 +32,8 @@ _ROWS = 2000  # below the header, by which the times are known
 class Layout:
     """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
     is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
-    where there is none; annotated: lines that begin with '#' are none of it; unread: names of columns of numbers that
-    differ and are none of these."""
+    where there is none; zero_good: whether its code 0 is, None where the codes do not tell; annotated: lines that begin
+    with '#' are none of it; unread: names of columns of numbers that differ and are none of these."""
 
     delimiter: str
     row: int
@@ -46,7 +45,7 @@ class Layout:
     value: int
     status: int | None
     form: TimeFormat
-    zero_good: bool
+    zero_good: bool | None
     unit: int | None
     annotated: bool
     unread: tuple[str, ...] = ()
@@ -104,7 +103,7 @@ def find_layout(
             names = [bare(c) for c in raw]
             times = tuple(names.index(n) for n in _TIMES if n in names)
             value = next((names.index(n) for n in _values(names) if n in names), None)
-            status = next((names.index(n) for n in _STATUS if n in names), None)
+            status = _status(names)
             influx = {"_time", "_value"} <= set(raw)
             if value is None or not times:
                 continue
@@ -118,7 +117,10 @@ def find_layout(
             form = _form([text for cells in body if (text := _time(cells, times))], where, declared)
             if form is None:
                 continue
-            zero = status is None or zero_is_good((cells[status] for cells in body), names[status])
+            zero: bool | None = True
+            if status is not None:
+                sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
+                zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
             unit = next((names.index(n) for n in UNIT_WORDS if n in names), None)
             series = Series((), {})
             if influx:
@@ -126,7 +128,11 @@ def find_layout(
             elif tag is not None:
                 split = (fields(x, delimiter) for x in (*lines[row + 1 :], *later))
                 rows = [cells for cells in split if len(cells) == len(names)]
-                used = {*times, value, *(k for k, n in enumerate(names) if n in _OTHERS)}
+                used = {
+                    *times,
+                    value,
+                    *(k for k, n in enumerate(names) if n in _OTHERS or tells_quality(n) is not None),
+                }
                 t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
                 series = series_of(names, rows, t_ns, tag, used)
             return Layout(
@@ -146,6 +152,12 @@ def find_layout(
                 tuple(raw[k] for k in series.unread),
             )
     return None
+
+
+def _status(names: Sequence[str]) -> int | None:
+    """The column that says most surely how good a value is, by bare names."""
+    told = [(sure, k) for k, name in enumerate(names) if (sure := tells_quality(name)) is not None]
+    return min(told)[1] if told else None
 
 
 def _values(names: Sequence[str]) -> Sequence[str]:

@@ -1,8 +1,9 @@
 """Long tables of an OPC UA (or SIMATIC) logger or of a historian (InfluxDB, PI): a row a value, with time, tag, value
 and status under many names.
 
-A value holds until the next one: the source's time stands still while it does not change. A bad status flags it.
-Where the table is sorted by tag, each tag is a stream of its own, for there is no common order of time.
+A value holds until the next one: the source's time stands still while it does not change. A bad status flags it. Tables
+of InfluxDB with other columns follow each other (`sections`). Where the table is sorted by tag, each tag is a stream of
+its own, for there is no common order of time.
 """
 
 from __future__ import annotations
@@ -23,12 +24,13 @@ from thermodata.reader.text.locate import line_of, lines_of
 from thermodata.reader.text.losses import NAMED
 from thermodata.reader.text.number import clean, to_float
 from thermodata.reader.text.rows import parse
-from thermodata.reader.text.status import BAD, is_good
+from thermodata.reader.text.status import BAD, declared_zero, is_good
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.opcua.long_layout import Layout, find_layout
+from thermodata_reader_cnc.opcua.sections import Sections, find_sections
 
 EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n"
 _LOOK = 4 << 20
@@ -73,7 +75,7 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Even
             yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
             continue
         flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
-        if status is not None and not is_good(status, layout.zero_good):
+        if status is not None and not is_good(status, bool(layout.zero_good)):
             flag |= BAD
         if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
             value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
@@ -117,6 +119,7 @@ class _Look:
     whole: bool
     notes: tuple[str, ...]
     units: Mapping[str, str]
+    sections: Sections
 
 
 def _look(path: Path, source: Source) -> _Look:
@@ -131,22 +134,23 @@ def _look(path: Path, source: Source) -> _Look:
             expected="columns of time, tag and value",
             got=first.head[0][:80] if first.head else "nothing",
         )
+    if layout.status is not None:
+        name = clean(fields(layout.header, layout.delimiter)[layout.status])
+        layout = replace(layout, zero_good=declared_zero(source.table, layout.zero_good, name, path.name))
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
-    head, rest = (
-        [
-            event
-            for k in range(0, len(part), _LINES)
-            for event in _events(layout, "\n".join(part[k : k + _LINES]).encode(), 0, path.name)
-            if isinstance(event, Event)
-        ]
-        for part in (lines[layout.row + 1 :], first.rest)
-    )
+    sections = find_sections(path, first.encoding, layout, declared)
+    layout = sections.all[0].layout if sections.all else layout
+    head = _sampled(sections, layout, lines[layout.row + 1 :], layout.row + 1, path.name)
+    rest = [] if sections.all else _sampled(sections, layout, first.rest, 0, path.name)
+    for section in {s.layout.header: s for s in sections.all}.values():
+        rest += _sampled(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name)
     plan = events.plan([*head, *rest], form=layout.form)
     if not plan.items:
         raise FormatError("no rows", where=path.name, expected="rows of time, tag and value", got="none")
-    changes = sum(a.key != b.key for a, b in pairwise(head))
-    back = sum(a.key != b.key and b.time < a.time for a, b in pairwise(head))
-    by_tag = 0 < changes < 0.1 * len(head) and 2 * back > changes
+    ordered = rest if sections.all else head
+    changes = sum(a.key != b.key for a, b in pairwise(ordered))
+    back = sum(a.key != b.key and b.time < a.time for a, b in pairwise(ordered))
+    by_tag = 0 < changes < 0.1 * len(ordered) and 2 * back > changes
     notes = [first.note] if first.note else []
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
     ends = (first.rest or first.head)[-_LAST_LINES:]
@@ -161,7 +165,19 @@ def _look(path: Path, source: Source) -> _Look:
         first.ends_with_newline,
         tuple(notes),
         _units(layout, (*lines[layout.row + 1 :], *first.rest), path.name),
+        sections,
     )
+
+
+def _sampled(sections: Sections, first: Layout, lines: Sequence[str], line: int, name: str) -> list[Event]:
+    """What sampled lines report, of which the first is number `line` of the file."""
+    return [
+        event
+        for k in range(0, len(lines), _LINES)
+        for layout, data, number in sections.parts(("\n".join(lines[k : k + _LINES]) + "\n").encode(), line + k, first)
+        for event in _events(layout, data, number, name)
+        if isinstance(event, Event)
+    ]
 
 
 def _units(layout: Layout, lines: Sequence[str], where: str) -> dict[str, str]:
@@ -240,8 +256,9 @@ def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
         if not chunk.last and data.count(b'"') % 2:
             cut = data.rfind(b"\n", 0, data.rfind(b'"')) + 1
             data, held = (data[:cut], data[cut:]) if len(data) - cut < _MOST_HELD else (data, b"")
-        if (yield from _events(look.layout, data, line, path.name)):
-            return
+        for layout, part, number in look.sections.parts(data, line, look.layout):
+            if (yield from _events(layout, part, number, path.name)):
+                return
         text = tail.decode("utf-8", "replace")
         if text.strip("\0 \r"):
             yield Loss(f"{path.name} last line", reason=f"it has no line end and may be cut: '{text[:60]}'")
