@@ -38,7 +38,7 @@ def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, na
         export_test(view, "c", "sp9000", out, step="1 s")
     assert error.value.where == str(out)
     assert "MB free" in str(error.value.got)
-    assert error.value.exit_code == 1, "the store is neither busy nor damaged"
+    assert error.value.exit_code == 4, "as every full disk"
     assert list(out.parent.iterdir()) == []
     export_test(view, "c", "sp9000", out, step="1 s")
     assert [p.name for p in out.parent.iterdir()] == [name]
@@ -53,7 +53,7 @@ def test_a_page_on_a_full_disk_says_where_and_the_old_page_stays(tmp_path: Path)
 
 
 def test_without_a_right_it_is_not_called_full(tmp_path: Path) -> None:
-    with pytest.raises(ThermodataError, match="cannot be written") as error, whole_file(tmp_path / "a") as part:
+    with pytest.raises(ThermodataError, match="no right to write there") as error, whole_file(tmp_path / "a") as part:
         raise OSError(errno.EACCES, "Permission denied", str(part))
     assert error.value.where == str(tmp_path / "a")
     assert "Permission denied" in str(error.value.got)

@@ -79,18 +79,19 @@ def whole_file(target: Path, suffix: str = "") -> Iterator[Path]:
 def not_written(target: Path, error: OSError) -> ThermodataError:
     """What is said where a file outside of the store can't be written: it is not there, or as it was before."""
     if _is_full(error):
-        return ThermodataError(
+        return StoreError(
             DISK_FULL,
             where=str(target.absolute()),
             expected="room for the file",
             got=_free(target, _first_line(error)),
             hint="free space there, or name a file on another disk; nothing half-written is left",
         )
+    refused = error.errno in (errno.EACCES, errno.EPERM, errno.EROFS)
     return ThermodataError(
-        "the file cannot be written",
+        "no right to write there" if refused else "the file cannot be written",
         where=str(target.absolute()),
         got=_first_line(error),
-        hint="name a file in a folder that you may write to",
+        hint="name a folder of your own, or give yourself the right" if refused else "name another file",
     )
 
 
