@@ -276,8 +276,13 @@ MUTANTS = [
     diagnosis("probability.py", "0.0 if scored.looked is None else", "0.0 if True else", "locked tests weigh nothing"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.6", "the lock stays shut on what is likely"),
     diagnosis("probability.py", "OPENED = 0.4", "OPENED = 0.3", "the lock is opened for what is not likely"),
-    diagnosis("probability.py", "-2.6, -1.2)", "0.0, -1.2)", "one of several is claimed beside them"),
-    diagnosis("probability.py", "-2.6, -1.2)", "-2.6, 0.0)", "what holds the probes is claimed for what warms it"),
+    diagnosis("probability.py", "-2.6, -1.2, -2.3)", "0.0, -1.2, -2.3)", "one of several is claimed beside them"),
+    diagnosis(
+        "probability.py", "-2.6, -1.2, -2.3)", "-2.6, 0.0, -2.3)", "what holds the probes is claimed for what warms it"
+    ),
+    diagnosis(
+        "probability.py", "-1.2, -2.3)", "-1.2, 0.0)", "a guideway is claimed for the screw that no sensor reads"
+    ),
     diagnosis("judge.py", "[left, *(j.alone.error_of_all for j in kept)]", "[left]", "a refined model is unknown"),
     diagnosis("probability.py", "max(samples, 1), FALLS[1], ", "max(samples, 1), 0.0, ", "a second look is not taken"),
     diagnosis(

@@ -261,8 +261,8 @@ MUTANTS = [
     ),
     text(
         "quality_columns.py",
-        "pairs[other] = name, zero_is_good(cells, name)",
-        "pairs[other] = name, True",
+        "zeros[word] = bool(told(zero_is_good((c for name in own for c in columns[name]), word), own[0]))",
+        "zeros[word] = True",
         "classic OPC's bad is good",
     ),
     text(
