@@ -95,7 +95,7 @@ def test_a_test_in_which_the_machine_rests_tells_neither() -> None:
     still = replace(data.tests[3], values={**data.tests[3].values, **rest})
     [told] = loose_sensors(replace(data, tests=(*data.tests[:3], still, *data.tests[4:])), "dZ")
     assert "what it did up to 't2'" in told.why
-    assert "1 between tell neither" in told.why
+    assert "1 between tells neither" in told.why
 
 
 def test_the_order_is_that_of_the_clocks() -> None:

@@ -108,7 +108,7 @@ def test_a_slower_channel_ends_before_the_others(tmp_path: Path, samples: str) -
     for k, row in ((2, ("\t9", rows[2][1])), (3, ("\t", "\t8"))):
         lines = ["\t".join(r if long == "b" else r[::-1]) for r in [*rows[:k], row, *rows[k + 1 :]]]
         (loss,) = read(tmp_path, head("Multi") + heading + "\n".join(lines) + "\n").losses
-        assert loss.reason == "1 lines that are no rows of 4 numbers"
+        assert loss.reason == "1 line that is no row of 4 numbers"
 
 
 def test_x_values_in_seconds_since_1904_are_absolute(tmp_path: Path) -> None:
