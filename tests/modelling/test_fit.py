@@ -186,6 +186,12 @@ def test_values_may_carry_a_unit_of_their_own(world: Dataset, spec: Spec) -> Non
     assert (caught.value.expected, caught.value.got) == ("min, or what converts to it", "3 K")
 
 
+def test_a_gain_of_any_driver_takes_the_unit_that_it_is_told_in(world: Dataset, spec: Spec) -> None:
+    lagged = {"effect": "lag", "drivers": {"u": "T_nut"}, "bounds": {"gain": [0, 9]}}
+    told = fit_model(spec({**lagged, "fixed": {"gain": "0.002 mm/K"}}), world).parameters()["lag.gain"]
+    assert (told.value, told.unit) == (pytest.approx(2.0), "um/K")
+
+
 @pytest.mark.parametrize(
     ("said", "same"),
     [
