@@ -13,7 +13,7 @@ from .hand_made import Parts, problem
 TESTS = [b.test for b in problem(*(Parts(np.zeros(4)) for _ in range(3)), noise=0.05).blocks]
 
 
-def steps(*sizes: float, tests: tuple[int, ...] = (0, 0, 0, 0)) -> list[Step]:
+def steps(*sizes: float, tests: tuple[int, ...] = (0,) * 6) -> list[Step]:
     return [Step(TESTS[k], 3600.0 * (i + 1), size, 20.0) for i, (size, k) in enumerate(zip(sizes, tests, strict=False))]
 
 
@@ -28,12 +28,14 @@ def steps(*sizes: float, tests: tuple[int, ...] = (0, 0, 0, 0)) -> list[Step]:
         ((6.8, -6.8, 6.8), 0),
         ((6.8, 3.0, 6.7, 6.9), 3),
         ((3.0, 6.0, 12.0), 0),
+        ((6.8, -6.8, 6.7, 6.9, -3.0), 4),
+        ((6.8, 6.7, 6.9, 3.0, 3.1, 2.9), 6),
         ((), 0),
     ],
 )
 def test_three_steps_within_a_tenth_of_their_median_repeat(sizes: tuple[float, ...], again: int) -> None:
     some = steps(*sizes)
-    assert len(repeating(some)) == again
+    assert sum(map(len, repeating(some))) == again
     assert len(single(some)) == len(sizes) - again
 
 
@@ -49,6 +51,17 @@ def test_they_are_told_once_in_each_test_and_all_others_as_slips() -> None:
     assert "stick-slip or backlash" in told[0].why
     assert [s.size for s in single(some)] == [3.0]
     assert as_artefacts([], "um") == []
+
+
+def test_steps_to_and_fro_are_of_one_play_and_other_sizes_are_told_beside_it() -> None:
+    some = steps(3.8, -3.9, 3.7, 3.8, 9.0, 9.1, 9.0, tests=(0, 0, 1, 1, 1, 1, 1))
+    first, second = as_artefacts(repeating(some), "um")
+    said = "4 times by the same amount to and fro, +3.7 to +3.8 and -3.9 um (t0 at 1.0, 2.0 h; t1 at 3.0, 4.0 h)"
+    assert said in first.why
+    assert "9.1" not in first.why
+    assert second.why.startswith(first.why)
+    assert "3 times by the same amount, +9.0 to +9.1 um" in second.why
+    assert single(some) == []
 
 
 def test_what_sticks_and_slips_is_found_as_steps_and_taken_for_none() -> None:

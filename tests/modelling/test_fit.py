@@ -12,6 +12,7 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import coarse, fit_model
+from thermodata.modelling.result import model_id
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
@@ -183,6 +184,39 @@ def test_values_may_carry_a_unit_of_their_own(world: Dataset, spec: Spec) -> Non
     with pytest.raises(SpecError, match="'tau' has another unit") as caught:
         fit_model(spec({"effect": "spindle_bearing", "fixed": {"tau": "3 K"}}), world)
     assert (caught.value.expected, caught.value.got) == ("min, or what converts to it", "3 K")
+
+
+def test_a_gain_of_any_driver_takes_the_unit_that_it_is_told_in(world: Dataset, spec: Spec) -> None:
+    lagged = {"effect": "lag", "drivers": {"u": "T_nut"}, "bounds": {"gain": [0, 9]}}
+    told = fit_model(spec({**lagged, "fixed": {"gain": "0.002 mm/K"}}), world).parameters()["lag.gain"]
+    assert (told.value, told.unit) == (pytest.approx(2.0), "um/K")
+
+
+@pytest.mark.parametrize(
+    ("said", "same"),
+    [
+        ({"bounds": {"tau": ["1e-3", 60]}}, {"bounds": {"tau": [0.001, 60.0]}}),  # YAML takes 1e-3 for a text
+        ({"start": {"tau": "2"}}, {"start": {"tau": 2.0}}),
+    ],
+)
+def test_the_digits_of_a_start_or_bound_make_no_other_model(
+    spec: Spec, said: dict[str, Any], same: dict[str, Any]
+) -> None:
+    one, other = (model_id(spec({"effect": "spindle_bearing", **x}), "v") for x in (said, same))
+    assert one == other
+
+
+def test_a_bound_may_be_infinite(spec: Spec) -> None:
+    said = spec({"effect": "spindle_bearing", "bounds": {"gain": [0, float("inf")]}})
+    kept = Model.model_validate_json(said.model_dump_json(by_alias=True, exclude_none=True))
+    assert kept.effects[0].bounds == {"gain": (0.0, float("inf"))}
+
+
+@pytest.mark.filterwarnings("error")
+def test_whole_numbers_as_bounds_are_kept_as_any_other(spec: Spec) -> None:
+    given = spec("spindle_bearing").effects[0]
+    whole, other = (given.model_copy(update={"bounds": {"tau": ends}}) for ends in ((1, 360), (1.0, 360.0)))
+    assert whole.model_dump_json() == other.model_dump_json()
 
 
 def test_fixed_values_and_bounds_are_kept(world: Dataset, spec: Spec) -> None:

@@ -1,4 +1,4 @@
-"""Steps of one size and direction that repeat: the machine makes them, and no probe.
+"""Steps of one size that repeat: the machine makes them, and no probe.
 
 A probe or fixture that slips does so by another amount each time. What sticks and slips, or has play, gives way by one
 amount again and again. Between its jumps it keeps back what it should do, and catches up in them: levels with a free
@@ -18,36 +18,62 @@ LEAST = 3  # of two that are alike by chance there are many
 ALIKE = 0.1  # of their median, that each differs from it by at most
 
 
-def repeating(steps: Sequence[Step]) -> list[Step]:
-    """Those of all tests that are alike, where there are so many."""
-    best: list[Step] = []
-    for one in steps:
-        alike = [s for s in steps if abs(s.size - one.size) <= ALIKE * abs(one.size)]
-        middle = float(np.median([s.size for s in alike]))
-        alike = [s for s in steps if abs(s.size - middle) <= ALIKE * abs(middle)]
-        best = alike if len(alike) > len(best) else best
-    return best if len(best) >= LEAST else []
+def repeating(steps: Sequence[Step]) -> list[list[Step]]:
+    """Those of all tests that are alike, where there are so many in one direction, and with them those by which it goes
+    back: play is passed through both ways. A list for each size, the most frequent first."""
+    found: list[list[Step]] = []
+    while len(best := _most_alike(rest := _without(steps, found))) >= LEAST:
+        back = -float(np.median([s.size for s in best]))
+        found.append([s for s in rest if any(s is b for b in best) or _is_alike(s.size, back)])
+    return found
 
 
 def single(steps: Sequence[Step]) -> list[Step]:
     """The others: slips."""
-    again = repeating(steps)
-    return [s for s in steps if not any(s is a for a in again)]
+    return _without(steps, repeating(steps))
 
 
-def as_artefacts(steps: Sequence[Step], unit: str) -> list[Artefact]:
-    """One in each test in which they are, in the same words. steps: that repeat."""
-    if not steps:
-        return []
-    sizes = [s.size for s in steps]
-    why = (
-        f"the displacement jumps {len(steps)} times by the same amount, {min(sizes, key=abs):+.1f} to "
-        f"{max(sizes, key=abs):+.1f} {unit} ({_where(steps)}), and does not decay; no speed, feed or switch does that "
-        "elsewhere: steps of one size and direction that repeat point to stick-slip or backlash of the machine, for a "
-        "probe that slips does so by another amount each time. Nothing was taken out for them"
+def _most_alike(steps: Sequence[Step]) -> list[Step]:
+    best: list[Step] = []
+    for one in steps:
+        middle = float(np.median([s.size for s in steps if _is_alike(s.size, one.size)]))
+        alike = [s for s in steps if _is_alike(s.size, middle)]
+        best = alike if len(alike) > len(best) else best
+    return best
+
+
+def _is_alike(size: float, other: float) -> bool:
+    return abs(size - other) <= ALIKE * abs(other)
+
+
+def _without(steps: Sequence[Step], groups: Sequence[Sequence[Step]]) -> list[Step]:
+    return [s for s in steps if not any(s is a for group in groups for a in group)]
+
+
+def as_artefacts(groups: Sequence[Sequence[Step]], unit: str) -> list[Artefact]:
+    """One in each test in which they are, in the same words for one size. groups: of steps that repeat."""
+    told: dict[tuple[str, str], list[str]] = {}
+    for steps in groups:
+        why = _why(steps, unit)
+        for key in dict.fromkeys(s.test.key for s in steps):
+            told.setdefault(key, []).append(why)
+    return [
+        Artefact(kind="repeated_step", campaign=c, test=t, at_s=None, size_um=None, why=". And ".join(whys))
+        for (c, t), whys in told.items()
+    ]
+
+
+def _why(steps: Sequence[Step], unit: str) -> str:
+    up, down = ([s.size for s in steps if (s.size > 0) is way] for way in (True, False))
+    ends = [[f"{end(some, key=abs):+.1f}" for end in (min, max)] for some in (up, down) if some]
+    sizes = " and ".join(" to ".join(dict.fromkeys(both)) for both in ends)
+    ways, which = ("", "size and direction") if not (up and down) else (" to and fro", "size")
+    return (
+        f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_where(steps)}), and "
+        f"does not decay; no speed, feed or switch does that elsewhere: steps of one {which} that repeat point to "
+        "stick-slip or backlash of the machine, for a probe that slips does so by another amount each time. Nothing "
+        "was taken out for them"
     )
-    tests = dict.fromkeys(s.test.key for s in steps)
-    return [Artefact(kind="repeated_step", campaign=c, test=t, at_s=None, size_um=None, why=why) for c, t in tests]
 
 
 def _where(steps: Sequence[Step]) -> str:

@@ -9,9 +9,15 @@ from thermodata.schema.printed import WithUnit
 from thermodata.schema.quantity import value_in
 
 
-def in_own_units(spec: EffectSpec, effect: Effect, where: str) -> EffectSpec:
-    """What is fixed, started or bounded with a unit, in the effect's own. SpecError for a unit of another kind."""
+def in_own_units(
+    spec: EffectSpec, effect: Effect, where: str, driver: str | None = None, response: str | None = None
+) -> EffectSpec:
+    """What is fixed, started or bounded with a unit, in the effect's own. driver, response: units of what a gain 'um/u'
+    is of, where they are known. SpecError for a unit of another kind."""
     units = {p.name: p.unit for p in effect.params} | {g.name: g.unit for g in effect.gains}
+    if driver is not None and response is not None:
+        of_both = f"{_difference(response)}/{_difference(driver)}"
+        units |= {g.name: of_both for g in effect.gains if g.unit == "um/u"}
 
     def own(name: str, value: float) -> float:
         if not isinstance(value, WithUnit):
@@ -33,3 +39,7 @@ def in_own_units(spec: EffectSpec, effect: Effect, where: str) -> EffectSpec:
             "bounds": {n: (own(n, low), own(n, high)) for n, (low, high) in spec.bounds.items()},
         }
     )
+
+
+def _difference(unit: str) -> str:
+    return "K" if unit == "degC" else unit

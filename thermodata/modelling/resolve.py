@@ -177,7 +177,8 @@ def bind_terms(
         for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
-        spec = in_own_units(spec, effect, f"effect '{name}'")
+        u, y = (by_campaign[first].get(n) for n in (bound_by[first].get("u", ""), channel))
+        spec = in_own_units(spec, effect, f"effect '{name}'", u and u.unit, y and y.unit)
         family = family_of(effect, bound_by[first], by_campaign[first])
         terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate, seen_at))
     return tuple(terms)

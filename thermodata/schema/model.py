@@ -8,7 +8,7 @@ from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
 from thermodata.schema.declared import WrongKeyError, WrongValueError
-from thermodata.schema.printed import PrintedNumber
+from thermodata.schema.printed import NumberOrUnit, PrintedNumber
 
 # a model written as JSON is a model file again, and there a time has a unit
 _WITH_UNIT = PlainSerializer(lambda s: f"{s:.12g} s", return_type=str, when_used="json")
@@ -95,8 +95,8 @@ class EffectSpec(Strict):
     one_gain: bool = False
     shared: list[str] | Literal["none"] = []
     fixed: dict[str, PrintedNumber] = {}
-    start: dict[str, PrintedNumber] = {}
-    bounds: dict[str, tuple[PrintedNumber, PrintedNumber]] = {}
+    start: dict[str, NumberOrUnit] = {}
+    bounds: dict[str, tuple[NumberOrUnit, NumberOrUnit]] = {}
     file: str | None = None
     name: str | None = None
     gain: float | str | None = None

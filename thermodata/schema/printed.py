@@ -7,6 +7,7 @@ coefficients are often smaller than that.
 from __future__ import annotations
 
 from decimal import Decimal, InvalidOperation
+from math import isfinite
 from typing import Annotated, Any
 
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
@@ -73,7 +74,14 @@ def _with_unit(text: str) -> float:
 
 
 def _written(value: float) -> str | float:
-    return value.text if isinstance(value, Printed) else value
+    if isinstance(value, Printed):
+        return value.text
+    return float(value) if isfinite(value) else str(value)  # JSON has no infinite number
+
+
+def _read_plainly(value: Any) -> float:
+    number = _read(value)
+    return number if isinstance(number, WithUnit) else float(number)
 
 
 PrintedNumber = Annotated[
@@ -83,3 +91,10 @@ PrintedNumber = Annotated[
     WithJsonSchema({"type": ["number", "string"]}),
 ]
 """A number of a file, or one with its unit; as JSON it is text where only that keeps its digits or the unit."""
+NumberOrUnit = Annotated[
+    float,
+    PlainValidator(_read_plainly),
+    PlainSerializer(_written, when_used="json"),
+    WithJsonSchema({"type": ["number", "string"]}),
+]
+"""The same, of which the digits say nothing: 1e-3 and 0.001 are one, and so are the ids of models with either."""
