@@ -69,3 +69,15 @@ def test_a_sheet_is_one_too(tmp_path: Path, say: Say) -> None:
     places, text = _channels(tmp_path, say)
     assert set(places.values()) == {"spindle.bearing.front", "bed", "hall"}
     assert "called 'Hallenluft' in log.xlsx" in text
+
+
+def test_a_table_of_tests_that_are_called_as_signals_is_no_legend(tmp_path: Path, say: Say) -> None:
+    _logs(tmp_path)
+    for name in ("T02", "T03"):
+        (tmp_path / f"{name}.csv").write_bytes((tmp_path / "t2.csv").read_bytes().replace(b"2026-03-02", b"2026-04-02"))
+    for name, called in (("t2", "T01"), ("t3", "other")):
+        (tmp_path / f"{name}.csv").rename(tmp_path / f"{called}.csv")
+    _write(tmp_path, [("Test", "Was"), *((name, text) for name, text, _ in LEGEND[1:])])
+    channels, text = _channels(tmp_path, say)
+    assert set(channels.values()) == {None}
+    assert "says what signals are" not in text

@@ -54,3 +54,9 @@ def test_rows_with_dates_and_names_without_say_no_start(tmp_path: Path, say: Say
     assert [t["start"] for t in _drafted(tmp_path / "dated", say, dated, "2026-04-07 ")] == [None, None]
     numbered = {"run_1.txt": (20.0, 24.0), "run_2.txt": (0.0, 4.0)}
     assert [t["start"] for t in _drafted(tmp_path / "numbered", say, numbered)] == [None, None]
+
+
+def test_tests_of_other_names_stay_apart_though_one_ends_where_the_other_begins(tmp_path: Path, say: Say) -> None:
+    files = {"S4000_20260407.txt": (20.0, 24.0), "S8000_20260408.txt": (0.0, 4.0)}
+    found = _drafted(tmp_path, say, files)
+    assert [t["id"] for t in found] == ["S4000_20260407", "S8000_20260408"]

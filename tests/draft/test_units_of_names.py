@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from thermodata.draft import units
 from thermodata.draft.guess import guess
 from thermodata.draft.values import Values, values_of
 
@@ -64,3 +65,8 @@ def test_temps_in_a_message_are_temperatures(name: str) -> None:
 def test_temps_of_a_table_or_in_seconds_is_time(name: str, unit: str | None) -> None:
     said = guess(name, unit, "float64", _seen(0.0, 3590.0))
     assert said.quantity is None
+
+
+def test_a_long_name_in_capitals_is_read_at_once() -> None:
+    assert units.inches("V" + "O" * 60) is None
+    assert units.inches("X_ERR(IN)") == "in"

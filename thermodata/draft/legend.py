@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from thermodata.draft.filenames import normal
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.scan import Scan
 from thermodata.draft.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of
@@ -36,13 +37,15 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     """The logs, their signals described by the first table that names them; and a note on it. A description that stands
     in a log itself counts more."""
     names = {_word(s.name) for f in found.logs for s in f.signals}
+    logs_of_many = [f for f in found.logs if len(f.signals) > 1]  # a file of one may be called as its signal is
+    tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
     for file in dict.fromkeys((*found.others, *books)):
         path = folder / file
         if path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
         for rows in grids_of(path, _MOST_ROWS):
-            if (legend := _legend(file, rows, names)) is not None:
+            if (legend := _legend(file, rows, names, tests)) is not None:
                 logs = tuple(_described(f, legend) for f in found.logs)
                 left = tuple(x for x in found.ignored if x[0] != file)
                 return replace(found, logs=logs, ignored=left), [legend.note()]
@@ -55,12 +58,15 @@ def _word(name: str) -> str:
     return found[-1] if found else ""
 
 
-def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str]) -> Legend | None:
-    """One row a signal: its name in one column, words in another."""
+def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Set[str]) -> Legend | None:
+    """One row a signal: its name in one column, words in another. Where these are the names of the tests too, it says
+    what those are."""
     full = [r for r in rows if sum(map(bool, r)) >= 2]
     for key in range(max(map(len, full), default=0)):
         named = [r for r in full if key < len(r) and r[key].casefold() in names]
         if len({r[key].casefold() for r in named}) < len(named) or len(named) < max(_FEWEST, (len(full) - 1) / 2):
+            continue
+        if all(normal(r[key]) in tests for r in named):
             continue
         for column in range(max(map(len, named))):
             said = {r[key].casefold(): (r[key], r[column]) for r in named if column < len(r) and _is_words(r[column])}

@@ -3,6 +3,7 @@ began, and which go on behind midnight in the file of the next day."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
@@ -58,9 +59,17 @@ def _began_ns(file: RawFile) -> int | None:
     return None if day is None else round(day.timestamp()) * 10**9 + said.of_day_ns
 
 
+def _but_day(file: RawFile) -> tuple[object, ...]:
+    """What a name says beside its day: 'S4000_20260407' and 'S8000_20260408' are two tests, whenever they ran."""
+    said = said_by([file.path.stem])
+    return re.sub(r"[\d\W_]+", "", file.path.stem), said.speeds, {**said.conditions, "date": ""}
+
+
 def _goes_on(before: RawFile, after: RawFile) -> bool:
-    """Whether a file ends at midnight, and another begins there a day later."""
+    """Whether a file ends at midnight, and another of its name begins there a day later."""
     began, then, seen = _began_ns(before), _began_ns(after), before.sample
+    if _but_day(before) != _but_day(after):
+        return False
     if began is None or then is None or not seen.whole or seen.first_ns is None or seen.last_ns is None:
         return False
     midnight = (began // _DAY_NS + 1) * _DAY_NS

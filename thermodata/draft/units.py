@@ -73,7 +73,7 @@ _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
 _FURTHEST_M = 0.05  # no tool is displaced by more
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _LABELS = re.compile(r"\s*\{[^{}]*\}$")
-_INCH = re.compile(r"[XYZUVW](?:[_ ]?[A-Z]+)*[_ ]?\(IN\)$")
+_INCH = re.compile(r"[XYZUVW](?:(?:ERR|POS|ACT|[_ ])[A-Z_ ]*)?\(IN\)$")
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value

@@ -251,3 +251,13 @@ def test_a_tag_that_others_begin_with_takes_none_of_theirs(tmp_path: Path) -> No
         ("T_TIMESTAMP", "T_VALUE"),
         ("T_2_TIMESTAMP", "T_2_VALUE"),
     }
+
+
+@pytest.mark.parametrize("second", [DATES, [str(k) for k in range(12)]])
+def test_times_of_one_clock_are_one_time_though_names_are_shared_with_some_columns(
+    tmp_path: Path, second: list[str]
+) -> None:
+    head = "PC time;CNC time;CNC load;PC load;T1\n"
+    data = read(tmp_path, head + rows(DATES, second, VA, VA, VA), delimiter=";")
+    assert len({stream for stream, _ in data.values}) == 1
+    assert {"CNC load", "PC load", "T1"} <= {name for _, name in data.values}

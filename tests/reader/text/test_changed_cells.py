@@ -148,3 +148,38 @@ def test_a_log_that_stands_newest_first_is_left_as_it_is(tmp_path: Path) -> None
     path = written(tmp_path / "a.csv", changes(T), changes(S), [""] * N, newest_first=True)
     held, _, _ = read(path, Source())
     assert not any(held.values())
+
+
+def test_a_bad_quality_stands_as_long_as_its_value(tmp_path: Path) -> None:
+    texts = changes(T)
+    quality = ["192" if cell else "" for cell in texts]
+    bad = next(k for k in range(50, N) if texts[k] and not texts[k + 1])
+    quality[bad] = "0"
+    rows = [f"2026-03-01T08:{k // 60:02}:{k % 60:02}Z;{texts[k]};{quality[k]};{k % 7}" for k in range(N)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["time;T;T.Quality;n", *rows, ""]), encoding="utf-8")
+    table = delimited.open_table(path, Source())
+    flags = np.concatenate(
+        [b.flags["T"] for b in delimited.blocks(path, table, Source()) if isinstance(b, Block) and b.flags]
+    )
+    until = next(k for k in range(bad + 1, N) if texts[k])
+    assert np.flatnonzero(flags & Flag.NOT_MEASURING).tolist() == list(range(bad, until))
+
+
+def test_few_whole_readings_in_a_unit_that_nobody_sets_are_left_alone() -> None:
+    hand = [""] * N
+    for k, value in ((0, "0"), (170, "3"), (390, "8"), (401, "10")):
+        hand[k] = value
+    assert find_standing({"T": FINE, "Dial [um]": hand})[0] == frozenset()
+    assert find_standing({"T": FINE, "Dial": hand})[0] == {"Dial"}
+
+
+def test_numbers_with_fractions_are_no_quality_and_a_unit_may_be_spelled_twice(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"2026-03-01T08:00:{k:02}Z;{30 + k};0.9{k:02}" for k in range(60)]
+    path.write_text("\n".join(["time;Oil;Oil quality", *rows, ""]), encoding="utf-8")
+    assert not delimited.open_table(path, Source()).quality
+    rows = [f"2026-03-01T08:00:{k:02}Z;{'C' if k < 30 else '°C'};{30 + k}" for k in range(60)]
+    path.write_text("\n".join(["time;Unit;Value", *rows, ""]), encoding="utf-8")
+    assert read(path, Source())[2] == 60
+    assert delimited.signals(delimited.open_table(path, Source()))[1].unit == "C"

@@ -19,7 +19,9 @@ from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.reader.set_values import are_set
 from thermodata.reader.text.cell import number_of
+from thermodata.reader.text.header import split_unit
 from thermodata.reader.text.no_value import EMPTY
+from thermodata.schema.quantity import normal_unit
 
 KEY = "stands"  # of a table's layout
 _LEAST = 30  # written cells that prove it
@@ -29,6 +31,7 @@ _FINE, _MOST_FINE = 2.5, 0.5  # steps no larger than so many of the finest, of t
 _TO_AND_FRO = 3  # changes of either sign
 _SPARSE = 0.2  # of the rows: a column with so few cells may be written on change in a log that is not
 _SHOWN = 4
+_READ = ("degC", "degF", "K", "um", "nm")
 
 Verdict = Literal["stands", "written anew"]
 
@@ -37,7 +40,8 @@ Verdict = Literal["stands", "written anew"]
 class _Written:
     """The cells of a column in rows that are not full. cells: how many; repeats: share that repeats the one before;
     steps: between numbers that differ, shape (k,); even: whether they come in every n-th row; share: of the rows that
-    have one; first: whether the first row has; values: the numbers among them, shape (m,)."""
+    have one; first: whether the first row has; values: the numbers among them, shape (m,);
+    read: whether its header has a unit in which nobody sets anything: few whole um are readings of a dial gauge."""
 
     cells: int
     repeats: float
@@ -46,6 +50,7 @@ class _Written:
     share: float
     first: bool
     values: Float1D
+    read: bool
 
     @property
     def verdict(self) -> Verdict | None:
@@ -53,7 +58,7 @@ class _Written:
         if self.cells >= _LEAST_CONTRARY and self.repeats > _CONTRARY:
             return "written anew"
         if self.is_sparse and self.first and self.values.size == self.cells + 1 and are_set(np.abs(self.values)):
-            return "stands"
+            return None if self.read else "stands"
         if self.cells < _LEAST or self.repeats > _REPEATS or self.even or not self.steps.size:
             return None
         size = np.abs(self.steps)
@@ -109,7 +114,7 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
     if not gaps:
         return frozenset(), None
     full: Bool1D = np.asarray(filled[gaps].all(axis=0) & (len(gaps) > 1))
-    said = {k: _written(columns[names[k]], filled[k], full) for k in range(len(names)) if filled[k].any()}
+    said = {k: _written(names[k], columns[names[k]], filled[k], full) for k in range(len(names)) if filled[k].any()}
     verdicts = {k: one.verdict for k, one in said.items()}
     whole = any(one.proves for one in said.values()) and "written anew" not in verdicts.values()
     wordless = [k for k in gaps if not any(c.strip().casefold() in EMPTY for c in columns[names[k]] if c.strip())]
@@ -154,7 +159,7 @@ def declared_standing(said: object, names: Sequence[str], where: str) -> frozens
     return frozenset(map(str, said))
 
 
-def _written(cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:
+def _written(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:
     rows: Int1D = np.flatnonzero(filled)
     texts = [cells[k].strip() for k in rows.tolist()]
     own = ~full[rows[1:]]
@@ -170,4 +175,5 @@ def _written(cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:
         len(rows) / max(1, len(cells)),
         bool(filled[0]),
         values[np.isfinite(values)],
+        normal_unit(split_unit(name)[1] or "") in _READ,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -25,7 +25,7 @@ from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
-from thermodata.reader.text.quality_columns import quality_pairs, worded
+from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
 from thermodata.reader.text.status import declared_zero
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
@@ -170,7 +170,7 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
-    standing, standing_note = _standing(said, layout, groups, kinds, cells_of, {q for q, _ in quality.values()}, where)
+    standing, standing_note = _standing(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
     if not any(g.absolute for g in groups):
@@ -222,17 +222,20 @@ def _standing(
     groups: Sequence[TimedGroup],
     kinds: Sequence[str | None],
     cells_of: Mapping[str, Sequence[str]],
-    qualities: Collection[str],
+    quality: Pairs,
     where: str,
 ) -> tuple[frozenset[int], str | None]:
-    """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell."""
+    """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell. The
+    quality of such a value stands as it does, or a bad one would be good from the next row on."""
     names = [layout.names[i] for g in groups for i in g.group.columns if kinds[i] is not None]
+    qualities = {own for own, _ in quality.values()}
     told = declared_standing(said.get(STANDING), names, where)
     note = None
     if told is None:
         if len(groups) > 1 or groups[0].group.counted or _runs_back(groups[0], layout, cells_of):
             return frozenset(), None
         told, note = find_standing({name: cells_of[name] for name in names if name not in qualities})
+    told |= {own for value, (own, _) in quality.items() if value in told}
     return frozenset(i for i, name in enumerate(layout.names) if name in told), note
 
 

@@ -17,7 +17,7 @@ _DAY_WORD = re.compile(
     r"(?i)dat[eu]m?|dato|dátum|data|fecha|дата|day|tag|dag|den|jour|giorno|d[ií]a|dzień|dzien|nap|日期|日付|날짜"
 )
 _CLOCK_WORD = re.compile(
-    r"(?i)clock|hours?|hrs?|hh|h|stunde|std|uhr|klok|klocka|hodina|godz|heures?|ore|uur|óra|min(utes?)?|local|lokal|"
+    r"(?i)clock|tod|hours?|hrs?|hh|h|stunde|std|uhr|klok|klocka|hodina|godz|heures?|ore|uur|óra|min(utes?)?|local|lokal|"
     r"period|format|unnamed|column|dst|offset|zone"
 )
 

@@ -17,6 +17,7 @@ _QUALITY = re.compile(
     re.IGNORECASE,
 )
 _CODE = re.compile(r"^[+-]?\d*$")
+_FRACTION = re.compile(r"^[+-]?\d*[.,]\d*[1-9]\d*$")  # no code: what is called the quality of oil, or of air
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
 QUALITY_OF = "quality_of"  # property of a signal: the one that it flags
@@ -36,7 +37,7 @@ def quality_pairs(
             continue
         base = match["base"].casefold()
         value = next((o for o in columns if o != name and _VALUE.sub("", o).casefold() == base), None)
-        if value is not None:
+        if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
             found[value] = name, (match.groupdict().get("word") or "quality").casefold()
     zeros: dict[str, bool] = {}
     for _, word in found.values():

@@ -94,9 +94,9 @@ def spans(
     """
     said = {i: n for i in range(len(names)) if (n := time_name(names[i])) and _rises(i, n, units[i], data)}
     by_name, left = tagged(names, tuple(said), data)
-    if by_name and left:
+    if by_name and left and not _one_clock([i for one in by_name for i in one.times], units, data):
         raise _of_no_name([names[i] for i in left], names, where)
-    if by_name:
+    if by_name and not left:
         return [Span(one.times, one.columns, named=True) for one in by_name], []
     runs = _runs(said)
     if len(runs) < 2:
@@ -232,6 +232,25 @@ def _of_no_name(left: Sequence[str], names: Sequence[str], where: str) -> Format
         expected="each column to share its name with its time, as the others do",
         hint=_HINT,
     )
+
+
+def _one_clock(times: Sequence[int], units: Sequence[str | None], data: Sequence[Sequence[Cell]]) -> bool:
+    """Whether the times of a row tell the same moment in each, as those of a PC and a control: dates are written alike,
+    and numbers differ by an offset. A date beside a number is another clock of the same rows where both run on."""
+    first, *others = times
+    for other in others:
+        pairs = [(r[first], r[other]) for r in data]
+        if any(is_empty(a) != is_empty(b) for a, b in pairs):
+            return False
+        if all(a == b for a, b in pairs):
+            continue
+        apart = _apart(first, other, units, data)
+        stamped = [any(is_stamp(p[k]) for p in pairs) for k in (0, 1)]
+        if apart is None and stamped[0] is not stamped[1]:
+            continue
+        if apart is None or apart:
+            return False
+    return True
 
 
 def _question(first: int, second: int, names: Sequence[str], where: str) -> FormatError:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss
+from thermodata.plugin import Block, Bool1D, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.number import clean
-from thermodata.schema.quantity import is_unit
+from thermodata.schema.quantity import is_unit, normal_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,8 +30,8 @@ def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[st
     numbers = [n for n, kind in kinds.items() if kind not in (None, "str", "bool")]
     if len(called) != 1 or len(numbers) != 1:
         return None
-    found = {word for cell in cells[called[0]] if (word := clean(cell))}
-    unit = next(iter(found)) if len(found) == 1 else None
+    found = dict.fromkeys(word for cell in cells[called[0]] if (word := clean(cell)))
+    unit = next(iter(found)) if len({normal_unit(word) for word in found}) == 1 else None
     return UnitColumn(called[0], numbers[0], unit) if unit is not None and is_unit(unit) else None
 
 
@@ -43,7 +43,8 @@ def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> 
             yield item
             continue
         words = np.array(words_of(said.column, item.values[said.column]), object)
-        other = (words != "") & (words != said.unit)
+        same = [word for word in set(words.tolist()) if not word or normal_unit(word) == normal_unit(said.unit)]
+        other: Bool1D = ~np.isin(words.astype(str), same)
         if not other.any():
             yield item
             continue
