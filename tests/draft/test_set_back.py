@@ -49,3 +49,13 @@ def test_strays_copied_rows_and_newest_first_are_not(tmp_path: Path, say: Say) -
     assert _asked(tmp_path, say, [10 * k for k in again], [20 + k / 99 for k in again]) == ""
     (tmp_path / "campaign.yaml").unlink()
     assert _asked(tmp_path, say, EVEN[::-1]) == ""
+
+
+def test_the_end_of_summer_time_is_left_to_the_zone(tmp_path: Path, say: Say) -> None:
+    local = [t if t < 10800 else t - 3600 for t in range(3600, 18000, 60)]
+    rows = [f"2026-10-25 {t // 3600:02d}:{t // 60 % 60:02d}:00,{20 + k / 99:.3f}" for k, t in enumerate(local)]
+    (tmp_path / "night.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert "timezone?" in text
+    assert "resets: allow" not in text

@@ -122,11 +122,16 @@ def repeats_question(group: Group) -> str | None:
     return None
 
 
+_HOUR_NS, _ROW_NS = 3600 * 10**9, 120 * 10**9
+
+
 def set_back_question(group: Group) -> str | None:
     """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
     follows."""
     for file in group.files:
         said = file.sample.set_back
+        if said is not None and file.local and _HOUR_NS - _ROW_NS <= said.by_ns <= _HOUR_NS:
+            continue  # the end of summer time: the zone, which is asked for, tells it
         if said is not None and file.block is None and not any("resets: allow" in a.ask for a in file.asked):
             return (
                 f"row {said.row} of {file.path.name} is {said.by_ns / 1e9:g} s earlier than the rows before, and what "
