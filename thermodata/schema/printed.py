@@ -73,7 +73,7 @@ def _with_unit(text: str) -> float:
 
 
 def _written(value: float) -> str | float:
-    return value.text if isinstance(value, Printed) else value
+    return value.text if isinstance(value, Printed) else float(value)
 
 
 PrintedNumber = Annotated[
