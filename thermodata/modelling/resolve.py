@@ -177,11 +177,15 @@ def bind_terms(
         for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
-        u, y = (by_campaign[first].get(n) for n in (bound_by[first].get("u", ""), channel))
-        spec = in_own_units(spec, effect, f"effect '{name}'", u and u.unit, y and y.unit)
+        u, y = (_unit_of(by_campaign[first].get(n)) for n in (bound_by[first].get("u", ""), channel))
+        spec = in_own_units(spec, effect, f"effect '{name}'", u, y)
         family = family_of(effect, bound_by[first], by_campaign[first])
         terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate, seen_at))
     return tuple(terms)
+
+
+def _unit_of(info: ChannelInfo | None) -> str | None:
+    return None if info is None else info.unit
 
 
 def term_ids(effects: Sequence[EffectSpec]) -> list[str]:
