@@ -68,6 +68,7 @@ def whole_file(target: Path, suffix: str = "") -> Iterator[Path]:
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         yield part
+        _to_disk(part)
         part.replace(target)
     except OSError as error:
         raise not_written(target, error) from error
@@ -140,16 +141,21 @@ def publish(part: Path, target: Path) -> None:
 
     StoreError where there is no room or no right."""
     try:
-        fd = os.open(part, os.O_RDWR)
-        try:
-            os.fsync(fd)
-        finally:
-            os.close(fd)
+        _to_disk(part)
         part.replace(target)
         _unfinished.discard(part)
         fsync_folder(target.parent)
     except OSError as error:
         raise write_error(target, error) from error
+
+
+def _to_disk(part: Path) -> None:
+    """What is written, before it gets its name: else a power cut leaves an empty file under it."""
+    fd = os.open(part, os.O_RDWR)
+    try:
+        os.fsync(fd)
+    finally:
+        os.close(fd)
 
 
 def fsync_folder(folder: Path) -> None:
