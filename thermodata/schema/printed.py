@@ -6,6 +6,7 @@ coefficients are often smaller than that.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from decimal import Decimal, InvalidOperation
 from math import isfinite
 from typing import Annotated, Any
@@ -65,11 +66,9 @@ def _read(value: Any) -> float:
 
 
 def _with_unit(text: str) -> float:
-    try:
+    with suppress(UsageError):
         if split_value(text)[1]:
             return WithUnit(text)
-    except UsageError:
-        pass
     raise WrongValueError(f"'{text}' is no number", expected="a number, in the effect's unit or with one: 18 min")
 
 
