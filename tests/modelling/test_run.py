@@ -9,6 +9,7 @@ import yaml
 from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.named import fit_named
+from thermodata.modelling.remove import remove
 from thermodata.report.history import history_rows
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
@@ -104,7 +105,7 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
 def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="back"))
     grown = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
-    back = run.remove(store, grown.model, "feed_screw")
+    back = remove(store, grown.model, "feed_screw")
     assert (back.parameters, back.checks) == (parent.parameters, parent.checks)
     assert [(s.role, s.rmse_um) for s in back.scores] == [(s.role, s.rmse_um) for s in parent.scores]
     assert back.notes == [
@@ -123,7 +124,7 @@ def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec:
     # fitted again it stays where it is
     assert fit_named(store, back.model).model == back.model
     # what is left was chosen with the verification tests
-    other = run.remove(store, grown.model, "spindle_bearing")
+    other = remove(store, grown.model, "spindle_bearing")
     assert {s.role for s in other.scores} == {"calibration", "verification (in-sample)"}
     assert other.notes[1:] == ["verification tests stay fitted (in-sample), for they helped to choose what is left"]
 

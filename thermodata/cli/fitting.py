@@ -200,7 +200,7 @@ def remove_command(session: Session, model: str, effect: str) -> None:
     with it. Prints the errors before and after; the version before stays.
     """
     from thermodata.cli.progress import counting_line
-    from thermodata.modelling.run import remove
+    from thermodata.modelling.remove import remove
     from thermodata.store.base.counting import watched
 
     store = session.store()

@@ -20,7 +20,7 @@ from thermodata.modelling.own_units import in_own_units
 from thermodata.modelling.roles import Roles, find_tests, resolve_roles
 from thermodata.modelling.said_conditions import refuse_unsaid_of
 from thermodata.plugin import Effect
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.schema.terms import ids_of
 from thermodata.view.dataset import ChannelInfo, Dataset

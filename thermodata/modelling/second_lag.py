@@ -21,7 +21,7 @@ from thermodata.modelling.prediction import NAME as PREDICTION
 from thermodata.modelling.resolve import term_ids
 from thermodata.modelling.transfer import NAME as TRANSFER
 from thermodata.plugin import Param
-from thermodata.reader.counted import counted as in_words
+from thermodata.schema.counted import counted as in_words
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset

@@ -99,7 +99,7 @@ class Fit(Shown):
 
     def remove(self, effect: str) -> Fit:
         """A new version without an effect."""
-        from thermodata.modelling.run import remove
+        from thermodata.modelling.remove import remove
 
         return Fit(self.store, remove(self.store, self.id, effect))
 

@@ -1,0 +1,60 @@
+"""An effect taken out of a model, and the fit of before where that takes back what was added."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.errors import UsageError
+from thermodata.modelling.resolve import term_ids
+from thermodata.modelling.result import make_result
+from thermodata.modelling.run import fit, load
+from thermodata.modelling.second_lag import is_lag_of
+from thermodata.schema.model import Model
+from thermodata.schema.result import FitResult
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+def remove(store: Store, ref: str, effect: str) -> FitResult:
+    """A new version with one effect less: by its id, or its name where that is one effect only; its second lag goes
+    with it, and the others keep their ids. Where that takes back all that was added to an earlier version, it is fitted
+    as that one was; else verification tests that helped to choose what is left stay fitted. `before` has the parent's
+    scores, `notes` what went. UsageError for no such effect."""
+    from thermodata.store.catalogue.models import find_model, model_chain
+
+    parent = find_model(store, ref)
+    ids = term_ids(parent.spec.effects)
+    named = [i for i, e in zip(ids, parent.spec.effects, strict=True) if effect in (i, e.effect)]
+    of = effect if effect in ids else named[0] if len(named) == 1 else None
+    if of is None:
+        raise UsageError(
+            f"'{effect}' is {len(named)} effects of the model" if named else f"the model has no effect '{effect}'",
+            where=f"model '{parent.spec.name}'",
+            expected=", ".join(named or ids) or "a model with effects",
+            got=effect,
+        )
+    gone = [i for i in ids if i == of or is_lag_of(i, of)]
+    kept = [e.model_copy(update={"id": i}) for i, e in zip(ids, parent.spec.effects, strict=True) if i not in gone]
+    # an id that stands there by itself is not written
+    bare = [e.model_copy(update={"id": None}) if e.id == e.effect else e for e in kept]
+    effects = bare if term_ids(bare) == [e.id for e in kept] else kept
+    old = load(store, parent.model)
+    before = make_result(old.fitted, old.data, parent.model).scores
+    spec, notes = parent.spec.model_copy(update={"effects": effects}), [f"removed: {', '.join(gone)}"]
+    earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]
+    if earlier:
+        spec = earlier[-1].spec.model_copy(update={"taken_back": parent.model})
+        notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
+    elif spec.in_sample:
+        notes.append("verification tests stay fitted (in-sample), for they helped to choose what is left")
+    return fit(store, spec, parent=parent.model, before=before, notes=notes)
+
+
+def _alike(one: Model, other: Model) -> bool:
+    """Whether two versions have the same effects, however their ids are written."""
+    mine, theirs = (
+        [(i, e.model_copy(update={"id": None})) for i, e in zip(term_ids(m.effects), m.effects, strict=True)]
+        for m in (one, other)
+    )
+    return mine == theirs
