@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
 
 def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     """The seven steps; returns the demo's JSON without the seconds."""
-    from thermodata.reader.counted import counted
+    from thermodata.schema.counted import counted
 
     # the mark comes first: an interrupted demo is still known as one
     (folder / _MARK).write_text(f"thermodata demo --hide {hide} --seed {seed}\n", encoding="utf-8")

@@ -33,8 +33,8 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from thermodata.draft.answer import as_json
     from thermodata.draft.make import draft_files
     from thermodata.draft.write import one_line
-    from thermodata.reader.counted import counted
     from thermodata.reader.registry import failed_readers
+    from thermodata.schema.counted import counted
 
     made = draft_files(folder, force=force, progress=_progress(session))
     for before, after in made.kept:

@@ -48,7 +48,7 @@ def _next_step(store: Store, name: str, campaign: Path) -> str | None:
 
 def ingest_text(summary: dict[str, Any]) -> str:
     """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
-    from thermodata.reader.counted import counted
+    from thermodata.schema.counted import counted
 
     flags = {name: n for name, n in summary["flags"].items() if n}
     parts = [

@@ -92,7 +92,7 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
 
 def preview_text(found: dict[str, Any]) -> str:
     """A preview for a person."""
-    from thermodata.reader.counted import counted
+    from thermodata.schema.counted import counted
 
     campaign = found["campaign"]
     said = (
@@ -134,7 +134,7 @@ def preview_text(found: dict[str, Any]) -> str:
 
 
 def _stream(s: dict[str, Any]) -> list[str]:
-    from thermodata.reader.counted import counted
+    from thermodata.schema.counted import counted
 
     rate = (
         "no rows"

@@ -20,7 +20,7 @@ from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.known import FloatND
 from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 

@@ -8,7 +8,7 @@ from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.probability import elsewhere
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.unread import reads
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.schema.places import heat_at, is_around
 from thermodata.view.dataset import ChannelInfo

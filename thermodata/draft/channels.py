@@ -23,12 +23,12 @@ from thermodata.draft.sources import Group
 from thermodata.draft.units import rate_at_end
 from thermodata.draft.values import Values, in_unit, joined
 from thermodata.plugin import Signal
-from thermodata.reader.counted import counted
 from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.quality_columns import QUALITY_OF
+from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000

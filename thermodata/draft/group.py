@@ -10,7 +10,7 @@ from itertools import pairwise
 from thermodata.draft.filenames import Naming, matches, namings, normal
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 
 _NEAR_NS = 15 * 60 * 1_000_000_000
 _HOUR_NS = 3_600_000_000_000

@@ -11,9 +11,9 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.guess import NUMBERED
 from thermodata.draft.raw_file import Asked, RawFile, described_files, sample_of_file
 from thermodata.errors import ThermodataError
-from thermodata.reader.counted import counted
 from thermodata.reader.registry import reader
 from thermodata.reader.text.find_table import open_table
+from thermodata.schema.counted import counted
 
 _NUMBER = re.compile(r"[\W_]*\d+\)?")
 

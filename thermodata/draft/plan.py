@@ -43,7 +43,7 @@ from thermodata.draft.speeds_told import with_told_speeds
 from thermodata.draft.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
 from thermodata.draft.twin_probes import each_its_own
 from thermodata.draft.warm import warm_starts
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:

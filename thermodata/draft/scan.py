@@ -19,8 +19,8 @@ from thermodata.draft.raw_file import RawFile, claimant, described_file, sample_
 from thermodata.draft.sample import SMALL, Watch, short
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
-from thermodata.reader.counted import counted
 from thermodata.reader.stores import within_stores
+from thermodata.schema.counted import counted
 from thermodata.schema.lines import is_text
 
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder

@@ -10,9 +10,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
-from thermodata.reader.counted import counted
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import Parting, bare_header, series_columns, words_of
+from thermodata.schema.counted import counted
 
 SERIES = "series"  # the property of a signal that says which it is of
 NEVER = "none"  # declared: rows are of one series

@@ -8,12 +8,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.reader.counted import counted
 from thermodata.report.causes import Cause, by_cause
 from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, draw_test, when
 from thermodata.report.words import duration, typeset
 from thermodata.report.write import page_values, write_page
+from thermodata.schema.counted import counted
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 
 if TYPE_CHECKING:

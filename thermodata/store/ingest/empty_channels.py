@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from thermodata.reader.counted import counted
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.counted import counted
 from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, loss_row
 from thermodata.store.tidy.derive import names

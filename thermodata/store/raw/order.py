@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.store.raw.clock_faults import MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000

@@ -8,8 +8,8 @@ from pathlib import Path
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.counted import counted
 from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
+from thermodata.schema.counted import counted
 from thermodata.schema.quantity import converts, linear_conversion
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive

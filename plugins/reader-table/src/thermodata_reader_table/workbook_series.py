@@ -6,9 +6,9 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.counted import counted
 from thermodata.reader.series import SERIES, Declaration, find_series
 from thermodata.reader.zone import NAT
+from thermodata.schema.counted import counted
 from thermodata_reader_table.workbook_sheet import Stream
 
 

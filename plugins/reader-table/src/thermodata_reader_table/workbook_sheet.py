@@ -12,7 +12,6 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
-from thermodata.reader.counted import counted
 from thermodata.reader.text.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.cell import is_empty
 from thermodata.reader.text.clock_numbers import clock_of_numbers
@@ -35,6 +34,7 @@ from thermodata.reader.text.zone_named import named_note
 from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
+from thermodata.schema.counted import counted
 from thermodata_reader_table.workbook_days import local_times
 from thermodata_reader_table.workbook_start import begun
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.counted import counted
 from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text.delimiter import fields
 from thermodata.reader.text.lines import chunks, from_line, sample, split_last_line
@@ -23,6 +22,7 @@ from thermodata.reader.text.number import clean, is_number, to_float
 from thermodata.reader.text.time_header import unit_of_time
 from thermodata.reader.time_units import SECONDS, check_unit, to_ns
 from thermodata.reader.zone import NAT
+from thermodata.schema.counted import counted
 from thermodata_reader_cnc.number_rows import everywhere, number_rows
 
 STREAM = "trace"

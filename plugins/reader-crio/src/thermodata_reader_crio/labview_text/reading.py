@@ -10,10 +10,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.counted import counted
 from thermodata.reader.text.grid import Grid, Rows
 from thermodata.reader.text.lines import ODD, Chunk, chunks, sample, without_cut_line
 from thermodata.reader.text.rows import parse
+from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns

@@ -9,7 +9,7 @@ from typing import BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Source
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.file import File, open_file

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Source
-from thermodata.reader.counted import counted
+from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import U64, Batch

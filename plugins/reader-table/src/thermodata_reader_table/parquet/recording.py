@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.counted import counted
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text import split_unit
 from thermodata.reader.zone import NAT
+from thermodata.schema.counted import counted
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table, damage_as_format_error
 
