@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -13,20 +13,19 @@ from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text import delimiter as delimiters
 from thermodata.reader.text.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
-from thermodata.reader.text.cell import number_of
-from thermodata.reader.text.changed_cells import KEY as STANDING
-from thermodata.reader.text.changed_cells import declared_standing, find_standing
 from thermodata.reader.text.columns import ask_for_thousands, dtype_of, find_decimal
-from thermodata.reader.text.date_parts import PART, column_times, row_time
-from thermodata.reader.text.days import NOTE, STANDS, filled, have_days, is_once, stands
+from thermodata.reader.text.date_parts import PART
+from thermodata.reader.text.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.foreign_texts import refuse_foreign
 from thermodata.reader.text.grid import TIME
 from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
-from thermodata.reader.text.quality_columns import Pairs, quality_pairs, worded
+from thermodata.reader.text.quality_columns import quality_pairs, worded
 from thermodata.reader.text.row_series import with_series
+from thermodata.reader.text.sampled_cells import sampled_cells, still_going
+from thermodata.reader.text.standing_columns import standing_columns
 from thermodata.reader.text.status import declared_zero
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
@@ -34,12 +33,10 @@ from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.unit_column import unit_column
 from thermodata.reader.text.zone_named import zones_said
 from thermodata.reader.text.zone_words import stated_zone
-from thermodata.reader.zone import NAT
 
 _HEAD_LINES = 500  # in which the layout shows
 _HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
-_FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load
 
 
 def open_table(path: Path, source: Source, stream: str = STREAM) -> Table:
@@ -137,7 +134,7 @@ def find_table(
     groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
     lines = map(cells, head[: layout.first])
     groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
-    cells_of = _cells_of(layout, groups, body)
+    cells_of = sampled_cells(layout, groups, body)
     own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
     quality = quality_pairs(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
@@ -170,7 +167,7 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
-    standing, standing_note = _standing(said, layout, groups, kinds, cells_of, quality, where)
+    standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
     if not any(g.absolute for g in groups):
@@ -216,42 +213,6 @@ def find_table(
     )
 
 
-def _standing(
-    said: Mapping[str, Any],
-    layout: Layout,
-    groups: Sequence[TimedGroup],
-    kinds: Sequence[str | None],
-    cells_of: Mapping[str, Sequence[str]],
-    quality: Pairs,
-    where: str,
-) -> tuple[frozenset[int], str | None]:
-    """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell. The
-    quality of such a value stands as it does, or a bad one would be good from the next row on."""
-    names = [layout.names[i] for g in groups for i in g.group.columns if kinds[i] is not None]
-    qualities = {own for own, _ in quality.values()}
-    told = declared_standing(said.get(STANDING), names, where)
-    note = None
-    if told is None:
-        if len(groups) > 1 or groups[0].group.counted or _runs_back(groups[0], layout, cells_of):
-            return frozenset(), None
-        told, note = find_standing({name: cells_of[name] for name in names if name not in qualities})
-    told |= {own for value, (own, _) in quality.items() if value in told}
-    return frozenset(i for i, name in enumerate(layout.names) if name in told), note
-
-
-def _runs_back(timed: TimedGroup, layout: Layout, cells_of: Mapping[str, Sequence[str]]) -> bool:
-    """Whether a table stands newest first: there a value does not stand over the cells below it."""
-    columns = [cells_of[layout.names[i]] for i in timed.group.time]
-    ends = ([c[0] for c in columns], [c[-1] for c in columns]) if columns and columns[0] else None
-    if ends is None:
-        return False
-    if timed.formats:
-        first, last = (row_time(cells, timed.formats) for cells in ends)
-        return NAT not in (first, last) and last < first
-    first_s, last_s = (number_of(cells[0]) for cells in ends)
-    return first_s is not None and last_s is not None and last_s < first_s
-
-
 def _records(lines: Sequence[str]) -> list[str]:
     """The lines, those of a header whose cells go over several joined: at the last of them, the others blank, so that
     lines keep their numbers."""
@@ -288,47 +249,16 @@ def _timed(
         return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
     def more(k: int) -> list[str]:
-        rows = _still_going(map(cells, (*head[layout.first :], *first.rest)), group, layout)
+        rows = still_going(map(cells, (*head[layout.first :], *first.rest)), group, layout)
         return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
 
-    columns = [[r[i] for r in _still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
+    columns = [[r[i] for r in still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]
     names = [layout.names[i] for i in group.time]
     once = len(columns) > 1 and is_once(columns[0])
     if once:
         columns[0] = [c for c in columns[0] if clean(c)]
     forms = find_formats(names, columns, group.form, where, more)
     return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
-
-
-def _still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
-    """The rows in which a group has a time. Groups have lengths of their own: beside those that go on, one that has
-    ended is empty, which says nothing of how its times are written."""
-    if len(layout.groups) < 2:
-        return list(rows)
-    return [r for r in rows if any(clean(r[i]) for i in group.time if i < len(r))]
-
-
-def _cells_of(layout: Layout, groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> dict[str, list[str]]:
-    """The cells of each column by its name, in the rows that have a time for it."""
-    found: dict[int, list[str]] = {}
-    for timed in groups:
-        dated = _dated(_still_going(body, timed.group, layout), timed)
-        found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
-    return {name: found[i] for i, name in enumerate(layout.names)}
-
-
-def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
-    """The rows whose times can be read."""
-    if not timed.formats:
-        return list(body)
-    if timed.once:
-        date = timed.group.time[0]
-        days = filled([r[date] for r in body])
-        body = [[*r[:date], day, *r[date + 1 :]] for r, day in zip(body, days, strict=True)]
-    if len(body) < _FEW_ROWS:
-        return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
-    read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
-    return [r for r, good in zip(body, read.tolist(), strict=True) if good]
 
 
 def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
