@@ -80,6 +80,14 @@ def test_without_dates_names_of_tests_stay_tests(tmp_path: Path, say: Say) -> No
     assert len(_ids(_drafted(tmp_path, say))) == 6
 
 
+def test_without_dates_places_alone_may_be_tests(tmp_path: Path, say: Say) -> None:
+    """A test of the spindle and one of the X axis, on two machines: nothing says that these are sensors."""
+    for machine in ("M1", "M2"):
+        for test in ("spindle", "axis_X"):
+            _write(tmp_path / machine / f"{test}.csv", None, 0.0, 0.1, "time [s],value")
+    assert len(_ids(_drafted(tmp_path, say))) == 4
+
+
 def test_a_start_in_names_counts_beside_loggers_that_have_dates(tmp_path: Path, say: Say) -> None:
     for day, test in enumerate(("prova_A", "prova_B")):
         begin = START + timedelta(days=day)

@@ -109,7 +109,8 @@ def _by_names(
     of_test: dict[str, dict[str, RawFile]],
 ) -> bool:
     """Whether files without dates, one reading each, are of sensors: folders whose files are called as a place or a
-    quantity, and hold a bare value, or one that is called otherwise in each."""
+    quantity, and hold a bare value, or one that is called otherwise in each. Where none is called as a quantity
+    ('spindle', 'axis_X') they may be tests of these."""
     own: dict[str, set[str]] = defaultdict(set)
     for sensor, file in (item for named in of_test.values() for item in named.items()):
         own[sensor] |= {s.name for s in _readings(file)}
@@ -120,12 +121,18 @@ def _by_names(
     names = [name for found in own.values() for name in found]
     if len(set(names)) == len(names):
         return True
-    return all(map(says_nothing, names)) and all(map(_is_of_a_machine, tests_of))
+    measured = any(map(_measured, tests_of))
+    return measured and all(map(says_nothing, names)) and all(map(_is_of_a_machine, tests_of))
+
+
+def _measured(name: str) -> set[str]:
+    """The quantities that it names; 'run' is a state, or a test."""
+    return {*quantities_in(words(name))} - {"state"}
 
 
 def _is_of_a_machine(name: str) -> bool:
     said = words(name)
-    return bool(places_in(said) or {*quantities_in(said)} - {"state"} or axis_of(said))  # 'run' is a state, or a test
+    return bool(places_in(said) or _measured(name) or axis_of(said))
 
 
 def _of_sensor(file: RawFile, sensor: str, shared: Container[str]) -> RawFile:
