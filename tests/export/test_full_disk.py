@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -64,3 +65,14 @@ def test_a_folder_that_is_a_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(ThermodataError, match="cannot be written") as error, whole_file(tmp_path / "a" / "b.csv"):
         raise AssertionError("nothing can be written there")
     assert error.value.where == str(tmp_path / "a" / "b.csv")
+
+
+def test_a_file_is_on_the_disk_before_it_has_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A power cut after the renaming would else leave an empty file."""
+    target, there = tmp_path / "a.csv", []
+    sync = os.fsync
+    monkeypatch.setattr(os, "fsync", lambda fd: (there.append(target.exists()), sync(fd)))
+    with whole_file(target) as part:
+        part.write_text("x")
+    assert there[0] is False
+    assert target.read_text() == "x"
