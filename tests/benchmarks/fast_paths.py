@@ -51,11 +51,13 @@ class FastPath:
 
 
 FAST: dict[str, FastPath] = {
-    "control csv": FastPath(("thermodata.reader.text.rows", "_typed"), "none", ("cnc_csv", "trace_csv"), "control_csv"),
-    "lvm": FastPath(("thermodata.reader.text.rows", "_typed"), "none", ("lvm",), "lvm"),
-    "csv": FastPath(("thermodata.reader.text.rows", "_typed"), "none", ("table_csv",), "csv"),
+    "control csv": FastPath(
+        ("thermodata.reader.text.rows.typed", "_typed"), "none", ("cnc_csv", "trace_csv"), "control_csv"
+    ),
+    "lvm": FastPath(("thermodata.reader.text.rows.typed", "_typed"), "none", ("lvm",), "lvm"),
+    "csv": FastPath(("thermodata.reader.text.rows.typed", "_typed"), "none", ("table_csv",), "csv"),
     "csv as text": FastPath(
-        ("thermodata.reader.text.rows", "_as_text"), "none", ("table_csv", "cnc_csv", "lvm"), "csv"
+        ("thermodata.reader.text.rows.typed", "_as_text"), "none", ("table_csv", "cnc_csv", "lvm"), "csv"
     ),
     "mcap json": FastPath(
         ("thermodata_reader_mcap.encodings.json.arrow", "_by_arrow"),

@@ -3,7 +3,7 @@
     uv run --with charset-normalizer python tests/benchmarks/letters.py
 
 Each line stands above 200 rows of numbers, as in a log. "asked" is a refusal that asks for the encoding. The lines were
-written after the word lists of `thermodata/reader/text/letters.py`, and are not taken into them.
+written after the word lists of `thermodata/reader/text/file/letters.py`, and are not taken into them.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from thermodata.draft.guess import guess
 from thermodata.draft.make import draft_files
 from thermodata.draft.parts import DraftChannel
 from thermodata.draft.values import values_of
-from thermodata.reader.text.header_rows import names_and_units
+from thermodata.reader.text.names.header_rows import names_and_units
 
 UNITS = ["s", "°C", "°C", "mm", "mm"]
 NAMES = ["Time", "front", "hall", "X", "Z"]

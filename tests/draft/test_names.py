@@ -13,7 +13,7 @@ from thermodata.draft.guess import guess
 from thermodata.draft.languages import LANGUAGES
 from thermodata.draft.values import values_of
 from thermodata.draft.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
-from thermodata.reader.text.header import split_unit
+from thermodata.reader.text.names.header import split_unit
 
 NAMES = Path(__file__).with_name("names.txt")
 LANGUAGE_NAMES = Path(__file__).with_name("names_of_languages.txt")

@@ -11,7 +11,7 @@ import pytest
 from thermodata.draft.make import draft_files
 from thermodata.draft.raw_file import described_files
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
-from thermodata.reader.text.begin import EITHER
+from thermodata.reader.text.preamble.begin import EITHER
 
 
 def asked(folder: Path, earlier_s: int, *, dated: bool = True) -> list[str]:

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.reader.text.grid import Grid
-from thermodata.reader.text.lines import chunks, without_cut_line
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.file.lines import chunks, without_cut_line
+from thermodata.reader.text.rows.grid import Grid
+from thermodata.reader.text.rows.typed import parse
 
 KINDS = ("float64", "float64", "str")
 
@@ -62,7 +62,8 @@ def test_chunks_of_any_size_hold_whole_lines(tmp_path: Path, size: int) -> None:
 def test_a_part_that_reads_at_once_imports_no_pandas() -> None:
     # Arrow may still start a thread when so short a process ends, which aborts it (1 of 200 on a busy machine)
     code = (
-        "import os, sys; from thermodata.reader.text.grid import Grid; from thermodata.reader.text.rows import parse; "
+        "import os, sys; from thermodata.reader.text.rows.grid import Grid; "
+        "from thermodata.reader.text.rows.typed import parse; "
         "r = parse(b'1;2;a\\n3;;b\\n', 0, Grid(';', '.', ('float64', 'int64', 'str'))); "
         "assert r.columns[1].empty.tolist() == [False, True]; assert 'pandas' not in sys.modules; os._exit(0)"
     )

@@ -27,7 +27,7 @@ from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import bare_header
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.quality_columns import QUALITY_OF
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 

@@ -12,7 +12,7 @@ from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.sources import Group
 from thermodata.errors import ThermodataError
-from thermodata.reader.text.zone_named import OPEN
+from thermodata.reader.text.tables.zone_named import OPEN
 from thermodata.store.ingest.repeated_times import MANY
 from thermodata.store.tidy.times_of_day import began, first_of
 

@@ -12,7 +12,7 @@ from thermodata.draft.guess import NUMBERED
 from thermodata.draft.raw_file import Asked, RawFile, described_files, sample_of_file
 from thermodata.errors import ThermodataError
 from thermodata.reader.registry import reader
-from thermodata.reader.text.find_table import open_table
+from thermodata.reader.text.tables.find_table import open_table
 from thermodata.schema.counted import counted
 
 _NUMBER = re.compile(r"[\W_]*\d+\)?")

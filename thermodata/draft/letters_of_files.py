@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from thermodata.reader.text.east_asia import east_asian
+from thermodata.reader.text.file.east_asia import east_asian
 
 _HEAD = 128 * 1024
 _PLAIN = "utf-8"

@@ -18,7 +18,7 @@ from thermodata.reader.explain import kind_of, why_no_table
 from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
-from thermodata.reader.text.begin import EITHER, NOT_TAKEN
+from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
 
 _MOST_QUESTIONS = 4
 _ASSUMED = "counted as 1 s each|taken as seconds from a start|changes its distance from them"

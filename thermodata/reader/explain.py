@@ -13,8 +13,8 @@ from thermodata.reader.archives import packed
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
-from thermodata.reader.text.delimiter import BLANKS, find_delimiter
-from thermodata.reader.text.foreign_texts import foreign_text
+from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
+from thermodata.reader.text.file.foreign_texts import foreign_text
 
 # First bytes of what lies in folders of logs without being one
 _MAGIC: tuple[tuple[bytes, str], ...] = (

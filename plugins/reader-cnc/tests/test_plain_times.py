@@ -83,7 +83,7 @@ def local_rows(first: str, last: str, zone: str, step_s: int) -> list[str]:
 def test_daylight_saving_is_resolved_across_chunks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, first: str, last: str, chunk: int
 ) -> None:
-    from thermodata.reader.text import lines
+    from thermodata.reader.text.file import lines
 
     monkeypatch.setattr(lines.chunks, "__defaults__", (chunk,))
     path = write(tmp_path, "Datum;Uhrzeit;k\n" + "\n".join(local_rows(first, last, "Europe/Prague", 30)) + "\n")

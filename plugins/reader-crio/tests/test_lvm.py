@@ -11,7 +11,7 @@ from thermodata_reader_crio.lvm import scan
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
-from thermodata.reader.text import odd_rows, rows
+from thermodata.reader.text.rows import odd_rows, typed
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load
 
@@ -232,14 +232,14 @@ def test_the_fast_and_the_slow_parser_agree() -> None:
         f"{i / 10:.6f}\t{v!r}\t{'' if i % 7 == 0 else f'{w:.3E}'}" + ("\r\n" if i % 2 else "\n")
         for i, (v, w) in enumerate(rng.normal(size=(400, 2)).tolist())
     ]
-    grid = rows.Grid("\t", ".", ("float64",) * 3, blank_rows=True)
+    grid = typed.Grid("\t", ".", ("float64",) * 3, blank_rows=True)
     data = "".join(lines).encode()
-    fast, slow = rows._typed(data, 0, grid), odd_rows.line_by_line(data, 0, grid)
+    fast, slow = typed._typed(data, 0, grid), odd_rows.line_by_line(data, 0, grid)
     assert fast is not None
     for c in range(3):
         np.testing.assert_array_equal(fast.columns[c].values, slow.columns[c].values)
     # one odd line in many: all others come as they are
-    mixed = rows.parse(b"".join([*map(str.encode, lines[:200]), b"x\ty\n", *map(str.encode, lines[200:])]), 0, grid)
+    mixed = typed.parse(b"".join([*map(str.encode, lines[:200]), b"x\ty\n", *map(str.encode, lines[200:])]), 0, grid)
     np.testing.assert_array_equal(mixed.columns[1].values, slow.columns[1].values)
     assert [bad.line for bad in mixed.bad] == [200]
 

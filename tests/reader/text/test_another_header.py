@@ -9,7 +9,7 @@ import pytest
 from thermodata_reader_table import Reader
 
 from thermodata.plugin import Source
-from thermodata.reader.text.lines import chunks
+from thermodata.reader.text.file.lines import chunks
 from thermodata.testing.reader import Data, load
 
 

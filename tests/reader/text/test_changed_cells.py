@@ -11,7 +11,7 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.changed_cells import Standing, declared_standing, find_standing
+from thermodata.reader.text.rows.changed_cells import Standing, declared_standing, find_standing
 from thermodata.schema.flag import Flag
 
 N = 600

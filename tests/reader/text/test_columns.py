@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.columns import dtype_of, find_decimal
-from thermodata.reader.text.number import EXACT
+from thermodata.reader.text.cells.number import EXACT
+from thermodata.reader.text.tables.columns import dtype_of, find_decimal
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Source
 from thermodata.reader.text.delimited import blocks, describe, open_table, signals
-from thermodata.reader.text.lines import chunks
+from thermodata.reader.text.file.lines import chunks
 from thermodata.schema.flag import Flag
 
 S = 1_000_000_000

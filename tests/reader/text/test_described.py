@@ -6,7 +6,7 @@ import csv
 
 import pytest
 
-from thermodata.reader.text.layout import Layout, find
+from thermodata.reader.text.page.layout import Layout, find
 
 GRAPHTEC = """\
 "Vendor","GRAPHTEC Corporation"

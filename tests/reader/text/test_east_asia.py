@@ -8,8 +8,8 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import decode
-from thermodata.reader.text.east_asia import east_asian
-from thermodata.reader.text.encoding import decode_head, file_encoding
+from thermodata.reader.text.file.east_asia import east_asian
+from thermodata.reader.text.file.encoding import decode_head, file_encoding
 
 _JAPANESE = [
     "時刻,①変位Z(μm),②主軸前部軸受温度(℃),№3 室温(℃)",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.footer import footer_notes, is_footer
+from thermodata.reader.text.rows.footer import footer_notes, is_footer
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.explain import explain
-from thermodata.reader.text.find_table import open_table
-from thermodata.reader.text.foreign_texts import foreign_text
+from thermodata.reader.text.file.foreign_texts import foreign_text
+from thermodata.reader.text.tables.find_table import open_table
 
 LINES = "\n".join(f"probe,machine=MC5,unit=mm z=0.00014{i},y=-0.0001 178898580{i}000" for i in range(9)) + "\n"
 STRINGS = "\n".join(f'log,host=a\\ b text="one, two",n={i}i' for i in range(9)) + "\n"

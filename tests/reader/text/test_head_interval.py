@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import QuestionError
-from thermodata.reader.text.layout import find
+from thermodata.reader.text.page.layout import find
 
 ROWS = [[str(k), f"{21 + k / 10:.1f}", "0.5"] for k in range(1, 40)]
 HEAD = [["Scan", "T front", "dZ"]]

@@ -10,7 +10,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.head_start import head_start
+from thermodata.reader.text.preamble.head_start import head_start
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
 NUMBERS = ["Zeit [s];T1 [°C];T2 [°C]", *(f"{60 * i}.0;{20 + i / 10:.1f};2{i % 9}.0" for i in range(40))]

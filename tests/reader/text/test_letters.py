@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import decode, decode_head
-from thermodata.reader.text.encoding import find_encoding
+from thermodata.reader.text.file.encoding import find_encoding
 
 WESTERN = {
     "French": "Pièce Entrée Poupée Température Palier.arrière Glissière.Z Écrou.Y Bâti Extérieur "

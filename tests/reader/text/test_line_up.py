@@ -9,9 +9,9 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.text.find_table import find_table
-from thermodata.reader.text.lines import Sample
-from thermodata.reader.text.table import Table
+from thermodata.reader.text.file.lines import Sample
+from thermodata.reader.text.tables.find_table import find_table
+from thermodata.reader.text.tables.table import Table
 
 DAY = "2026-03-14"
 

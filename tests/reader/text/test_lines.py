@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from thermodata.reader.text.lines import Chunk, chunks, last_line_is_whole, sample
+from thermodata.reader.text.file.lines import Chunk, chunks, last_line_is_whole, sample
 
 LINES = st.lists(st.text(alphabet='ab;1,5 žé°µ\t"', max_size=12), max_size=10)
 ENCODINGS = ["utf-8", "utf-8-sig", "cp1250", "utf-16", "utf-16-le", "utf-16-be"]

@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from thermodata.reader.text.local_clock import DayCount, LocalClock
+from thermodata.reader.text.times.local_clock import DayCount, LocalClock
 from thermodata.reader.zone import NAT
 
 S = 1_000_000_000

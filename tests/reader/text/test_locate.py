@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.text.lines import chunks, from_line, split_last_line
-from thermodata.reader.text.locate import line_of, lines_of
+from thermodata.reader.text.file.lines import chunks, from_line, split_last_line
+from thermodata.reader.text.file.locate import line_of, lines_of
 
 
 def block(stream: str, *at: int) -> Block:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.text.losses import NAMED, Losses
+from thermodata.reader.text.file.losses import NAMED, Losses
 
 
 @pytest.mark.parametrize(

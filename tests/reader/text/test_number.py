@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.number import (
+from thermodata.reader.text.cells.number import (
     EXACT,
     clean,
     is_empty,
@@ -215,7 +215,7 @@ def test_what_counts_as_a_number_for_a_layout() -> None:
 
 
 def test_both_marks_in_a_file_are_refused() -> None:
-    from thermodata.reader.text.number import decimal_mark
+    from thermodata.reader.text.cells.number import decimal_mark
 
     assert decimal_mark(["1", "2"]) is None
     assert decimal_mark(["1.5", "2"]) == "."

@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 
 import pytest
 
-from thermodata.reader.text.odd_stamps import guess_format
+from thermodata.reader.text.times.odd_stamps import guess_format
 
 FIRST = datetime(2026, 3, 2, 8)
 

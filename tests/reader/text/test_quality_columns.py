@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.text.quality_columns import bad_rows, quality_pairs, worded
-from thermodata.reader.text.status import BAD, declared_zero, tells_quality, zero_is_good
+from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
+from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, worded
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.text.grid import Grid
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.rows.grid import Grid
+from thermodata.reader.text.rows.typed import parse
 
 
 @pytest.mark.parametrize("ending", [b"", b'1;"2\n3"\n'], ids=["by Arrow", "line by line"])

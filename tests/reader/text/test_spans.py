@@ -13,7 +13,7 @@ import pytest
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.spans import SPAN, are_spans, is_span
+from thermodata.reader.text.times.spans import SPAN, are_spans, is_span
 from thermodata.reader.zone import NAT
 
 ROWS, START_S = 300, 86_400 - 1_000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.layout import find
+from thermodata.reader.text.page.layout import find
 
 HEAD = """\
 "testo 176 T4";;;

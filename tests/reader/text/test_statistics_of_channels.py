@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.header_rows import names_and_units
+from thermodata.reader.text.names.header_rows import names_and_units
 
 
 @pytest.mark.parametrize(

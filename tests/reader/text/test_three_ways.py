@@ -11,10 +11,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from thermodata.reader.text.grid import TIME, Grid, Rows
-from thermodata.reader.text.number import clean, to_float
-from thermodata.reader.text.odd_rows import line_by_line
-from thermodata.reader.text.rows import _as_text, _typed, parse
+from thermodata.reader.text.cells.number import clean, to_float
+from thermodata.reader.text.rows.grid import TIME, Grid, Rows
+from thermodata.reader.text.rows.odd_rows import line_by_line
+from thermodata.reader.text.rows.typed import _as_text, _typed, parse
 
 FIRST = 17  # the line of the file that a part begins with
 KINDS = (TIME, "float64", "str", "int64", "bool")

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.time_pattern import (
+from thermodata.reader.text.cells.time_pattern import (
     DATE,
     DATETIME,
     MILLISECOND,
@@ -22,7 +22,7 @@ from thermodata.reader.text.time_pattern import (
     is_zoned,
     with_zone,
 )
-from thermodata.reader.text.timestamp import offset_ns, parse, parse_one
+from thermodata.reader.text.times.timestamp import offset_ns, parse, parse_one
 from thermodata.reader.zone import NAT
 
 S = 1_000_000_000

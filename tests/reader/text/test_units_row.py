@@ -7,7 +7,7 @@ import pytest
 from thermodata.draft.guess import guess
 from thermodata.draft.values import values_of
 from thermodata.plugin import Array
-from thermodata.reader.text.header_rows import names_and_units
+from thermodata.reader.text.names.header_rows import names_and_units
 
 
 def _layout(names: str, units: str, *more: str) -> dict[str, str | None]:

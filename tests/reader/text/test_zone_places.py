@@ -9,7 +9,7 @@ import pytest
 from thermodata.draft.make import draft_files
 from thermodata.plugin import Recording, Source
 from thermodata.reader.text import delimited
-from thermodata.reader.text.zone_places import places_above, without_places
+from thermodata.reader.text.preamble.zone_places import places_above, without_places
 
 HOUR = 3600 * 10**9
 EIGHT = 1772438400 * 10**9  # 2026-03-02 08:00 UTC

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.reader.text.time_columns import find_time, time_of
+from thermodata.reader.text.clocks.time_columns import find_time, time_of
 
 LOCAL = [f"2026-03-02 08:{m:02d}:00" for m in range(40)]
 UTC = [f"2026-03-02 07:{m:02d}:00" for m in range(40)]

@@ -1,20 +1,24 @@
 """Delimited text and its like, read in one place: every reader of text puts these parts together.
 
-- what a file is made of: `encoding`, `lines` (whole lines in UTF-8, in bounded memory), `delimiter`;
-- what a cell is: `number` (the one policy a cell), `timestamp`, `cell` (what a cell looks like), `status`;
-- where things stand: `header` (names and units), `time_header`, `time_columns`, `time_groups`, `time_formats`,
-  `time_questions` (what to ask where they are not said), `layout`, `columns`;
-- rows: `grid` (how they lie, what they give), `rows` (typed columns, each row with its line), `arrow`;
-- a whole table: `table` (the first look), `table_rows`, `quality_columns`, `local_clock`, `losses`, `delimited`
-  (described and read), `claim` (is it one?), `locate` (where a row stands).
+Each room stands on those above it:
+
+- `file`: a text before it is a table: its encoding, whole lines in bounded memory, where a row stands, losses;
+- `cells`: what stands between cells, and what one says: `number` (the one policy a cell), `time_pattern`, `status`;
+- `names`: what a header says: names and units, which column is called a time, which rows are a header;
+- `times`: how times are written in a column, and what they say in nanoseconds;
+- `preamble`: what the lines above a table say of its times; `clocks`: which of its columns are times;
+- `rows`: typed columns, each row with its line; `page`: how a table lies on its page;
+- `tables`: a whole table: the first look that finds it, and its rows in blocks.
+
+`delimited` describes and reads a file with all of them; `claim` says whether it is a table.
 """
 
 from __future__ import annotations
 
-from thermodata.reader.text.encoding import decode, decode_head, file_encoding, find_encoding
-from thermodata.reader.text.header import looks_like_unit, split_unit
-from thermodata.reader.text.lines import last_line_is_whole
-from thermodata.reader.text.number import clean, decimal_mark
+from thermodata.reader.text.cells.number import clean, decimal_mark
+from thermodata.reader.text.file.encoding import decode, decode_head, file_encoding, find_encoding
+from thermodata.reader.text.file.lines import last_line_is_whole
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.zone import local_to_utc_ns
 
 __all__ = [

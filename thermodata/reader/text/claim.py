@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 
 from thermodata.plugin import Head, Source
-from thermodata.reader.text.encoding import decode_head
-from thermodata.reader.text.find_table import find_table
-from thermodata.reader.text.layout import STREAM
-from thermodata.reader.text.lines import Sample
-from thermodata.reader.text.table import Table
+from thermodata.reader.text.file.encoding import decode_head
+from thermodata.reader.text.file.lines import Sample
+from thermodata.reader.text.page.layout import STREAM
+from thermodata.reader.text.tables.find_table import find_table
+from thermodata.reader.text.tables.table import Table
 
 
 def head_lines(head: Head) -> tuple[str, ...]:

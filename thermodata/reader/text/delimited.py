@@ -14,16 +14,16 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.series import TakenApart
-from thermodata.reader.text.delimiter import fields, parted_bytes
-from thermodata.reader.text.find_table import open_table
-from thermodata.reader.text.footer import footer_notes
-from thermodata.reader.text.lines import Chunk, chunks
-from thermodata.reader.text.local_clock import DayCount
-from thermodata.reader.text.number import clean
-from thermodata.reader.text.quality_columns import QUALITY_OF
-from thermodata.reader.text.table import Table
-from thermodata.reader.text.table_rows import RowReader
-from thermodata.reader.text.unit_column import in_one_unit
+from thermodata.reader.text.cells.delimiter import fields, parted_bytes
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.file.lines import Chunk, chunks
+from thermodata.reader.text.names.unit_column import in_one_unit
+from thermodata.reader.text.rows.footer import footer_notes
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF
+from thermodata.reader.text.tables.find_table import open_table
+from thermodata.reader.text.tables.table import Table
+from thermodata.reader.text.tables.table_rows import RowReader
+from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.time_units import EPOCHS
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.text.number import is_empty, is_overload
+from thermodata.reader.text.cells.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import canonical
 from thermodata.store.tidy import derive

@@ -9,7 +9,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table
-from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.file.locate import line_of
 
 STREAM = "nc"
 EXAMPLE = (

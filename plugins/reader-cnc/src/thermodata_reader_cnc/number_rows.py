@@ -1,6 +1,6 @@
 """Tables in which a row counts as a whole: every cell is a number or empty, else the line is no row.
 
-So it is where a row is one sample of all signals that a control took together; `thermodata.reader.text.rows` says
+So it is where a row is one sample of all signals that a control took together; `thermodata.reader.text.rows.typed` says
 what a number is.
 """
 
@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D
-from thermodata.reader.text.grid import BadLine, Grid
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.rows.grid import BadLine, Grid
+from thermodata.reader.text.rows.typed import parse
 from thermodata.schema.flag import Flag
 
 _SHOWN = 200  # characters of a line that is no row

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Protocol
 
 from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Recording, Source
-from thermodata.reader.text.encoding import decode_head
+from thermodata.reader.text.file.encoding import decode_head
 from thermodata_reader_crio import labview_text, lvm, tdms
 
 

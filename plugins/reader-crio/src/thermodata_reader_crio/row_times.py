@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D
-from thermodata.reader.text.time_pattern import TIME_OF_DAY, declared_format, with_zone
-from thermodata.reader.text.timestamp import parse_one
+from thermodata.reader.text.cells.time_pattern import TIME_OF_DAY, declared_format, with_zone
+from thermodata.reader.text.times.timestamp import parse_one
 from thermodata.reader.time_units import to_ns
 from thermodata.reader.zone import NAT, local_to_utc_ns
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS

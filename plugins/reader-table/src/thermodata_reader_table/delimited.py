@@ -9,7 +9,7 @@ from thermodata.errors import QuestionError, ThermodataError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table, head_lines
-from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.file.locate import line_of
 
 _TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
 _FEWEST_LINES = 10

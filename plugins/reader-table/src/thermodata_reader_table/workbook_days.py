@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.text import timestamp
-from thermodata.reader.text.cell import is_empty
-from thermodata.reader.text.days import Days
-from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.time_pattern import TIME_OF_DAY
+from thermodata.reader.text.cells.cell import is_empty
+from thermodata.reader.text.cells.time_pattern import TIME_OF_DAY
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.days import Days
+from thermodata.reader.text.times.time_formats import find_format
 from thermodata.reader.zone import NAT
 
 _MICRO = dt.timedelta(microseconds=1)

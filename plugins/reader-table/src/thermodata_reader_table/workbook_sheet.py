@@ -12,17 +12,19 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
-from thermodata.reader.text.another_header import another_in_sheet, repeated_in_sheet
-from thermodata.reader.text.cell import is_empty
-from thermodata.reader.text.clock_numbers import clock_of_numbers
-from thermodata.reader.text.date_parts import column_times, declared_parts
-from thermodata.reader.text.days import NOTE, is_once
-from thermodata.reader.text.footer import is_footer
-from thermodata.reader.text.head_start import ORDERS
-from thermodata.reader.text.layout import STREAM, Group, Layout
-from thermodata.reader.text.number import clean, decimal_mark, values_of
-from thermodata.reader.text.time_cells import belongs_to_time
-from thermodata.reader.text.time_formats import (
+from thermodata.reader.text.cells.cell import is_empty
+from thermodata.reader.text.cells.number import clean, decimal_mark, values_of
+from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.page.layout import STREAM, Group, Layout
+from thermodata.reader.text.preamble.head_start import ORDERS
+from thermodata.reader.text.rows.footer import is_footer
+from thermodata.reader.text.tables.another_header import another_in_sheet, repeated_in_sheet
+from thermodata.reader.text.tables.zone_named import named_note
+from thermodata.reader.text.times.clock_numbers import clock_of_numbers
+from thermodata.reader.text.times.date_parts import column_times, declared_parts
+from thermodata.reader.text.times.days import NOTE, is_once
+from thermodata.reader.text.times.time_cells import belongs_to_time
+from thermodata.reader.text.times.time_formats import (
     Stamps,
     find_formats,
     times_of_dates,
@@ -30,8 +32,6 @@ from thermodata.reader.text.time_formats import (
     times_of_numbers,
     times_of_texts,
 )
-from thermodata.reader.text.zone_named import named_note
-from thermodata.reader.text.zone_words import stated_zone
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted

@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
-from thermodata.reader.text.locate import line_of
-from thermodata.reader.text.losses import Losses
+from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.locate import line_of
+from thermodata.reader.text.file.losses import Losses
 from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.heidenhain.sco_header import Curve, Header, read_header

@@ -11,9 +11,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
-from thermodata.reader.text import time_pattern, timestamp
-from thermodata.reader.text.local_clock import LocalClock
-from thermodata.reader.text.number import is_empty, to_float
+from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.cells.number import is_empty, to_float
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.zone import NAT
 
 _BLOCK = re.compile(r"^%\[([A-Za-z]+)[\s_]*(\d*)\]")

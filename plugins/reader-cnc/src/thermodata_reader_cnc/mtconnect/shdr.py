@@ -7,9 +7,9 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text.lines import ODD, chunks, sample
-from thermodata.reader.text.locate import line_of, lines_of
-from thermodata.reader.text.time_pattern import OFFSET_MS, TimeFormat
+from thermodata.reader.text.cells.time_pattern import OFFSET_MS, TimeFormat
+from thermodata.reader.text.file.lines import ODD, chunks, sample
+from thermodata.reader.text.file.locate import line_of, lines_of
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.mtconnect import time_series

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text.locate import row_at
+from thermodata.reader.text.file.locate import row_at
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import Event, HeldTable
 from thermodata_reader_cnc.mtconnect import time_series

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, UNIT_WORDS, VALUE_WORDS
-from thermodata.reader.text import timestamp
-from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.grid import Grid
-from thermodata.reader.text.number import clean
-from thermodata.reader.text.odd_stamps import guess_format
-from thermodata.reader.text.status import tells_quality, zero_is_good
-from thermodata.reader.text.time_formats import find_format
-from thermodata.reader.text.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
+from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.status import tells_quality, zero_is_good
+from thermodata.reader.text.cells.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
+from thermodata.reader.text.rows.grid import Grid
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.time_formats import find_format
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (

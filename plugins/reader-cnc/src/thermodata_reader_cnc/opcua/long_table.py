@@ -15,16 +15,16 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Source
-from thermodata.reader.text import timestamp
-from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.footer import footer_notes, is_footer
-from thermodata.reader.text.grid import BadLine
-from thermodata.reader.text.lines import ODD, chunks, from_line, sample, split_last_line
-from thermodata.reader.text.locate import line_of, lines_of
-from thermodata.reader.text.losses import NAMED
-from thermodata.reader.text.number import clean, to_float
-from thermodata.reader.text.rows import parse
-from thermodata.reader.text.status import BAD, declared_zero, is_good
+from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import clean, to_float
+from thermodata.reader.text.cells.status import BAD, declared_zero, is_good
+from thermodata.reader.text.file.lines import ODD, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.locate import line_of, lines_of
+from thermodata.reader.text.file.losses import NAMED
+from thermodata.reader.text.rows.footer import footer_notes, is_footer
+from thermodata.reader.text.rows.grid import BadLine
+from thermodata.reader.text.rows.typed import parse
+from thermodata.reader.text.times import timestamp
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.lines import chunks
-from thermodata.reader.text.number import clean
+from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.file.lines import chunks
 from thermodata_reader_cnc.opcua.long_layout import Layout, clean_line, find_layout
 
 _HEADS = (b",_time,", b'"_time"', b",_time\r", b",_time\n")  # one of which the header of each such table holds

@@ -14,12 +14,12 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.open_questions import unit_question
-from thermodata.reader.text.delimiter import fields
-from thermodata.reader.text.lines import chunks, from_line, sample, split_last_line
-from thermodata.reader.text.locate import line_of
-from thermodata.reader.text.losses import Losses
-from thermodata.reader.text.number import clean, is_number, to_float
-from thermodata.reader.text.time_header import unit_of_time
+from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import clean, is_number, to_float
+from thermodata.reader.text.file.lines import chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.locate import line_of
+from thermodata.reader.text.file.losses import Losses
+from thermodata.reader.text.names.time_header import unit_of_time
 from thermodata.reader.time_units import SECONDS, check_unit, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted

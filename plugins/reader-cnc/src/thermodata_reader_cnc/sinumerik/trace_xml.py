@@ -16,9 +16,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.text import time_pattern, timestamp
-from thermodata.reader.text.local_clock import LocalClock
-from thermodata.reader.text.locate import row_at
+from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.file.locate import row_at
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.sinumerik import trace_records

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text.lines import Sample, chunks, from_line, sample, split_last_line
-from thermodata.reader.text.locate import line_of
-from thermodata.reader.text.losses import Losses
-from thermodata.reader.text.number import clean, to_float, to_int
+from thermodata.reader.text.cells.number import clean, to_float, to_int
+from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
+from thermodata.reader.text.file.locate import line_of
+from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted

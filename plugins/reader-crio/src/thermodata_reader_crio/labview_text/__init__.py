@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Source
-from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.file.locate import line_of
 from thermodata_reader_crio.labview_text.layout import claims
 from thermodata_reader_crio.labview_text.reading import blocks, describe
 

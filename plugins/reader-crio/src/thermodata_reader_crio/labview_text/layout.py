@@ -12,10 +12,10 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Float2D, Head
-from thermodata.reader.text.encoding import decode_head
-from thermodata.reader.text.header import looks_like_unit, split_unit
-from thermodata.reader.text.number import clean, decimal_mark, is_empty, is_overload, to_bool, to_float
-from thermodata.reader.text.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.cells.number import clean, decimal_mark, is_empty, is_overload, to_bool, to_float
+from thermodata.reader.text.file.encoding import decode_head
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
 from thermodata_reader_crio.labview_text.wanted import Wanted, may_be_time

@@ -10,9 +10,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.text.grid import Grid, Rows
-from thermodata.reader.text.lines import ODD, Chunk, chunks, sample, without_cut_line
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.file.lines import ODD, Chunk, chunks, sample, without_cut_line
+from thermodata.reader.text.rows.grid import Grid, Rows
+from thermodata.reader.text.rows.typed import parse
 from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.comments import flags_of, is_odd, texts

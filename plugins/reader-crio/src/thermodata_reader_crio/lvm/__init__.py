@@ -10,8 +10,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Head, Source
-from thermodata.reader.text.encoding import decode_head
-from thermodata.reader.text.locate import line_of
+from thermodata.reader.text.file.encoding import decode_head
+from thermodata.reader.text.file.locate import line_of
 from thermodata_reader_crio.lvm.reading import blocks
 from thermodata_reader_crio.lvm.recording import describe
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.grid import Grid, Rows
-from thermodata.reader.text.number import decimal_mark
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.cells.number import decimal_mark
+from thermodata.reader.text.rows.grid import Grid, Rows
+from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.header import Header, Packet
 
 _FIRST_BYTES = 16 * 1024

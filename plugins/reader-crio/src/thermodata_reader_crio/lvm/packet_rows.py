@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Loss, Source
-from thermodata.reader.text.grid import Grid, Rows
+from thermodata.reader.text.rows.grid import Grid, Rows
 from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_crio.comments import flags_of, is_odd, texts

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.plugin import Block, Loss, Source
-from thermodata.reader.text.grid import Rows
-from thermodata.reader.text.lines import sample, without_cut_line
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.file.lines import sample, without_cut_line
+from thermodata.reader.text.rows.grid import Rows
+from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.packet_rows import PacketRows

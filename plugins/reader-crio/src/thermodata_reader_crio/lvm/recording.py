@@ -7,9 +7,9 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Recording, Signal, Source
-from thermodata.reader.text.header import split_unit
-from thermodata.reader.text.lines import sample
-from thermodata.reader.text.rows import parse
+from thermodata.reader.text.file.lines import sample
+from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.rows.typed import parse
 from thermodata_reader_crio.lvm.grid import decimal_of, first_rows, grid_of
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.lvm.scan import RowPart, has_heading_behind, scan

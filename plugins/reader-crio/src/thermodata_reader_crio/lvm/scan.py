@@ -9,8 +9,8 @@ from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Loss
-from thermodata.reader.text.encoding import is_wide
-from thermodata.reader.text.lines import CHUNK, ODD, Chunk, chunks
+from thermodata.reader.text.file.encoding import is_wide
+from thermodata.reader.text.file.lines import CHUNK, ODD, Chunk, chunks
 from thermodata.schema.counted import counted
 from thermodata_reader_crio.lvm.header import (
     END_SPECIAL,

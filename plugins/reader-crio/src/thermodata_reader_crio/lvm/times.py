@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D, Source
-from thermodata.reader.text.grid import Rows
-from thermodata.reader.text.number import to_float
+from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.rows.grid import Rows
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.lvm.header import Header, Packet
 from thermodata_reader_crio.row_times import counted_ns, is_labview_seconds, local_ns, seconds_ns, utc_ns

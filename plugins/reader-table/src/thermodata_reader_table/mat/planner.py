@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from thermodata.errors import FormatError, UsageError, nearest
-from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata_reader_table.mat.date_vectors import take_date_vectors
 from thermodata_reader_table.mat.described_by import settle_lists
 from thermodata_reader_table.mat.matrices import sort_matrices

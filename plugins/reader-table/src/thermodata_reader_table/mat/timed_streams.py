@@ -10,10 +10,10 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D, Source
 from thermodata.reader import time_units
-from thermodata.reader.text import time_formats
-from thermodata.reader.text.header import unique
-from thermodata.reader.text.odd_stamps import guess_format
-from thermodata.reader.text.time_groups import one_time
+from thermodata.reader.text.clocks.time_groups import one_time
+from thermodata.reader.text.names.header import unique
+from thermodata.reader.text.times import time_formats
+from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
 from thermodata_reader_table.mat.tree import Tree

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Array, Loss, Scaling, Signal, Source
-from thermodata.reader.text.header import unique
+from thermodata.reader.text.names.header import unique
 from thermodata_reader_table.mdf.library import damage_as_format_error
 from thermodata_reader_table.mdf.start_time import start_ns
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Bool1D
-from thermodata.reader.text.cell import Cell, is_clocked, is_dated, is_empty, mostly
-from thermodata.reader.text.clock_pattern import says_the_hour
-from thermodata.reader.text.date_parts import column_times
-from thermodata.reader.text.days import Days, filled, have_days, is_once
-from thermodata.reader.text.odd_clocks import clock_question
-from thermodata.reader.text.time_formats import Stamps, find_formats, times_of_dates, times_of_day
+from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_empty, mostly
+from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.clocks.odd_clocks import clock_question
+from thermodata.reader.text.times.date_parts import column_times
+from thermodata.reader.text.times.days import Days, filled, have_days, is_once
+from thermodata.reader.text.times.time_formats import Stamps, find_formats, times_of_dates, times_of_day
 
 
 def as_cells(column: Any) -> list[Cell]:

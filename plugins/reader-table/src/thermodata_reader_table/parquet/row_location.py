@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Source
-from thermodata.reader.text.locate import row_at
+from thermodata.reader.text.file.locate import row_at
 from thermodata_reader_table.parquet.recording import blocks
 from thermodata_reader_table.parquet.table import Table
 

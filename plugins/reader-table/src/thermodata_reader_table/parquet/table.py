@@ -14,15 +14,16 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
-from thermodata.reader.text import split_unit, time_formats
-from thermodata.reader.text.date_parts import find_parts
-from thermodata.reader.text.header import unique
-from thermodata.reader.text.layout import period_s
-from thermodata.reader.text.time_columns import column as find_column
-from thermodata.reader.text.time_columns import find_time, time_of
-from thermodata.reader.text.time_formats import times_of_numbers
-from thermodata.reader.text.time_groups import one_time
-from thermodata.reader.text.time_header import is_time_header, unit_of_time
+from thermodata.reader.text import split_unit
+from thermodata.reader.text.clocks.time_columns import column as find_column
+from thermodata.reader.text.clocks.time_columns import find_time, time_of
+from thermodata.reader.text.clocks.time_groups import one_time
+from thermodata.reader.text.names.header import unique
+from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.page.layout import period_s
+from thermodata.reader.text.times import time_formats
+from thermodata.reader.text.times.date_parts import find_parts
+from thermodata.reader.text.times.time_formats import times_of_numbers
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts

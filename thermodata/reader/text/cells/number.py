@@ -1,0 +1,296 @@
+"""What a cell of a text is, the same whoever claims the file: a number, a truth value, a word for nothing, or none.
+
+The policy, a cell at a time (`docs/formats.md` states it for users; `to_float` is it, and the fast ways give the same):
+
+- **Nothing**: `EMPTY`, whatever the case. **Overload**: `OVERLOAD`: no value, and flagged as saturated.
+- **Decimal mark**: one a file, declared or found; a number with the other mark is none.
+- **Thousands**: blanks and apostrophes part them; so does the other mark, where a fraction, a second group or a
+  declared decimal mark proves it. `1.500` beside decimal commas could be either, so it is refused.
+- **Signs**: the minus of typography (U+2212) is one. **Exponents** are an e, or Fortran's `D+03` in full.
+- **Integers** that a float64 would change (beyond 2**53) are kept exactly in a column of int64, else refused.
+- **Too large** for a float64 (`1e999`): refused. `inf` is a value. `1_000`, `0x1F` and `12 %` are no numbers.
+- **Truth values** (`TRUE`, `wahr`) make a column of bool; between numbers they are 1 and 0.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Array, Bool1D
+from thermodata.reader.text.cells import arrow
+from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
+
+TRUE = frozenset({"true", "wahr"})
+FALSE = frozenset({"false", "falsch"})
+_FEW = 100  # cells below which the way through Arrow costs more than it saves
+EXACT = 2**53  # up to here a float64 holds every integer
+
+_PLAIN = {
+    ".": re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII),
+    ",": re.compile(r"[+-]?(?:\d+(?:,\d*)?|,\d+)(?:[eE][+-]?\d+)?", re.ASCII),
+}
+_INFINITE = re.compile(r"[+-]?inf(?:inity)?", re.IGNORECASE | re.ASCII)
+_BLANK = " \u00a0\u202f'’"
+_PARTED = {m: re.compile(rf"[+-]?\d{{1,3}}(?:[{_BLANK}]\d{{3}})+(?:{re.escape(m)}\d*)?", re.ASCII) for m in ".,"}
+_GROUPED = {
+    ".": re.compile(r"[+-]?\d{1,3}(?:(?:,\d{3})+\.\d+|(?:,\d{3}){2,})", re.ASCII),
+    ",": re.compile(r"[+-]?\d{1,3}(?:(?:\.\d{3})+,\d+|(?:\.\d{3}){2,})", re.ASCII),
+}
+_ONE_GROUP = {
+    ".": re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII),
+    ",": re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII),
+}
+_PADDED_SIGN = re.compile(r"^([+-]) +")
+_INTEGER = re.compile(r"[+-]?\d{1,40}", re.ASCII)
+_FORTRAN = re.compile(r"([+-]?(?:\d+[.,]\d*|[.,]\d+))[dD]([+-]\d{2,3})", re.ASCII)  # it always writes all of these
+_POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
+_COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
+
+
+def spelled(text: str) -> str:
+    """A number as others write it: with a keyboard's sign for the minus of typography (some locales write it), and
+    Fortran's exponent (1.5D+03) by an e."""
+    if not text.isascii():
+        text = text.replace("\u2212", "-")
+    found = _FORTRAN.fullmatch(text)
+    return f"{found[1]}e{found[2]}" if found else text
+
+
+def clean(cell: str) -> str:
+    """A cell without blanks, quotes and a stray byte order mark around it. A quote alone stays: it is no empty cell."""
+    if cell and cell[0] > '"' < cell[-1] and cell.isascii():  # nearly every cell; blanks and quotes come before
+        return cell
+    text = cell.strip().strip("\ufeff").strip()
+    return text.strip('"').strip() or '"' * (text.count('"') % 2)
+
+
+def is_empty(cell: str) -> bool:
+    """Whether a cell says that there is no value."""
+    return cell.strip().casefold() in EMPTY
+
+
+def is_overload(cell: str) -> bool:
+    """Whether a cell says that the value was beyond the instrument's range."""
+    return cell.strip().casefold() in OVERLOAD
+
+
+def to_bool(cell: str) -> bool | None:
+    """TRUE or FALSE, in English or German; None for any other word."""
+    low = cell.strip().casefold()
+    return True if low in TRUE else False if low in FALSE else None
+
+
+def to_int(cell: str, decimal: str = ".", dtype: str = "int64") -> int | None:
+    """A whole number that its dtype holds, exactly; None for what is none, or has a fraction."""
+    text = _PADDED_SIGN.sub(r"\1", spelled(cell.strip()))
+    if _INTEGER.fullmatch(text):
+        whole, limits = int(text), np.iinfo(dtype)
+        return whole if limits.min <= whole <= limits.max else None
+    value = to_float(text, decimal)
+    return int(value) if value is not None and value.is_integer() and abs(value) <= EXACT else None
+
+
+def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | None:
+    """The number in a cell that is not empty; None where it is none. declared: the decimal mark is (see the policy)."""
+    text = cell.strip()
+    plain = _PLAIN[decimal].fullmatch(text)
+    if plain is None:
+        text = spelled(text)
+        plain = _PLAIN[decimal].fullmatch(text)
+    if plain is None and text.startswith(("+ ", "- ")):
+        text = _PADDED_SIGN.sub(r"\1", text)
+        plain = _PLAIN[decimal].fullmatch(text)
+    if plain is not None:
+        value = float(text if decimal == "." else text.replace(",", "."))
+        if math.isinf(value) or (abs(value) >= EXACT and _INTEGER.fullmatch(text) and int(text) != value):
+            return None
+        return value
+    if _PARTED[decimal].fullmatch(text):
+        return float(re.sub(f"[{_BLANK}]", "", text).replace(",", "."))
+    if _GROUPED[decimal].fullmatch(text) or (declared and _ONE_GROUP[decimal].fullmatch(text)):
+        return float(text.replace("," if decimal == "." else ".", "").replace(",", "."))
+    if _INFINITE.fullmatch(text):
+        return float(text)
+    truth = to_bool(text)
+    return None if truth is None else float(truth)
+
+
+def why_none(cell: str, kind: str, decimal: str = ".") -> str:
+    """Why a cell is no value of its column, for a loss: "expected a number, got 'x'"."""
+    text, shown = _PADDED_SIGN.sub(r"\1", cell.strip()), cell[:40]
+    if kind == "bool":
+        return f"expected TRUE or FALSE, got '{shown}'"
+    if kind in ("int64", "uint64"):
+        return f"expected a whole number of 64 bits, got '{shown}'"
+    if _ONE_GROUP[decimal].fullmatch(text):
+        other = "," if decimal == "." else "."
+        return f"'{shown}' may be thousands or a fraction: declare table: {{decimal: '{decimal}'}} or '{other}'"
+    if _INTEGER.fullmatch(text):
+        return f"an integer that float64 would round, got '{shown}'"
+    return f"expected a number, got '{shown}'"
+
+
+def may_be_thousands(cell: str, decimal: str) -> bool:
+    """Whether a cell (as `clean` gives it) holds the mark that is not the decimal one before its only three digits."""
+    return _ONE_GROUP[decimal].fullmatch(_PADDED_SIGN.sub(r"\1", spelled(cell))) is not None
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell is a number with either decimal mark."""
+    text = _PADDED_SIGN.sub(r"\1", spelled(clean(cell)))
+    if any(pattern.fullmatch(text) for pattern in (*_PLAIN.values(), _INFINITE)):
+        return True
+    return any(p.fullmatch(text) for patterns in (_PARTED, _GROUPED) for p in patterns.values())
+
+
+def decimal_mark(cells: Iterable[str]) -> str | None:
+    """'.' or ',' by the number cells of a file's first data rows; None where none has a fraction.
+    FormatError where both occur, for then no choice is right."""
+    points = commas = 0
+    for cell in cells:
+        text = spelled(clean(cell))
+        points += _POINT.match(text) is not None
+        commas += _COMMA.match(text) is not None
+    if points and commas:
+        raise FormatError(
+            "numbers with a decimal point and with a decimal comma",
+            expected="one of them",
+            got=f"{points} with a point, {commas} with a comma",
+            hint="declare table: {decimal: ...}",
+        )
+    return "." if points else "," if commas else None
+
+
+# ---- whole columns -------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=1)
+def null_words() -> tuple[str, ...]:
+    """`EMPTY` as a parser takes it that minds the case: as it stands, in capitals and as a title."""
+    return tuple(
+        sorted({form(word) for word in EMPTY for form in (str, str.upper, str.title, str.capitalize)} | {"NaN"})
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """A column's cells as values. values: shape (n,), of the kind's dtype (NaN, 0 or None where there is none);
+    empty, over: shape (n,), True at cells without a value, and those of them that say overload; odd: (row, cell) of
+    cells that are no value of the kind."""
+
+    values: Array
+    empty: Bool1D
+    over: Bool1D
+    odd: tuple[tuple[int, str], ...] = ()
+
+
+def text_array(cells: Sequence[str]) -> Any:
+    """Cells as an Arrow array of strings. `pa.array` would do, but imports pandas where that is installed, as do
+    `fill_null` and `to_numpy`: a second, and 50 MiB."""
+    import pyarrow as pa
+
+    joined = "".join(cells)
+    lengths = map(len, cells) if joined.isascii() else (len(cell.encode("utf-8", "replace")) for cell in cells)
+    ends = np.cumsum(np.fromiter(lengths, np.int64, len(cells)))
+    offsets = np.concatenate(([0], ends)).astype(np.int32)
+    data = joined.encode("utf-8", "replace")
+    return pa.Array.from_buffers(pa.string(), len(cells), [None, pa.py_buffer(offsets), pa.py_buffer(data)])
+
+
+def values_of(column: Any, kind: str, decimal: str = ".", declared: bool = False) -> Values:
+    """The cells of a column by the policy. column: an Arrow array of strings, or a sequence of str; kind: float64,
+    int64, uint64, bool or str."""
+    if kind == "float64" and isinstance(column, list) and len(column) < _FEW:
+        return _one_by_one(column, np.dtype(np.float64), lambda cell: to_float(cell, decimal, declared))
+    import pyarrow as pa
+
+    cells = column if isinstance(column, pa.Array | pa.ChunkedArray) else text_array(list(column))
+    if isinstance(cells, pa.ChunkedArray):
+        cells = cells.combine_chunks()
+        cells = cells if isinstance(cells, pa.Array) else pa.array([], pa.string())
+    if kind == "str":
+        return _texts(cells)
+    if kind == "float64":
+        return _floats(cells, decimal, declared)
+    scalar: Callable[[str], Any] = to_bool if kind == "bool" else lambda cell: to_int(cell, decimal, kind)
+    return _one_by_one(cells.to_pylist(), np.dtype(kind), scalar)
+
+
+def _texts(cells: Any) -> Values:
+    """Text as objects that share their strings; None for a blank cell. Words such as '---' are text like any other."""
+    coded = cells.dictionary_encode()
+    words = np.array([*((clean(w) or None) for w in coded.dictionary.to_pylist()), None], object)
+    taken = words[arrow.codes(coded)]
+    none = np.zeros(len(cells), bool)
+    return Values(taken, none, none)
+
+
+def _floats(cells: Any, decimal: str, declared: bool) -> Values:
+    """Numbers that are all plain by Arrow's cast, or those that are; all else by `to_float`."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    text = pc.utf8_trim_whitespace(cells.fill_null("") if cells.null_count else cells)
+    if decimal == "." and (sure_all := _all_plain(text)) is not None:
+        return sure_all
+    plain = pc.match_substring_regex(text, rf"^-?\d{{1,15}}(?:{re.escape(decimal)}\d{{1,30}})?(?:[eE][+-]?\d{{1,2}})?$")
+    sure = arrow.values(plain, "bool")
+    numbers = pc.if_else(plain, text, "nan")
+    if decimal == ",":
+        numbers = pc.replace_substring(numbers, ",", ".")
+    values = arrow.values(pc.cast(numbers, pa.float64()), "float64")
+    rest = np.flatnonzero(~sure)
+    if not rest.size:
+        none = np.zeros(len(cells), bool)
+        return Values(values, none, none)
+    slow = _one_by_one(
+        pc.filter(text, pc.invert(plain)).to_pylist(), np.dtype(np.float64), lambda c: to_float(c, decimal, declared)
+    )
+    values[rest] = slow.values
+    empty, over = np.zeros(values.size, bool), np.zeros(values.size, bool)
+    empty[rest], over[rest] = slow.empty, slow.over
+    return Values(values, empty, over, tuple((int(rest[i]), cell) for i, cell in slow.odd))
+
+
+def _all_plain(text: Any) -> Values | None:
+    """The cells where all are numbers that a float64 holds; None where one needs a second look."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    try:
+        cast = pc.cast(text, pa.float64())
+    except pa.ArrowInvalid:
+        return None
+    values = np.frombuffer(cast.buffers()[1] or b"", np.float64)[cast.offset : cast.offset + len(cast)]
+    if not (np.abs(values) < EXACT).all():  # NaN is not either
+        return None
+    none = np.zeros(values.size, bool)
+    return Values(values.copy(), none, none)
+
+
+def _one_by_one(cells: Sequence[str | None], dtype: np.dtype[Any], scalar: Callable[[str], Any]) -> Values:
+    """The policy itself; each different cell is judged once."""
+    known: dict[str, tuple[Any, bool, bool, bool]] = {}
+    nothing = np.nan if dtype.kind == "f" else 0
+    values = np.zeros(len(cells), dtype)
+    empty, over = np.zeros(len(cells), bool), np.zeros(len(cells), bool)
+    odd = []
+    for i, raw in enumerate(cells):
+        cell = clean(raw or "")
+        if cell not in known:
+            low = cell.casefold()
+            gone, beyond = low in EMPTY, low in OVERLOAD
+            value = None if gone or beyond else scalar(cell)
+            known[cell] = (nothing if value is None else value, value is None, beyond, value is None and not gone)
+        values[i], empty[i], over[i], wrong = known[cell]
+        if wrong and not over[i]:
+            odd.append((i, (raw or "").strip()))
+    return Values(values, empty, over, tuple(odd))

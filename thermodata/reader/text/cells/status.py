@@ -1,0 +1,103 @@
+"""Quality and status of logged values: OPC's classic codes, OPC UA's status codes, and their words."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
+from typing import Any
+
+from thermodata.errors import QuestionError
+from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.text.cells.number import to_bool, to_float
+from thermodata.schema.flag import Flag
+
+BAD = int(Flag.NOT_MEASURING)
+_HEX = re.compile(r"0[xX][0-9a-fA-F]+")
+KEY = "quality_zero"  # of a table's layout
+_ANSWERS = ("good", "bad")
+_WHOSE = "(?:opc|ua|da|tag|data|value|sample|point|item|source)?"
+_NAMES = tuple(
+    re.compile(_WHOSE + pattern)
+    for pattern in (
+        "status(?:name|text)",
+        "opc(?:da|ua)?(?:quality|status)(?:code)?|(?:quality|status)(?:opc|detail|details)",
+        "(?:quality|qualit(?:ä|ae?)t)(?:code|name|text|flags?)?",
+        "statuscode",
+        "status",
+        "validity",
+        "dataintegrity",
+    )
+)
+_GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true")
+
+
+def _code(text: str) -> int | None:
+    if text[:2].lower() == "0x":
+        code = int(text, 16) if _HEX.fullmatch(text) else None
+    else:
+        number = None if to_bool(text) is not None else to_float(text, "," if "," in text else ".")
+        code = None if number is None or not math.isfinite(number) else int(number)
+    return code % 2**32 if code is not None and code < 0 else code  # a signed 32-bit status code
+
+
+def tells_quality(name: str) -> int | None:
+    """How surely a column is the quality of a value, by its bare name ("opcquality", "statuscode"): 0 the surest; None
+    where it is none."""
+    return next((k for k, pattern in enumerate(_NAMES) if pattern.fullmatch(name)), None)
+
+
+def zero_is_good(statuses: Iterable[str], name: str) -> bool | None:
+    """What the code 0 means: OPC UA's Good, or bad in OPC's classic quality (where 192 is good) and where 1 means
+    valid; None where all that is told is 0, under a name that does not say which. statuses: sampled ones; name: the
+    column's."""
+    codes = {c for c in (_code(s.strip()) for s in statuses) if c is not None}
+    if any(c > 255 for c in codes):
+        return True
+    if codes & {1, *range(64, 256)}:
+        return False
+    classic = "qual" in name.casefold() or "valid" in name.casefold()
+    return None if classic and codes == {0} else not classic
+
+
+def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str, where: str) -> bool:
+    """Whether the code 0 is good: as the campaign file declares it, else as the codes tell. found: by `zero_is_good`.
+
+    QuestionError where neither tells it.
+    """
+    said = (table or {}).get(KEY)
+    if said in _ANSWERS:
+        return bool(said == _ANSWERS[0])
+    if found is not None:
+        return found
+    if said == UNKNOWN:
+        raise unanswered(KEY, "good or bad", where)
+    got = f"'{name}' says 0 of every value that was looked at"
+    raise QuestionError(
+        "a quality whose code 0 may mean good or bad",
+        where=where,
+        expected="codes that tell: 192 is good in OPC's classic quality, where 0 is bad; in OPC UA 0 is good",
+        got=got,
+        hint=f"declare table: {{{KEY}: good}}, or bad",
+        ask=f"{KEY}: good or bad? {got}: good in OPC UA, bad in OPC's classic quality",
+        declare={KEY: UNKNOWN},
+        meanwhile={KEY: _ANSWERS[0]},
+    )
+
+
+@lru_cache(maxsize=4096)
+def is_good(status: str, zero: bool) -> bool:
+    """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, or UA's codes below bad; no
+    status at all too. zero: what the code 0 means."""
+    text = status.strip().casefold()
+    if not text or text.startswith(_GOOD_WORDS):
+        return True
+    code = _code(text)
+    if code is None:
+        return False
+    if code == 0:
+        return zero
+    if zero:
+        return code >> 30 < 2
+    return code == 1 or 64 <= code <= 255 or (code > 255 and code >> 30 < 2)

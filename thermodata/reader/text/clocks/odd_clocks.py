@@ -1,0 +1,83 @@
+"""Days that many rows share, beside a text that differs in each of them: what tells the hour is written in no way that
+is read, and without it all rows of a day would stand at midnight."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+from thermodata.errors import QuestionError
+from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.text.cells.cell import Cell, is_dated, is_number, mostly
+from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.names.time_header import is_time_header
+
+_MANY = 10  # rows of one day
+_EACH = 0.9  # of the rows, that have a text of their own
+_SHAPE = re.compile(r"([01]?\d|2[0-3])\D{1,4}[0-5]\d(\D.*)?")  # 8h05, 08-00-00, 8 Uhr 05
+
+
+def clock_question(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask where a column of dates alone was found for the time, and another column may tell the hour. None
+    where the dates tell the rows apart, or nothing else does."""
+    if len(columns) != 1:
+        return None
+    (place,) = columns
+    days = [r[place].strip() for r in data if isinstance(r[place], str) and is_dated(r[place])]
+    if not days or any(map(says_the_hour, days)) or max(Counter(days).values()) < _MANY:
+        return None
+    others = [i for i in range(len(names)) if i != place and _differs(i, data)]
+    if not others:
+        return None
+    worded = (i for i in others if is_time_header(names[i]))
+    other = next(worded, next((i for i in others if _is_shaped(i, data)), None))
+    if other is None:
+        return _period_question(place, days[0], names, where)
+    first = str(next(r[other] for r in data if r[other] not in ("", None))).strip()[:40]
+    column = [place + 1, other + 1]
+    return QuestionError(
+        f"dates without a time of day in many rows, beside '{names[other]}', which is not read as one",
+        where=f"{where} column '{names[place]}'",
+        expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00 PM, ...",
+        got=f"{days[0]} and {first}",
+        hint=f"declare table: {{time: {{column: {column}, format: '%d.%m.%Y %H:%M:%S'}}}} in strptime's letters, or "
+        "time: {period: 10 s}",
+        times=[names[place], names[other]],
+        ask=f"format of the time in columns {column[0]} and {column[1]}, in strptime's letters, or period: 10 s? "
+        f"'{days[0]}' tells no hour, and '{first}' is not read",
+        declare={"time": {"column": column, "format": UNKNOWN}},
+        meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def _period_question(place: int, day: str, names: list[str], where: str) -> QuestionError:
+    """What to ask where no other column looks like a time."""
+    return QuestionError(
+        "dates without a time of day in many rows",
+        where=f"{where} column '{names[place]}'",
+        expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00 PM, ...",
+        got=day,
+        hint="declare the time from row to row: table: {time: {period: 10 s}}",
+        ask=f"period: the time from row to row, e.g. 10 s or 1 min? '{day}' tells no hour, and no other column looks "
+        "like a time",
+        declare={"time": {"period": UNKNOWN}},
+        meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def _is_shaped(column: int, data: list[list[Cell]]) -> bool:
+    """Whether most texts of a column look like times of day, in whatever signs."""
+    return mostly((r[column] for r in data), _is_clock, _EACH, len(data))
+
+
+def _is_clock(cell: Cell) -> bool:
+    return isinstance(cell, str) and _SHAPE.fullmatch(cell.strip()) is not None
+
+
+def _differs(column: int, data: list[list[Cell]]) -> bool:
+    """Whether a column holds texts with digits, another in each row."""
+    cells = [r[column].strip() for r in data if isinstance(r[column], str) and r[column].strip()]
+    words = [c for c in cells if not is_number(c) and re.search(r"\d", c)]
+    return len(words) > _EACH * len(data) and len(set(words)) > _EACH * len(words)

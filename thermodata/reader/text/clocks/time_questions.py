@@ -1,0 +1,272 @@
+"""What to ask where a table does not say its times: the unit, the format, the zone, or the time from row to row."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import QuestionError
+from thermodata.plugin import Array
+from thermodata.reader.open_questions import UNKNOWN, unit_question
+from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
+from thermodata.reader.text.cells.joined_clock import format_of_joined
+from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
+from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.times.clock_numbers import year_and_day
+from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
+
+_MJD_2000 = 51_544
+_FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
+ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
+
+
+def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
+    else the time from row to row. None where it is no table of numbers."""
+    worded = worded_time(names, data)
+    if worded is None and (days := year_and_day(names, data)) is not None:
+        return _format_question(days[0], names, days[1], " ".join(str(data[0][i]) for i in days[0]), where)
+    if worded is None:
+        return time_question(names, data, where)
+    place, words = worded
+    return _format_question((place,), names, guess_format(words), words[0], where)
+
+
+def worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
+    """(place, cells) of a column that is called a time and holds text that is none as it stands, in a table of numbers;
+    else of the one column of texts that are stamps of one format, whatever it is called. None where there is none."""
+    if not any(sum(is_number(r[i]) for r in data) > 0.6 * len(data) for i in range(len(names))):
+        return None
+    stamped: list[tuple[int, list[str]]] = []
+    for i, name in enumerate(names):
+        cells = [r[i] for r in data if r[i] not in ("", None)]
+        words = [c.strip() for c in cells if isinstance(c, str) and not is_number(c) and re.search(r"\d", c)]
+        if not cells or len(words) <= 0.8 * len(cells):
+            continue
+        if is_time_header(name):
+            return i, words
+        if _are_stamps(words):
+            stamped.append((i, words))
+    return stamped[0] if len(stamped) == 1 else None
+
+
+def _are_stamps(words: Sequence[str]) -> bool:
+    """Whether texts are dates with a time of day, in one format, that differ from row to row."""
+    if len(words) < _FEWEST_ROWS or 2 * len(set(words)) < len(words):
+        return False
+    form = guess_format(words)
+    return form is not None and re.search("%[yY]", form) is not None and re.search("%[HI]", form) is not None
+
+
+def time_question(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of a table of numbers without a time; None where it is no such table."""
+    width = len(names)
+    numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
+    if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
+        return None
+    place, rising = _likely_time(data)
+    if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
+        return unit_question(names[place], rising, where, place + 1)
+    epoch = None if rising is None else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
+    unit = epoch or (low if (low := names[place].strip().lower()) in SECONDS else "s")
+    proposed = f"; or is '{names[place]}' the time? then time: {{column: {place + 1}, unit: {unit}}}"
+    other = proposed if rising is not None else ""
+    return QuestionError(
+        "no time column found",
+        where=where,
+        expected="a column of dates, or one called time or with s, min or h as its unit",
+        got=", ".join(names[:12]),
+        hint="declare the time from row to row: table: {time: {period: 60 s}}; or a column: {column: 1, unit: s}",
+        ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
+        declare={"time": {"period": UNKNOWN}},
+        meanwhile={"time": {"period": 1.0}},
+    )
+
+
+def _likely_time(data: Sequence[Sequence[Cell]]) -> tuple[int, Array | None]:
+    """(place, numbers) of the column that may be the time: the first one where its numbers rise in even steps, but for
+    another that does where the first only numbers the rows."""
+    first = _rising(data, 0)
+    if first is None or first[0] not in (0, 1) or not (np.diff(first) == 1).all():
+        return 0, first
+    for place in range(1, len(data[0])):
+        values = _rising(data, place)
+        if values is not None and not (np.diff(values) == 1).all():
+            return place, values
+    return 0, first
+
+
+def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
+    """The numbers of a column where they rise from row to row in even steps, as a time does or a count."""
+    values = np.array([v for r in data if (v := number_of(r[place])) is not None], np.float64)
+    steps = np.diff(values)
+    even = values.size >= max(2, 0.9 * len(data)) and bool((steps > 0).all())
+    return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
+
+
+def _are_days(values: Array, first: float, last: float) -> bool:
+    """Whether numbers may be days between two counts, in steps below some hours."""
+    days = values.size > 1 and bool(((values > first) & (values < last)).all())
+    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
+
+
+def may_be_excel(values: Array) -> bool:
+    """Whether numbers may be Excel's days of 2000 to 2099; or seconds all the same."""
+    return _are_days(values, 36_526, 73_051) and float(np.ptp(values)) < 400
+
+
+def _may_be_julian(values: Array) -> bool:
+    """Whether numbers may be Julian days of 1983 to 2119."""
+    return _are_days(values, 2_445_500, 2_495_000)
+
+
+def _day(number: float, unit: str) -> str:
+    """The day that a count of days says."""
+    return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
+
+
+def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
+    """The unit of a time that names none, where its size leaves one sense only: a count from a date.
+    QuestionError where it does not."""
+    values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
+    epoch = found_epoch(values) if values.size else None
+    if epoch is not None:
+        return epoch
+    if _may_be_julian(values):
+        raise QuestionError(
+            "times that may be Julian days",
+            where=where,
+            got=f"{name}: {values[0]:.12g} ...",
+            expected="a unit",
+            hint="declare table: {time: {unit: jd}} or {time: {unit: s}}",
+            ask=f"unit of the time: jd (Julian days, in UTC) or s? '{name}' begins with {values[0]:.12g}",
+            declare={"time": {"unit": UNKNOWN}},
+            meanwhile={"time": {"unit": "jd"}},
+        )
+    if may_be_excel(values):
+        if re.search(r"(?i)dat", name):
+            return "excel"
+        days = "excel (days since 1900)"
+        if values[0] > _MJD_2000:
+            of_excel, of_mjd = _day(values[0], "excel"), _day(values[0], "mjd")
+            days = f"excel (days since 1900: {of_excel}), mjd (modified Julian days: {of_mjd})"
+        raise QuestionError(
+            "times that may be Excel's days or seconds",
+            where=where,
+            got=f"{name}: {values[0]:.12g} ...",
+            expected="a unit",
+            hint="declare table: {time: {unit: excel}}, unit: mjd or unit: s",
+            ask=f"unit of the time: {days} or s? '{name}' begins with {values[0]:.12g}",
+            declare={"time": {"unit": UNKNOWN}},
+            meanwhile={"time": {"unit": "excel"}},
+        )
+    raise unit_question(name, values, where)
+
+
+def epoch_in(unit: str, cells: Sequence[Cell]) -> str | None:
+    """The count since 1970 that times in a unit are by their size; None where they may count from a start."""
+    values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
+    epoch = found_epoch(values) if values.size else None
+    seconds = SECONDS.get(unit.strip().strip("[]()").lower())
+    return epoch if epoch and epoch.startswith("unix") and EPOCHS[epoch].seconds == seconds else None
+
+
+def joined_question(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask where dates are written as one number: 20260302080000 in the column that was found, or 20260302 in
+    one that is called a date, beside times of day. None where none are."""
+    if len(columns) != 1:
+        return None
+    (place,) = columns
+
+    def stamps(i: int) -> tuple[str | None, str]:
+        cells = [str(r[i]).strip() for r in data if r[i] not in ("", None)]
+        joined = bool(cells) and all(c.isdecimal() and len(c) in (8, 12, 14) for c in cells)
+        return (guess_format(cells), cells[0]) if joined else (None, "")
+
+    form, first = stamps(place)
+    if form is not None and "%H" in form:
+        return _format_question((place,), names, form, first, where)
+    if form is not None and (of_day := _joined_clock(place, names, data)) is not None:
+        return _format_question((place, of_day[0]), names, f"{form} {of_day[1]}", first, where)
+    if not mostly([r[place] for r in data], is_clocked, 0.8, len(data)):
+        return None
+    for i in (i for i, name in enumerate(names) if i != place and is_time_header(name)):
+        form, first = stamps(i)
+        if form is not None and "%H" not in form:
+            return _format_question((i, place), names, form, first, where)
+    return None
+
+
+def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[int, str] | None:
+    """(place, format) of a column that is called a time and holds times of day in one number: 070000."""
+    for i in (i for i, name in enumerate(names) if i != day and is_time_header(name)):
+        letters = format_of_joined([str(r[i]).strip() for r in data if r[i] not in ("", None)])
+        if letters is not None:
+            return i, letters
+    return None
+
+
+def zone_question(names: list[str], data: list[list[Cell]], where: str, columns: Iterable[int]) -> QuestionError | None:
+    """What to ask of times behind which a word stands that is no zone, or several: 2026-03-02 08:00:00 CST. None where
+    none stands there. columns: that may hold the time."""
+    for i in sorted(columns):
+        cells = [r[i].strip() for r in (*data[:ZONED_ROWS], *data[-ZONED_ROWS:]) if isinstance(r[i], str) and r[i]]
+        if not cells or ":" not in cells[0]:
+            continue
+        words = {c: w for c in cells if (w := word_behind(c)) is not None}
+        bare = {c: c.removesuffix(")").removesuffix(w).rstrip(" (") for c, w in words.items()}
+        if len(words) <= 0.3 * len(set(cells)) or not mostly(bare.values(), is_stamp, 0.8, len(bare)):
+            continue
+        cell, word = next(iter(words.items()))
+        spelled = guess_format(list(bare.values())) if len(set(words.values())) == 1 else None
+        form = spelled + cell[len(bare[cell]) :] if spelled else UNKNOWN
+        zones = SEVERAL.get(word, ())
+        shown = " or ".join(zones) if zones else "Europe/Prague"
+        said = {"time": {"column": i + 1, "format": form}}
+        return QuestionError(
+            f"times in a zone that has several meanings: '{word}'" if len(zones) > 1 else f"an unknown zone '{word}'",
+            where=f"{where} column '{names[i]}'",
+            expected=f"an offset such as +01:00, or one of {', '.join(HOURS)}",
+            got=cell,
+            hint=f"declare what it is in the source: timezone: {shown}; and table: {{time: {{column: {i + 1}, "
+            f"format: '{form if spelled else '%Y-%m-%d %H:%M:%S ' + word}'}}}}",
+            times=[names[i]],
+            ask=f"zone of the times: what is '{word}'? write timezone: {shown} into this source",
+            declare=said,
+            meanwhile=said if spelled else {"time": {"period": 1.0}},
+        )
+    return None
+
+
+def without_word(cell: Cell) -> Cell:
+    """A cell without the word for a zone behind its time."""
+    word = word_behind(cell) if isinstance(cell, str) and ":" in cell else None
+    return cell if word is None else cell.strip().removesuffix(")").removesuffix(word).rstrip(" (")
+
+
+def _format_question(
+    columns: tuple[int, ...], names: list[str], form: str | None, got: str, where: str
+) -> QuestionError:
+    """Asks for the format of times in strptime's letters; with one that fits, it is only to be confirmed."""
+    column: Any = columns[0] + 1 if len(columns) == 1 else [c + 1 for c in columns]
+    asked = (
+        f"format of the times, in strptime's letters ('%d-%b-%Y %H:%M:%S'), or period: 10 s? they begin with '{got}'"
+    )
+    said = {"time": {"column": column, "format": form or UNKNOWN}}
+    return QuestionError(
+        "times that are written in no way that is read by itself",
+        where=where,
+        expected="a date and a time of day: 2026-03-01 08:00:00, 1.3.2026 8:00, ...",
+        got=got,
+        hint=f"declare table: {{time: {{column: {column}, format: '{form or '%d-%b-%Y %H:%M:%S'}'}}}}",
+        times=[names[c] for c in columns],
+        ask=f"format of the times: is '{got}' {form}?" if form else asked,
+        declare=said,
+        meanwhile=said if form else {"time": {"period": 1.0}},
+    )

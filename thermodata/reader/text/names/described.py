@@ -1,0 +1,93 @@
+"""What a file says of its columns above their names: a row of comments, or a list of its channels with what the user
+called them. Their names stay, for old campaign files name them; what is said of them stands beside."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from thermodata.reader.text.cells.cell import is_number, is_stamp
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.reader.text.names.header_rows import OF_TEXTS, OF_UNITS
+
+_OF_NAMES = re.compile(
+    r"(?i)((signal|channel|kanal|sensor)[ _-]?)?"
+    r"(name|label|comment|description|tag|title|bezeichnung|kommentar|beschreibung|kanalname|název|popis|nom|nombre)|"
+    r"信号名称?|通道名称?|名称|名稱|注释|コメント|チャンネル名|名前|신호명|채널명|이름"
+)
+_FEWEST = 2  # columns that a row of comments, or a list without a header, speaks of: of one, it may be the whole file
+
+
+def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
+    """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
+    texts."""
+    rows = rows[: _names_at(rows, names)]
+    listed = _listed(rows, names)
+    said, units = _of_list(rows, listed, names)
+    heads = {min(at for at, _ in listed) - 1} if listed else set()
+    for at, row in enumerate(rows):
+        if at not in heads and not any(said):
+            said = _of_row(row, names)
+    return said, units
+
+
+def _names_at(rows: Sequence[Sequence[str]], names: Sequence[str]) -> int:
+    """The place of the row of names: what stands below it says where values come from, not what they are called."""
+    lasts = [n.rsplit("/", 1)[-1] for n in names]
+    for at, row in enumerate(rows):
+        same = sum(bool(c) and c in (n, last) for c, n, last in zip(row, names, lasts, strict=False))
+        if 2 * same >= sum(map(bool, names)):
+            return at
+    return len(rows)
+
+
+def _of_row(row: Sequence[str], names: Sequence[str]) -> list[str]:
+    """What a row of comments says: "Comment","Bearing front","Bearing rear", one for each column behind the first."""
+    cells = [*row[: len(names)], *[""] * (len(names) - len(row))]
+    nothing = [""] * len(names)
+    if not OF_TEXTS.fullmatch(cells[0].strip(" .:")) or len(row) > len(names):
+        return nothing
+    said = ["", *(_said(c, n) for c, n in zip(cells[1:], names[1:], strict=True))]
+    return said if sum(map(bool, said)) >= max(_FEWEST, len(names) // 2) else nothing
+
+
+def _listed(rows: Sequence[Sequence[str]], names: Sequence[str]) -> list[tuple[int, str]]:
+    """(place of a row, the column that it lists) of the rows that begin with the name of one: "CH1","Front","TEMP"."""
+    known = {_key(n) for n in names if n}
+    return [(at, key) for at, row in enumerate(rows) if len(row) > 1 and row[0] and (key := _key(row[0])) in known]
+
+
+def _of_list(
+    rows: Sequence[Sequence[str]], listed: Sequence[tuple[int, str]], names: Sequence[str]
+) -> tuple[list[str], list[str | None]]:
+    said: Mapping[str, str] = {}
+    units: Mapping[str, str | None] = {}
+    if listed:
+        first = listed[0][0]
+        header = rows[first - 1] if first else ()
+        column = next((k for k, c in enumerate(header) if k and _OF_NAMES.fullmatch(c.strip(" .:"))), None)
+        said = {key: rows[at][column or 1] if len(rows[at]) > (column or 1) else "" for at, key in listed}
+        if column is None and (len(said) < _FEWEST or len(set(said.values())) < len(said)):
+            said = {}  # what repeats is a kind of input
+        of_unit = next((k for k, c in enumerate(header) if k and OF_UNITS.fullmatch(c.strip(" .:"))), -1)
+        units = {key: _unit(rows[at], of_unit) for at, key in listed}
+    return (
+        [_said(said.get(_key(n), ""), n) if n else "" for n in names],
+        [units.get(_key(n)) if n else None for n in names],
+    )
+
+
+def _unit(row: Sequence[str], column: int) -> str | None:
+    cell = row[column].strip("[]() ") if -len(row) <= column < len(row) else ""
+    return cell if looks_like_unit(cell) and not cell[0].isdigit() else None
+
+
+def _said(cell: str, name: str) -> str:
+    """A cell that says more of a column than its name does."""
+    bare = cell.strip()
+    nothing = is_number(bare) or is_stamp(bare) or looks_like_unit(bare) or not any(c.isalpha() for c in bare)
+    return "" if nothing or _key(bare) == _key(name) else bare
+
+
+def _key(name: str) -> str:
+    return re.sub(r"[\s_.-]+", "", split_unit(name)[0]).casefold()

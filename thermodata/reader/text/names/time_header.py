@@ -1,0 +1,35 @@
+"""Whether a header says that its column is the time, and in what unit."""
+
+from __future__ import annotations
+
+import re
+
+from thermodata.reader.text.cells.cell import TIME_WORD
+from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.time_units import SECONDS, known_unit
+
+_UNIT_BEHIND = re.compile(
+    r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
+)
+
+
+def unit_of_time(header: str, unit: str | None = None) -> str | None:
+    """The unit of time that a header names, in brackets or behind the word for time: "Zeit in h", "t / min", "time_ms".
+    unit: what was split from it, or stands in a row of its own. None where it names none."""
+    name, own = split_unit(header)
+    for text in (unit, own):
+        if text is not None:
+            return known_unit(text)
+    match = _UNIT_BEHIND.match(name.strip())
+    if match is None or not TIME_WORD.match(match["word"]):
+        return None
+    low = match["unit"].lower()
+    return low if low in SECONDS else None
+
+
+def is_time_header(header: str, unit: str | None = None) -> bool:
+    """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
+    name = split_unit(header)[0].strip()
+    if unit is not None and unit_of_time(header, unit) is None:
+        return False
+    return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)

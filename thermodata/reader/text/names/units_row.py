@@ -1,0 +1,64 @@
+"""Rows of units above a table's data: which rows are such, and what their cells say, known here or not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.reader.text.cells.cell import Cell
+from thermodata.reader.text.names.header import looks_like_unit
+
+STATISTIC = re.compile(r"(?i)avg|smp|min|max|tot|std|med|mean|last|tmn|tmx|sample|average")
+_OF_TIME = re.compile(r"[\[(]?(?:s|sec|sek|ms|us|µs|μs|min|h|hh?:mm(?::ss)?)[\])]?")
+# what loggers write in the row of units for stamps, numbers of records and alarms
+_NO_UNIT = re.compile(r"(?i)ts|rn|no\.?|time|zeit|date|datum|-+|alarm.*|[a-z]\d{3,}")
+_SIGN_FIRST = re.compile(r"[°º˚%‰]\S{0,4}")  # '°X': a unit, known or not
+_LONGEST = 12  # letters of a unit
+
+
+def as_units(cells: Sequence[str]) -> list[str | None]:
+    return [u.strip("[]() ") or None for u in cells]
+
+
+def units_below(names: Sequence[str], row: Sequence[str]) -> list[str | None]:
+    """The units of a row below names: known ones, and what else stands among them, so that it is asked for."""
+    return [u if u is not None and _may_be(n, u) else None for n, u in zip(names, as_units(row), strict=True)]
+
+
+def known_units(row: Sequence[str]) -> list[str | None]:
+    """The units of a row that holds other words too: known ones only."""
+    return [u if u is not None and looks_like_unit(u) else None for u in as_units(row)]
+
+
+def are_units(cells: Sequence[Cell]) -> bool:
+    """Whether most filled cells of a row are units."""
+    return sum(_is_one(str(c)) for c in cells) * 2 > len(cells)
+
+
+def mostly_units(row: Sequence[str]) -> bool:
+    return are_units([c for c in row if c])
+
+
+def of_units(row: Sequence[str], times: Sequence[int]) -> bool:
+    """Whether a row below names is one of units: most of its cells are, or some beside one of time below the words for
+    the time. times: where these stand."""
+    if mostly_units(row):
+        return True
+    others = [c for k, c in enumerate(row) if c and k not in times]
+    below = [row[k] for k in times if row[k]]
+    return (
+        bool(below)
+        and all(map(_OF_TIME.fullmatch, below))
+        and any(map(looks_like_unit, others))
+        and not any(STATISTIC.fullmatch(c) or len(c) > _LONGEST for c in others)
+    )
+
+
+def _is_one(cell: str) -> bool:
+    return looks_like_unit(cell) or cell.startswith("[") or _SIGN_FIRST.fullmatch(cell) is not None
+
+
+def _may_be(name: str, cell: str) -> bool:
+    if looks_like_unit(cell):
+        return True
+    return len(cell) <= _LONGEST and cell != name and not (_NO_UNIT.fullmatch(cell) or STATISTIC.fullmatch(cell))

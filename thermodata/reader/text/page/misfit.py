@@ -1,0 +1,112 @@
+"""Headers that name other columns than the rows below them have: refused, for nobody can tell which names which."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.errors import FormatError
+from thermodata.reader.text.cells.cell import Cell, is_empty, is_stamp, mostly
+from thermodata.reader.text.cells.time_pattern import part_of_a_second
+from thermodata.reader.text.clocks.names_of_time import (
+    ENOUGH,
+    cells_of_time,
+    empty_at_the_end,
+    filled,
+    names_of_time,
+    rises,
+)
+from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.names.header_rows import place_of_names, says_time, texts_of
+from thermodata.reader.text.times.time_cells import belongs_to_time
+
+_DAY_WORD = re.compile(
+    r"(?i)dat[eu]m?|dato|dátum|data|fecha|дата|day|tag|dag|den|jour|giorno|d[ií]a|dzień|dzien|nap|日期|日付|날짜"
+)
+_CLOCK_WORD = re.compile(
+    r"(?i)clock|tod|hours?|hrs?|hh|h|stunde|std|uhr|klok|klocka|hodina|godz|heures?|ore|uur|óra|min(utes?)?|local|lokal|"
+    r"period|format|unnamed|column|dst|offset|zone"
+)
+
+
+def refuse_misfit(
+    above: Sequence[Sequence[Cell]],
+    rows: Sequence[Sequence[Cell]],
+    width: int,
+    units_row: int | None,
+    skip: int,
+    delimiter: str,
+    where: str,
+    told: bool = False,
+) -> str | None:
+    """FormatError where the names are fewer or more than the columns, or as many while the time takes columns more than
+    names; but a note where the last name alone is too many and the others stand over their columns by the cells of the
+    time. above, rows: as `line_up` left them; skip: lines before them; delimiter: as messages show it; told: whether
+    the columns of the time are declared."""
+    place = place_of_names(above, width, units_row)
+    if place is None or not rows:
+        return None
+    names = texts_of(above[place])
+    said, columns = filled(names), width - empty_at_the_end(rows, width)
+    if not told and said == columns and (own := _shifted(names, rows, columns)):
+        raise FormatError(
+            f"the time takes more cells in the rows than names in the header: '{names[own[-1]]}' stands over one",
+            where=f"{where} line {skip + place + 1}, rows from line {skip + len(above) + 1}",
+            expected=f"a name for each column between {delimiter}, at the time too",
+            got=f"'{' '.join(texts_of(rows[0]))[:60]}' below '{' '.join(names)[:60]}'",
+            hint=f"declare table: {{time: {{column: {[i + 1 for i in own]}}}}} if that names a part of the time; else "
+            f"table: {{skip_rows: {skip + len(above)}, header_rows: 0, names: [...]}} with a name for each column",
+        )
+    if len(names) == width or said in (width, columns) or 2 * said <= width:
+        return None
+    if said > width and any(len(r) >= said for r in rows[:1]):
+        return None  # groups of columns that ended
+    if delimiter != "blanks" and said - 1 == width == columns and _stand_over_the_time(names, rows, columns):
+        return (
+            f"the last name of the header has no column, for rows have {columns} cells: '{names[said - 1]}'; "
+            "the others are taken to stand over theirs"
+        )
+    few = said < width
+    first = skip + len(above) + 1
+    at = skip + place + 1
+    last = "columns have no name" if few else "names have no column"
+    lacking = f"declare table: {{header_rows: {at}}} if only the last {last}; else "
+    blanks = "write names without blanks, or " if delimiter == "blanks" else ""
+    commas = f"has {columns - said} column{'s' * (columns - said != 1)} a decimal comma? then export with ';' between "
+    commas = f"{commas}cells; else " if few and delimiter == "','" else ""
+    raise FormatError(
+        f"the header has {'fewer' if few else 'more'} cells than the rows below it",
+        where=f"{where} line {at}, rows from line {first}",
+        expected=f"as many cells between {delimiter} in both",
+        got=f"{said} in the header, {columns} in the rows: '{' '.join(texts_of(rows[0]))[:60]}' below "
+        f"'{' '.join(names)[:60]}'",
+        hint=f"{commas}{blanks}put cells that hold {delimiter} in quotes, or export with another delimiter; {lacking}"
+        f"declare table: {{skip_rows: {first - 1}, header_rows: 0, names: [...]}} with a name for each column",
+    )
+
+
+def _shifted(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int) -> list[int]:
+    """The columns of the time up to the first under a name of something else, where the names before it say date and
+    time of day already: those behind it are a place off, too. Beside 'Datum' alone may well stand a word for the time
+    of day that is not known. None where all is well."""
+    run = names_of_time(names)
+    if run is None or not all(names[:columns]):
+        return []
+    place, day = run[-1] + 1, len(run) == 1 and _DAY_WORD.fullmatch(split_unit(names[run[0]])[0].strip(" .:"))
+    if day or place >= run[0] + cells_of_time(rows, run[0], columns, names):
+        return []
+    name = names[place]
+    known = says_time(name) or _CLOCK_WORD.match(name) or part_of_a_second(name) is not None
+    return [] if known else [*run, place]
+
+
+def _stand_over_the_time(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int) -> bool:
+    """Whether the names for the time stand over its cells: dates and times of day, or numbers that rise."""
+    run = names_of_time(names)
+    if run is None or run[-1] >= columns:
+        return False
+    cells = [[r[i] for r in rows if i < len(r) and not is_empty(r[i])] for i in range(columns)]
+    stamped = [i for i, c in enumerate(cells) if c and mostly(c, is_stamp, ENOUGH, len(c))]
+    if stamped:
+        return run[0] == stamped[0] and all(i in stamped or belongs_to_time(cells[i]) for i in run)
+    return rises(cells[run[0]])

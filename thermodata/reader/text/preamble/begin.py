@@ -1,0 +1,177 @@
+"""What rows without a date count from, where the lines above them say when they began; else what to ask, or to note."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from thermodata.errors import FormatError
+from thermodata.plugin import Int1D
+from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.text.cells.cell import number_of
+from thermodata.reader.text.cells.time_pattern import TimeFormat
+from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, head_start
+from thermodata.reader.text.preamble.head_words import Says
+from thermodata.reader.text.times.date_parts import row_time
+from thermodata.reader.time_units import to_ns
+from thermodata.reader.zone import NAT, local_to_utc_ns
+
+HEAD, NOT = "head", "none"  # the answers beside ORDERS
+ANSWERS = (*ORDERS, HEAD, NOT)
+NOT_TAKEN = "which is not taken for the start of the rows"
+EITHER = "whose day and month may be either way round"
+_ORDER = "declare table: {time: {start: dmy}}, mdy or ymd; start: none, where the rows do not begin then"
+_NOTHING = "no start stands above the rows, though time.start is 'head': they count from the start of the test"
+_DATED = "the rows have dates of their own: the declared time.start is not used"
+_HINT = "declare table: {time: {start: head}} where the rows begin then, or {start: none}"
+ROWS = 40  # that show how a clock begins
+_SECOND, _MINUTE, _HOUR = 10**9, 60 * 10**9, 3600 * 10**9
+_STEPS = 10  # of the rows, by which the first may lie behind the start
+_LONGEST = 60  # letters of a line of the head in a message
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """ns: the start since 1970, or the midnight before it where the rows hold times of day; local: in the time of the
+    place; of_day: whether they do; text: the lines that say so."""
+
+    ns: int
+    local: bool
+    of_day: bool
+    text: str
+
+    def utc(self, since_ns: Int1D, timezone: str | None) -> Int1D:
+        """UTC of times that count from the start [ns], shape (n,); NAT stays."""
+        zero = self.ns
+        if self.local and timezone is not None:
+            zero = int(local_to_utc_ns(np.array([zero], np.int64).view("datetime64[ns]"), timezone)[0][0])
+        return np.where(since_ns == NAT, NAT, since_ns + np.int64(zero))
+
+    def note(self) -> str:
+        what = "times of day are of the date" if self.of_day else "times count from the start"
+        return f"{what} that stands above the rows: '{self.text}'"
+
+
+@dataclass(frozen=True, slots=True)
+class FirstTimes:
+    """The first rows of a relative clock. ns: from its zero, or in the day; of_day: whether they are written as times
+    of day, which durations may be too."""
+
+    ns: tuple[int, ...]
+    of_day: bool
+
+    @property
+    def near_zero(self) -> bool:
+        """Whether they begin at their zero, as rows do that count from the start of their recording."""
+        steps = sorted(b - a for a, b in pairwise(self.ns))
+        usual = steps[len(steps) // 2] if steps else 0
+        return abs(self.ns[0]) <= max(_MINUTE, _STEPS * min(usual, _HOUR))
+
+
+def first_times(
+    time: Sequence[int], seconds: float | None, forms: Sequence[TimeFormat], rows: Sequence[Sequence[str]]
+) -> FirstTimes:
+    """The times of the first rows. time: their columns, none where rows are counted; seconds: of one unit; forms: how
+    they are written, none for numbers."""
+    each = seconds or 1.0
+    if not time:
+        return FirstTimes((0, round(each * 1e9)), False)
+    found: list[int] = []
+    for row in rows[:ROWS]:
+        if forms:
+            ns = row_time([row[i] for i in time], forms)
+        else:
+            value = number_of(row[time[0]])
+            ns = NAT if value is None else int(to_ns(np.array([value]), each)[0])
+        found += [] if ns == NAT else [ns]
+    return FirstTimes(tuple(found), bool(forms) and forms[0].of_day)
+
+
+def declared_start(table: Mapping[str, Any]) -> str | None:
+    """`start` of a declared time, or of the first of several that has one."""
+    said = table.get("time") or {}
+    each = [said] if isinstance(said, Mapping) else list(said)
+    return next((str(one["start"]) for one in each if one.get("start") is not None), None)
+
+
+def unused_start(declared: str | None) -> str | None:
+    """The note on a declared start of rows that have dates of their own; None where there is nothing to say."""
+    return _DATED if declared in (*ORDERS, HEAD) else None
+
+
+def find_begin(
+    lines: Sequence[Sequence[str]], first: FirstTimes, declared: str | None, where: str
+) -> tuple[Begin | None, str | None]:
+    """(what the rows count from, a note where the head's word is not taken). lines: above the rows, each as its cells;
+    declared: `table.time.start`.
+
+    FormatError where the answer fits nothing, or leaves day and month of the start open.
+    """
+    if declared == UNKNOWN:
+        raise unanswered("time.start", ", ".join(ANSWERS), where)
+    if declared == NOT:
+        return None, None
+    said = head_start(lines, declared if declared in ORDERS else None)
+    if said is None:  # of files that are declared alike only some may have such a line
+        return None, _NOTHING if declared == HEAD else None
+    begin = _begin(said, first, sure=declared is None)
+    if begin is None and declared == HEAD:
+        raise FormatError(
+            "the start above the rows can't be taken, and time.start is 'head'",
+            where=where,
+            expected="one date with a time of day, such as 'Start time: 2026-03-02 08:00:00'",
+            got=f"'{said.text[:_LONGEST]}'" + (", and another start on another line" if said.several else ""),
+            hint="declare start: none, and give each test its start: 2026-03-02 08:00",
+        )
+    if begin is None:
+        return None, None if said.clock_ns is None and not first.of_day else _note(said)
+    if said.either and declared is not None:
+        raise _which_order(said, where)
+    # who tells no order may know the start otherwise: `init` asks, and what was read before still is
+    return (None, _either(said)) if said.either else (begin, None)
+
+
+def _begin(said: HeadStart, first: FirstTimes, sure: bool) -> Begin | None:
+    """What the rows count from; None where the head does not tell it for sure. sure: only where it does by itself."""
+    if said.several or not first.ns:
+        return None
+    if first.of_day and (_are_times_of_day(said, first) or not (sure or first.near_zero)):
+        taken = not said.zoned and (said.says >= Says.BARE or not sure)
+        return Begin(said.date_ns, True, True, said.text) if taken else None
+    if said.clock_ns is None or (sure and (said.says < Says.RECORDED or not first.near_zero)):
+        return None
+    return Begin(said.date_ns + said.clock_ns, not said.zoned, False, said.text)
+
+
+def _are_times_of_day(said: HeadStart, first: FirstTimes) -> bool:
+    """Whether times that are written as of day are: they begin when the head says or soon behind it; where it tells a
+    date only, they begin at no zero, from which durations count."""
+    if said.clock_ns is None:
+        return not first.near_zero
+    behind = first.ns[0] - said.clock_ns
+    return -_SECOND <= behind <= _HOUR and not (first.near_zero and said.clock_ns > _HOUR)
+
+
+def _note(said: HeadStart) -> str:
+    shown = said.text[:_LONGEST]
+    if said.several:
+        return f"the head says '{shown}', and another start on another line, {NOT_TAKEN}: give each test its start"
+    return f"the head says '{shown}', {NOT_TAKEN}; {_HINT}"
+
+
+def _either(said: HeadStart) -> str:
+    return f"the head says '{said.text[:_LONGEST]}', {EITHER}, {NOT_TAKEN}; {_ORDER}"
+
+
+def _which_order(said: HeadStart, where: str) -> FormatError:
+    return FormatError(
+        "day and month of the start above the rows could be either way round",
+        where=where,
+        expected="a day above 12, or the order declared",
+        got=said.text,
+        hint=_ORDER,
+    )

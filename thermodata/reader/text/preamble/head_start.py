@@ -1,0 +1,157 @@
+"""When the rows of a table began, as the lines above it say: 'Start time: 04/07/2026 08:07:00', 'T0 = ...', or a date
+and a time on lines of their own. It counts for rows without a date: seconds from a start, or times of day."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from thermodata.errors import FormatError, QuestionError
+from thermodata.reader.text.cells import time_pattern
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
+from thermodata.reader.text.preamble.head_words import Says, said_by
+from thermodata.reader.text.preamble.zone_places import without_places
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.clock_letters import with_clock
+from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.text.times.time_formats import find_format
+from thermodata.reader.zone import NAT
+
+ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
+_LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\d_][^\d:=]{0,58}?)\s+(\d.*)$"))
+_MARKS = "#%;*'\"/!<> \t"  # by which a line is a comment
+_MOST_CELLS = 4  # that one moment may stand in: 'Start', '02.03.2026', '07:00:00', 'CET'
+_LONGEST_CELL, _LONGEST_TIME = 200, 100  # letters: what is longer is prose, and a pattern would take its time over it
+_SHORT_YEAR = re.compile(r"\d{2}(?P<mark>[-/.])\d{1,2}(?P=mark)\d{1,2}(?!\d)", re.ASCII)
+_NEAR_NS = 10**9  # by which two lines on one start may differ
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A date, a time of day, or both, as one line says them. says: what its label is; text: the line, for messages;
+    date_ns: since 1970, at midnight; clock_ns: in the day; zoned: whether it names its offset from UTC, and is in UTC;
+    either: what is open about its order of day and month."""
+
+    says: Says
+    text: str
+    date_ns: int | None = None
+    clock_ns: int | None = None
+    zoned: bool = False
+    either: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class HeadStart:
+    """What the head says of the start. says: how sure it is that it is one; text: the lines, for messages; clock_ns:
+    None where no line tells the time of day; either: its day and month may be either way round; several: other lines
+    say another start."""
+
+    says: Says
+    text: str
+    date_ns: int
+    clock_ns: int | None
+    zoned: bool = False
+    either: bool = False
+    several: bool = False
+
+
+def head_start(lines: Sequence[Sequence[str]], order: str | None = None) -> HeadStart | None:
+    """The start that lines above a table say, each as its cells; None where they say no date. order: the declared one
+    of day and month."""
+    moments = [m for cells in lines for m in _moments(cells, order)]
+    whole = [m for m in moments if m.date_ns is not None and m.clock_ns is not None]
+    dates = [m for m in moments if m.date_ns is not None and m.clock_ns is None]
+    clocks = [m for m in moments if m.date_ns is None]
+    # a duration is written like a time of day, and is called "Recording time" too: only words for a start say which
+    pairs = [
+        Moment(_of_two(a, b), f"{a.text}; {b.text}", a.date_ns, b.clock_ns, either=a.either)
+        for a, b in product(dates, clocks)
+        if b.says >= Says.BARE
+    ]
+    best = max((m.says for m in whole), default=None)
+    paired = max((m.says for m in pairs), default=None)
+    found = whole if paired is None or (best is not None and best >= paired) else pairs
+    found = found or dates
+    if not found:
+        return None
+    first = max(found, key=lambda m: m.says)
+    alike = [m for m in found if m.says == first.says]
+    several = any(abs(_ns(m) - _ns(first)) > _NEAR_NS for m in alike)
+    date = first.date_ns if first.date_ns is not None else 0
+    return HeadStart(first.says, first.text, date, first.clock_ns, first.zoned, first.either, several)
+
+
+def _of_two(date: Moment, clock: Moment) -> Says:
+    """What a date and a time of day on two lines say together: of a start where one says so and no other thing."""
+    low, high = sorted((date.says, clock.says))
+    return high if high is Says.BEGAN and low >= Says.BARE else min(low, Says.BARE)
+
+
+def _ns(moment: Moment) -> int:
+    return (moment.date_ns or 0) + (moment.clock_ns or 0)
+
+
+def _moments(cells: Sequence[str], order: str | None) -> Iterator[Moment]:
+    """The moments of one line: a label and its time in one cell, or in cells behind each other."""
+    left = [" ".join((clean(c).strip(_MARKS) if k == 0 else clean(c)).split()) for k, c in enumerate(cells)]
+    left = [c for c in left if 0 < len(c) <= _LONGEST_CELL]
+    k = 0
+    while k < len(left):
+        label, value = _split(left[k])
+        says = said_by(label)
+        if says is None:
+            k += 1
+            continue
+        values = [value] if value else []
+        found, used = None, 0
+        for n in range(min(_MOST_CELLS, len(left) - k)):
+            text = " ".join([*values, *left[k + 1 : k + 1 + n]]).strip(" \"'")
+            if text and (read := _read(text, says, f"{label}: {text}", order)) is not None:
+                found, used = read, n
+        if found is not None:
+            yield found
+        k += 1 + used
+
+
+def _split(cell: str) -> tuple[str, str]:
+    """(label, value) of a cell; the whole cell is the label where there is no value in it."""
+    for known in _LABELLED:
+        match = known.match(cell)
+        if match is not None and said_by(match[1]) is not None:
+            return match[1], match[2].strip()
+    return cell.strip(" :="), ""
+
+
+def _read(text: str, says: Says, line: str, order: str | None) -> Moment | None:
+    """A text as a moment; None where it is none."""
+    text = without_places(text)
+    clock = timestamp.parse_one(text, time_pattern.with_zone(TIME_OF_DAY, False))
+    if clock != NAT:
+        return Moment(says, line, None, clock)
+    if len(text) > _LONGEST_TIME or not re.search(r"\d{2}", text):
+        return None
+    either = False
+    short = _SHORT_YEAR.match(text) if order == "ymd" else None
+    try:
+        if short is not None:
+            letters = f"%y{short['mark']}%m{short['mark']}%d"
+            form = time_pattern.declared_format(with_clock(letters, text[short.end() :]))
+        else:
+            form = find_format([text], "the head", order=order)
+    except QuestionError:
+        form, either = find_format([text], "the head", order="dmy"), True
+    except FormatError:
+        spelled = guess_format([text])
+        if spelled is None:
+            return None
+        form = time_pattern.declared_format(spelled)
+    ns = timestamp.parse_one(text, form)
+    if ns == NAT or form.role == "time":
+        return None
+    zoned = time_pattern.is_zoned(text, form)
+    day = ns // DAY_NS * DAY_NS
+    clocked = form.role == "datetime" and re.search(r"\d[:.h時时]\s?\d\d|T\d{4}", text) is not None
+    return Moment(says, line, day, ns - day if clocked or ns != day else None, zoned, either)

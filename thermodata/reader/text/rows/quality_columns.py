@@ -1,0 +1,64 @@
+"""Quality columns of wide tables (`T1`, `T1.Quality`): rows that the source calls bad are flagged, values kept."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from thermodata.plugin import Array
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.status import BAD, is_good, zero_is_good
+
+_QUALITY = re.compile(
+    r"^(?P<base>.+?)[ ._:/-]*(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
+    r"|status[ _]?code|opc[ _]?status|validity)$",
+    re.IGNORECASE,
+)
+_CODE = re.compile(r"^[+-]?\d*$")
+_FRACTION = re.compile(r"^[+-]?\d*[.,]\d*[1-9]\d*$")  # no code: what is called the quality of oil, or of air
+_ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
+_VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
+QUALITY_OF = "quality_of"  # property of a signal: the one that it flags
+Pairs = Mapping[str, tuple[str, bool]]
+Told = Callable[[bool | None, str], bool | None]
+
+
+def quality_pairs(
+    columns: Mapping[str, Sequence[str]], told: Told = lambda zero, name: zero
+) -> dict[str, tuple[str, bool]]:
+    """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells; told: what the
+    campaign file adds to what the codes of all columns of one word say (None: nothing)."""
+    found: dict[str, tuple[str, str]] = {}
+    for name in columns:
+        match = _QUALITY.match(name) or _ROUND.match(name)
+        if match is None:
+            continue
+        base = match["base"].casefold()
+        value = next((o for o in columns if o != name and _VALUE.sub("", o).casefold() == base), None)
+        if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
+            found[value] = name, (match.groupdict().get("word") or "quality").casefold()
+    zeros: dict[str, bool] = {}
+    for _, word in found.values():
+        if word not in zeros:
+            own = [name for name, w in found.values() if w == word]
+            zeros[word] = bool(told(zero_is_good((c for name in own for c in columns[name]), word), own[0]))
+    return {value: (name, zeros[word]) for value, (name, word) in found.items()}
+
+
+def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:
+    """The quality columns that hold words or hexadecimal codes: text, however few these are."""
+    told = {column for column, _ in pairs.values()}
+    return {name for name in told if any(not _CODE.match(clean(cell)) for cell in columns[name])}
+
+
+def bad_rows(values: Array, zero: bool) -> Array:
+    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good."""
+    if values.dtype.kind == "f":
+        texts = np.where(np.isnan(values), "", np.char.mod("%d", np.nan_to_num(values)))
+    else:
+        texts = np.array(["" if v is None else str(v) for v in values.tolist()], str)
+    words, which = np.unique(texts, return_inverse=True)
+    flags: Array = np.array([0 if is_good(str(word), zero) else BAD for word in words], np.uint16)[which]
+    return flags

@@ -1,0 +1,134 @@
+"""What the value columns of a table hold, told from sampled cells: numbers, truth values, big integers, text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+
+from thermodata.errors import FormatError, QuestionError
+from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.number import (
+    EXACT,
+    clean,
+    decimal_mark,
+    is_number,
+    may_be_thousands,
+    to_bool,
+    to_float,
+)
+
+_TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemerk|kommentar|meldung|pozn|hinweis")
+# of fewer digits than an integer that float64 would change has
+_PLAIN = re.compile(r"(?:[+-]?\d{1,15}(?:[.,]\d{1,15})?(?:\n|\Z))+", re.ASCII)
+_INTEGER = re.compile(r"[+-]?\d{1,19}", re.ASCII)
+_FRACTIONS = 200  # cells of a column that are asked for their decimal mark
+_SHARE = 0.1  # of a column's numbers other than 0; fewer are told as losses
+_ONE_GROUP = re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII)
+_BARE_THOUSANDS = re.compile(r"[+-]?\d{4,}", re.ASCII)
+_GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
+
+
+def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> str:
+    """The dtype of a column by sampled cells: float64 where more than half of those that hold anything are numbers, but
+    int64 where a float64 would change one, bool where all are TRUE or FALSE, else str. A few words in a column that is
+    called a comment, an alarm or the like make it text; such a column without any cell is text too.
+
+    It does not depend on how long the file is: integers are float64 like other numbers.
+    """
+    if _PLAIN.fullmatch("\n".join(cells)):  # nearly every column, told by one look instead of one a cell
+        return "float64"
+    full = [c for c in map(clean, cells) if c.casefold() not in EMPTY and c.casefold() not in OVERLOAD]
+    if not full:
+        return "str" if unit is None and _TEXT_NAME.search(name) else "float64"
+    if all(to_bool(c) is not None for c in full):
+        return "bool"
+    numbers = sum(is_number(c) or to_bool(c) is not None for c in full)
+    words = len(full) - numbers
+    if 2 * words >= len(full) or (words > max(1, 0.02 * len(full)) and _TEXT_NAME.search(name)):
+        return "str"
+    if not words and all(_INTEGER.fullmatch(c) for c in full):
+        most = max(abs(int(c)) for c in full)
+        return "int64" if EXACT < most < 2**63 else "float64"
+    return "float64"
+
+
+def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
+    """The decimal mark of the number cells of some columns; None where none has a fraction.
+
+    QuestionError: both marks occur; commas stand in quotes between commas, or points between semicolons (which part
+    cells where the comma is the decimal mark), and each of them may part thousands or begin a fraction.
+    """
+    columns = list(columns)
+    cells = [c for column in columns for c in [c for c in column if "," in c or "." in c][:_FRACTIONS]]
+    if delimiter != ",":
+        try:
+            mark = decimal_mark(cells)
+        except FormatError as error:
+            raise QuestionError(
+                error.what,
+                where=where,
+                expected=error.expected,
+                got=error.got,
+                hint=error.hint,
+                ask=f"decimal: '.' or ','? {error.got}; the other then parts thousands",
+                declare={"decimal": UNKNOWN},
+                meanwhile={"decimal": "."},
+            ) from None
+        points = [c for c in map(clean, cells) if "." in c and is_number(c)]
+        doubtful = delimiter == ";" and mark == "." and all(_ONE_GROUP.fullmatch(c) for c in points)
+        # a thousand that is not parted proves that points don't part thousands here
+        if doubtful and not any(_BARE_THOUSANDS.fullmatch(clean(c)) for column in columns for c in column):
+            raise _either("points", points[0], "semicolons", where)
+        return mark
+    commas = [c for c in map(clean, cells) if "," in c and to_float(c, ",") is not None]
+    if not commas:
+        return "."
+    if any(re.fullmatch(r"[+-]?\d*\.\d+", clean(c)) for c in cells):
+        return "."
+    if all(_GROUPED.fullmatch(c) for c in commas):
+        raise _either("commas", f'"{commas[0]}"', "commas", where)
+    return ","
+
+
+def ask_for_thousands(columns: Mapping[str, Sequence[str]], decimal: str | None, where: str) -> None:
+    """QuestionError where a tenth of a column's numbers other than 0 have the file's other mark before three digits:
+    unread, they would leave the zeros alone, and a spindle would seem to rest. columns: cells by name."""
+    if decimal is None:
+        return
+    for name, cells in columns.items():
+        parted = [c for c in map(clean, cells) if may_be_thousands(c, decimal)]
+        if len(parted) < 2:
+            continue
+        others = sum(bool(to_float(clean(c), decimal)) for c in cells)
+        if len(parted) < _SHARE * (len(parted) + others):
+            continue
+        said = (
+            f"{len(parted)} of {len(parted) + others} numbers other than 0 in column '{name}' look like thousands "
+            f"('{parted[0]}'), beside decimals with '{decimal}'"
+        )
+        raise QuestionError(
+            "numbers that may be written with thousands separators",
+            where=where,
+            expected="a decimal mark that is declared",
+            got=said,
+            hint=f"declare table: {{decimal: '{decimal}'}} where '{parted[0]}' is "
+            f"{re.sub('[.,]', '', parted[0])}; else write numbers of one kind",
+            ask=f"decimal: '.' or ','? {said}; with decimal: '{decimal}' they are read as thousands",
+            declare={"decimal": UNKNOWN},
+            meanwhile={"decimal": decimal},
+        )
+
+
+def _either(marks: str, got: str, between: str, where: str) -> QuestionError:
+    thousands, fraction = (".", ",") if marks == "commas" else (",", ".")
+    return QuestionError(
+        f"{marks} that may part thousands or begin a fraction",
+        where=where,
+        expected="a decimal mark that is declared",
+        got=f"{got} between {between}",
+        hint=f"declare table: {{decimal: '{thousands}'}} where they part thousands, or {{decimal: '{fraction}'}}",
+        ask=f"decimal: '.' or ','? {got} may be thousands or a fraction",
+        declare={"decimal": UNKNOWN},
+        meanwhile={"decimal": fraction},
+    )

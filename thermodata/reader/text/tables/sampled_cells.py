@@ -1,0 +1,45 @@
+"""The cells of a table's sampled rows, by column: those in which a column has its time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.page.layout import Group, Layout
+from thermodata.reader.text.tables.table import TimedGroup
+from thermodata.reader.text.times.date_parts import column_times, row_time
+from thermodata.reader.text.times.days import filled
+from thermodata.reader.zone import NAT
+
+_FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load
+
+
+def still_going(rows: Iterable[list[str]], group: Group, layout: Layout) -> list[list[str]]:
+    """The rows in which a group has a time. Groups have lengths of their own: beside those that go on, one that has
+    ended is empty, which says nothing of how its times are written."""
+    if len(layout.groups) < 2:
+        return list(rows)
+    return [r for r in rows if any(clean(r[i]) for i in group.time if i < len(r))]
+
+
+def sampled_cells(layout: Layout, groups: Sequence[TimedGroup], body: Sequence[list[str]]) -> dict[str, list[str]]:
+    """The cells of each column by its name, in the rows that have a time for it."""
+    found: dict[int, list[str]] = {}
+    for timed in groups:
+        dated = _dated(still_going(body, timed.group, layout), timed)
+        found |= {i: [r[i] for r in dated] for i in (*timed.group.time, *timed.group.columns)}
+    return {name: found[i] for i, name in enumerate(layout.names)}
+
+
+def _dated(body: Sequence[list[str]], timed: TimedGroup) -> list[list[str]]:
+    """The rows whose times can be read."""
+    if not timed.formats:
+        return list(body)
+    if timed.once:
+        date = timed.group.time[0]
+        days = filled([r[date] for r in body])
+        body = [[*r[:date], day, *r[date + 1 :]] for r, day in zip(body, days, strict=True)]
+    if len(body) < _FEW_ROWS:
+        return [r for r in body if row_time([r[i] for i in timed.group.time], timed.formats) != NAT]
+    read = column_times([[r[i] for r in body] for i in timed.group.time], timed.formats) != NAT
+    return [r for r, good in zip(body, read.tolist(), strict=True) if good]

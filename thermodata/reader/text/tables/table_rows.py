@@ -1,0 +1,301 @@
+"""The rows of a delimited table in blocks, with times, flags and places; and what of them does not read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
+from thermodata.reader.text.cells.arrow import values
+from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import clean, to_float, why_none
+from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
+from thermodata.reader.text.file.losses import Losses
+from thermodata.reader.text.preamble.begin import Begin
+from thermodata.reader.text.rows.changed_cells import Standing
+from thermodata.reader.text.rows.footer import is_footer
+from thermodata.reader.text.rows.grid import Rows
+from thermodata.reader.text.rows.quality_columns import bad_rows
+from thermodata.reader.text.rows.typed import parse
+from thermodata.reader.text.tables.another_header import another_header, last_repeated
+from thermodata.reader.text.tables.table import Table, TimedGroup
+from thermodata.reader.text.times.date_parts import column_times
+from thermodata.reader.text.times.days import Days, have_days
+from thermodata.reader.text.times.local_clock import DayCount, LocalClock
+from thermodata.reader.time_units import EPOCHS, to_ns
+from thermodata.reader.zone import NAT
+from thermodata.schema.flag import Flag
+
+_BLOCK_VALUES = 1_000_000
+_NONE, _OVER = np.uint16(Flag.NOT_MEASURING), np.uint16(Flag.SATURATED)
+
+
+@dataclass(frozen=True, slots=True)
+class _Complaint:
+    """What is to be told of a line: a row or a cell that is lost."""
+
+    line: int
+    reason: str
+    size: int
+    column: str | None = None
+
+
+class RowReader:
+    """Turns chunks into blocks. A row without a time, or with another number of cells, is lost; a cell that is no
+    number is lost alone. Losses name the file's line, what was expected and what stood there."""
+
+    def __init__(self, table: Table, source: Source, size: int) -> None:
+        self.table = table
+        qualities = {quality: name for name, (quality, _) in table.quality.items()}
+        self.losses = Losses(table.name, max(size, 1), qualities)
+        self.sure = table.decimal is not None
+        self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
+        self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
+        wide = len(table.layout.names) + 8
+        self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
+        # of rows that are of several sensors, each has values of its own
+        self._standing = {i: Standing() for i in (table.stands if table.series is None else ())}
+        self.stopped = False
+        self._read = 0  # bytes of the file up to the end of a chunk
+        self._short: Int1D = np.empty(0, np.int64)
+        self._repeated = -1  # the last line that repeats the header
+
+    def read(self, chunk: Chunk) -> Iterator[Block | Loss]:
+        """The blocks and losses of one chunk."""
+        data, line = chunk.data, chunk.line
+        self._read = chunk.size
+        told = [_Complaint(number, ODD, 0) for number in chunk.odd]
+        if chunk.last and data and not data.endswith(b"\n"):
+            cut = data.rfind(b"\n") + 1
+            tail, data = data[cut:], data[:cut]
+            if self._is_whole(tail, data):
+                data += tail + b"\n"
+            elif tail.strip(b"\0 \r\x1a"):
+                shown = tail[:80].decode("utf-8", "replace")
+                reason = f"expected a whole row (the file ends without a line end), got '{shown}'"
+                told.append(_Complaint(line + data.count(b"\n"), reason, len(tail)))
+        rows = self._parsed(data, line)
+        rows, told = self._until_another_header(rows, told, data, line)
+        told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
+        for bad in rows.bad:
+            if not (self.table.repeats_header(bad.text) or self._is_footer(bad.text)):
+                reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
+                told.append(_Complaint(bad.line, reason, bad.size))
+        told += self._torn(rows)
+        for number, clock in enumerate(self.clocks):
+            yield from self._group(clock, rows, told if number == 0 else [], data, line)
+
+    def _is_footer(self, text: str) -> bool:
+        return is_footer([clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)])
+
+    def _torn(self, rows: Rows) -> list[_Complaint]:
+        """Rows that end with the columns of a group, as if the others had ended, though longer lines follow."""
+        if not rows.short.size and not self._short.size:
+            return []
+        waiting = np.concatenate([self._short, rows.short])
+        last_whole = int(np.setdiff1d(rows.line, rows.short).max(initial=-1))
+        self._short = waiting[waiting > last_whole]
+        reason = "fewer cells than the lines behind it: what is missing is lost"
+        return [_Complaint(int(line), reason, 0) for line in waiting[waiting < last_whole]]
+
+    def _is_whole(self, tail: bytes, before: bytes) -> bool:
+        """Whether a last line without a line end is a row all the same."""
+        end = before.rstrip(b"\n").rfind(b"\n") + 1
+        previous = before[end:].decode("utf-8", "replace").rstrip("\r\n")
+        return bool(previous) and last_line_is_whole(tail.decode("utf-8", "replace"), previous, self.table.delimiter)
+
+    def _parsed(self, data: bytes, line: int) -> Rows:
+        rows = parse(data, line, self.grid)
+        if self.sure:
+            return rows
+        other = "." if self.grid.decimal == "," else ","
+        if any(to_float(clean(cell), other) is not None for v in rows.columns.values() for _, cell in v.odd):
+            self.grid, self.sure = replace(self.grid, decimal=other), True  # the first fraction tells the mark
+            rows = parse(data, line, self.grid)
+        return rows
+
+    def _until_another_header(
+        self, rows: Rows, told: list[_Complaint], data: bytes, line: int
+    ) -> tuple[Rows, list[_Complaint]]:
+        """The rows before a line that names the columns anew, or their units: what follows it is another table."""
+        suspects = {*rows.line[self.clocks[0].times(rows, peek=True) == NAT].tolist(), *(b.line for b in rows.bad)}
+        if not suspects:
+            return rows, told
+        lines = data.split(b"\n")
+        texts = [(n, lines[n - line].decode("utf-8", "replace").strip("\r")) for n in sorted(suspects)]
+        found = another_header(self.table, texts, self._repeated)
+        self._repeated = last_repeated(self.table, texts)
+        if found is None:
+            return rows, told
+        self.stopped = True
+        number, reason = found
+        size = self._left(data, lines[: number - line])
+        return rows.before(number), [*(t for t in told if t.line < number), _Complaint(number, reason, size)]
+
+    def _left(self, data: bytes, before: Sequence[bytes]) -> int:
+        """The bytes of the file from a line of a chunk on. before: the lines of the chunk above it."""
+        behind = len(data) - sum(len(line) + 1 for line in before)
+        return max(1, self.losses.file_size - self._read + behind)
+
+    # ---- a group ---------------------------------------------------------------------------------
+
+    def _group(
+        self, clock: _Clock, rows: Rows, told: list[_Complaint], data: bytes, line: int
+    ) -> Iterator[Block | Loss]:
+        table, group = self.table, clock.timed.group
+        t_ns = clock.times(rows)
+        good = t_ns != NAT
+        columns = [i for i in group.columns if table.kinds[i] is not None]
+        told = [*told, *self._without_time(clock, rows, good, columns, data, line)]
+        for i in columns:
+            kind = table.kinds[i] or ""
+            for row, cell in rows.columns[i].odd:
+                if good[row]:
+                    reason = why_none(cell, kind, self.grid.decimal)
+                    told.append(_Complaint(int(rows.line[row]), reason, len(cell), table.layout.names[i]))
+        lines, t_ns = rows.line[good], t_ns[good]
+        for each in sorted(told, key=lambda c: c.line):
+            at = int(np.searchsorted(lines, each.line))
+            self.losses.add(each.line, each.reason, each.size, at, each.column)
+        if t_ns.size:
+            block = self._block(clock.timed, rows, columns, good, t_ns, lines)
+            for first in range(0, t_ns.size, self.rows_of_a_block):
+                yield block.part(first, first + self.rows_of_a_block)
+        yield from self.losses.dated(t_ns)
+
+    def _block(
+        self, timed: TimedGroup, rows: Rows, columns: list[int], good: Bool1D, t_ns: Int1D, lines: Int1D
+    ) -> Block:
+        values: dict[str, Array] = {}
+        flags: dict[str, Array] = {}
+        every = bool(good.all())
+        for i in columns:
+            name, kind, cells = self.table.layout.names[i], self.table.kinds[i], rows.columns[i]
+            values[name] = cells.values if every else cells.values[good]
+            flag = cells.over * _OVER if cells.over.any() else None
+            if kind not in ("float64", "str") and cells.empty.any():  # no NaN in them: 0, and not valid
+                none = (cells.empty & ~cells.over) * _NONE
+                flag = none if flag is None else flag | none
+            if flag is not None:
+                flag = flag.astype(np.uint16)[good]
+            if i in self._standing:
+                written = np.array([v is not None for v in values[name]], bool) if kind == "str" else ~cells.empty[good]
+                values[name], flag = self._standing[i].over(values[name], flag, written)
+            if flag is not None and flag.any():
+                flags[name] = flag
+        for name, (quality, zero) in self.table.quality.items():
+            if name in values and quality in values and (bad := bad_rows(values[quality], zero)).any():
+                flags[name] = flags.get(name, np.zeros(bad.size, np.uint16)) | bad
+        return Block(timed.stream, t_ns, values, flags or None, lines + 1)
+
+    def _without_time(
+        self, clock: _Clock, rows: Rows, good: Bool1D, columns: list[int], data: bytes, line: int
+    ) -> Iterator[_Complaint]:
+        """The rows that have no time: but for repeated headers, and rows beside a group that has ended."""
+        lost = np.flatnonzero(~good)
+        if not lost.size:
+            return
+        lines = data.split(b"\n")
+        for row in lost.tolist():
+            number = int(rows.line[row])
+            text = lines[number - line].decode("utf-8", "replace").rstrip("\r")
+            if self.table.repeats_header(text) or self._is_footer(text):
+                continue
+            cells = fields(text.replace("\0", ""), self.table.delimiter, self.table.quoted)
+            own = [clean(cells[i]) if i < len(cells) else "" for i in (*clock.timed.group.time, *columns)]
+            if not any(own):
+                continue
+            got = "; ".join(own[: len(clock.timed.group.time)])
+            yield _Complaint(number, f"expected a time {clock.timed.said()}, got '{got[:80]}'", len(text))
+
+
+class _Clock:
+    """The times of a group's rows, chunk after chunk."""
+
+    def __init__(self, timed: TimedGroup, timezone: str | None, begin: Begin | None = None) -> None:
+        self.timed, self.begin, self.timezone = timed, begin, timezone
+        epoch = EPOCHS.get(timed.group.epoch or "")
+        local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
+        local = local or (begin is not None and begin.of_day)
+        self.epoch = epoch
+        self.clock = LocalClock(timezone if local else None)
+        self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
+        self.joined_days = Days()
+        self.counted = 0
+        self._first: int | None = None
+
+    def times(self, rows: Rows, peek: bool = False) -> Int1D:
+        """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
+        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
+        if peek:
+            return ns
+        if self.timed.of_day:
+            ns = self._of_day(ns)
+            if self.begin is None:
+                return ns
+        if self.begin is not None and not self.begin.of_day:
+            return self.begin.utc(ns, self.timezone)
+        good = ns != NAT
+        if good.all():
+            return self.clock.utc(ns)
+        result = np.full(ns.size, NAT, np.int64)
+        result[good] = self.clock.utc(ns[good])
+        return result
+
+    def _of_day(self, ns: Int1D) -> Int1D:
+        """Times of day or durations, shape (n,), counted from the first row; from their zero, and from the date above
+        the rows, where the file says when it began."""
+        good = ns != NAT
+        if self._first is None and good.any():
+            self._first = int(ns[good][0])
+        since = self.days.relative(ns)
+        if self.begin is None:
+            return since
+        zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
+        return np.where(since == NAT, NAT, since + np.int64(zero))
+
+    def _joined(self, rows: Rows, peek: bool) -> Int1D:
+        """Dates and times of day, shape (n,): of rows without a date too, where the table has such."""
+        import pyarrow.compute as pc
+
+        forms, (date, *others) = self.timed.formats, self.timed.group.time
+        clock_ns = column_times([rows.times[i] for i in others], forms[1:])
+        cells = rows.times[date]
+        empty = np.zeros(rows.n, bool)
+        if self.timed.once:
+            empty = values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
+        days = replace(self.joined_days) if peek else self.joined_days
+        return days.join(column_times([cells], forms[:1]), clock_ns, empty)
+
+    def _counted(self, rows: Rows, peek: bool) -> Int1D:
+        """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
+        numbers = [
+            i for i in self.timed.group.columns if i in rows.columns and rows.columns[i].values.dtype.kind != "O"
+        ]
+        odd = np.zeros(rows.n, np.int64)
+        for i in numbers:
+            odd[[row for row, _ in rows.columns[i].odd]] += 1
+        words = odd == len(numbers) if numbers else np.zeros(rows.n, bool)
+        lost = np.array([b.line for b in rows.bad], np.int64)
+        taken = np.cumsum(~words) - 1 + np.searchsorted(lost, rows.line)
+        ns: Int1D = np.rint((self.counted + taken) * ((self.timed.group.seconds or 1.0) * 1e9)).astype(np.int64)
+        if not peek:
+            self.counted += int((~words).sum()) + lost.size
+        return np.where(words, NAT, ns)
+
+    def _written(self, rows: Rows, peek: bool) -> Int1D:
+        group = self.timed.group
+        if have_days(self.timed.formats):
+            return self._joined(rows, peek)
+        if not self.timed.formats:
+            cells = rows.columns[group.time[0]]
+            if self.epoch is None:
+                return to_ns(cells.values, group.seconds or 1.0)
+            ns = to_ns(cells.values, self.epoch.seconds, self.epoch.zero_s)
+            if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
+                ns[cells.empty] = NAT
+                ns[[row for row, _ in cells.odd]] = NAT
+            return ns
+        return column_times([rows.times[i] for i in group.time], self.timed.formats)

@@ -1,0 +1,140 @@
+"""Times of day in numbers: `Hour` and `Minute` beside a date, a fraction of its day as sheets keep it, and days of the
+year (Campbell's `Year, DOY, HHMM`). Read cell by cell, each different text once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from datetime import date
+from functools import partial
+
+from thermodata.errors import QuestionError
+from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_number, mostly, number_of
+from thermodata.reader.text.cells.clock_pattern import says_the_hour
+from thermodata.reader.text.cells.joined_clock import read_joined
+from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
+from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.zone import NAT
+
+_UNITS = {"H": DAY_NS // 24, "M": DAY_NS // 1440, "S": DAY_NS // 86400, "": DAY_NS}
+_MOST = {"H": 24.0, "M": 60.0, "S": 61.0, "": 1.0}
+_WORDS = {
+    letter: words.split()
+    for letter, words in {
+        "H": "hour hours stunde stunden std hodina heure ora hora hh hr h",
+        "M": "minute minutes minuten minuta min mm mi mn",
+        "S": "second seconds sekunde sekunden sekunda vteřina seconde secondo segundo sec sek ss",
+    }.items()
+}
+
+
+def clock_of_numbers(name: str, cells: Sequence[Cell]) -> TimeFormat | None:
+    """How numbers beside a date tell its time of day: hours, minutes or seconds by their name, or else a fraction of
+    the day; None where they are none of these."""
+    full = [c for c in cells if not is_empty(c)]
+    if not full or not mostly(full, is_number, 0.9, len(full)):
+        return None
+    word = split_unit(name)[0].strip(" #.:_").casefold()
+    letter = next((k for k, words in _WORDS.items() if word in words), "")
+    values = [v for c in full if (v := number_of(c)) is not None]
+    if not all(0 <= v < _MOST[letter] for v in values):
+        return None
+    text = {"H": "hours", "M": "minutes", "S": "seconds", "": "a fraction of the day"}[letter]
+    return TimeFormat("time", None, text, zoned=False, reads=partial(_counted, _UNITS[letter], _MOST[letter]))
+
+
+def columns_of_clock(day: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
+    """The columns behind a date that are called hour, minute and second and hold such numbers."""
+    found: tuple[int, ...] = ()
+    for letter, place in zip("HMS", range(day + 1, len(names)), strict=False):
+        word = split_unit(names[place])[0].strip(" #.:_").casefold()
+        if word not in _WORDS[letter] or clock_of_numbers(names[place], [r[place] for r in data]) is None:
+            break
+        found = (*found, place)
+    return found
+
+
+def fraction_question(
+    place: int, names: Sequence[str], data: Sequence[Sequence[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask of numbers below 1 that are called a time, beside days; None where they are none."""
+    full = [v for r in data if (v := number_of(r[place])) is not None]
+    if not full or not all(0 <= v < 1 for v in full) or len(set(full)) < 2:
+        return None
+    for day in (i for i in range(len(names)) if i != place):
+        cells = [r[day] for r in data if not is_empty(r[day])]
+        if not cells or not mostly(cells, is_dated, 0.9, len(cells)) or any(says_the_hour(str(c)) for c in cells[:1]):
+            continue
+        said = {"time": {"column": [day + 1, place + 1]}}
+        return QuestionError(
+            "numbers below 1 beside a date",
+            where=f"{where} column '{names[place]}'",
+            expected="a unit of time, or a fraction of the day",
+            got=f"{full[0]:g}, {full[1]:g} ...",
+            hint=f"declare table: {{time: {{column: [{day + 1}, {place + 1}]}}}} where they are a fraction of the day "
+            f"in '{names[day]}', else table: {{time: {{column: {place + 1}, unit: h}}}}",
+            times=[names[day], names[place]],
+            ask=f"column: is '{names[place]}' a fraction of the day in '{names[day]}'? else {{column: {place + 1}, "
+            "unit: h}",
+            declare=said,
+            meanwhile=said,
+        )
+    return None
+
+
+def _counted(unit_ns: int, most: float, cell: str) -> int:
+    value = number_of(cell) if is_number(cell) else None
+    if value is None or not 0 <= value < most:
+        return NAT
+    # a fraction of a day is kept to microseconds
+    return round(value * unit_ns / 1000) * 1000 if unit_ns == DAY_NS else round(value * unit_ns)
+
+
+def days_of_years(pieces: Sequence[str]) -> Callable[[str], int] | None:
+    """What reads '2026 195 800' in the pieces '%Y', '%j', '%H%M' of a format; None where they are others."""
+    if tuple(pieces[:2]) != ("%Y", "%j") or not all(p in _CLOCKS for p in pieces[2:]):
+        return None
+    return partial(_of_year, tuple(pieces))
+
+
+def year_and_day(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
+    """(columns, format) of a year, its day and a time of day that are called so: `Year, DOY, HHMM`; None where there
+    are none."""
+    words = [split_unit(n)[0].strip(" #.:_").casefold() for n in names]
+    year = next((i for i, w in enumerate(words) if w in ("year", "jahr", "rok", "année", "año", "yyyy")), None)
+    day = next((i for i, w in enumerate(words) if w in _DAYS_OF_YEAR), None)
+    if year is None or day is None:
+        return None
+    for form in (("hhmm", "%H%M"), ("hhmmss", "%H%M%S"), ("hour", "%H"), ("time", "%H%M")):
+        clock = next((i for i, w in enumerate(words) if w == form[0]), None)
+        if clock is None:
+            continue
+        reads = partial(_of_year, ("%Y", "%j", form[1]))
+        if all(reads(f"{r[year]} {r[day]} {r[clock]}") != NAT for r in data):
+            return (year, day, clock), f"%Y %j {form[1]}"
+    return None
+
+
+_DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", "julianday", "julian", "jday", "yday")
+_CLOCKS = {
+    "%H%M": partial(read_joined, 4),
+    "%H%M%S": partial(read_joined, 6),
+    "%H": partial(_counted, _UNITS["H"], _MOST["H"]),
+    "%M": partial(_counted, _UNITS["M"], _MOST["M"]),
+    "%S": partial(_counted, _UNITS["S"], _MOST["S"]),
+}
+
+
+def _of_year(pieces: tuple[str, ...], text: str) -> int:
+    cells = text.split()
+    if len(cells) != len(pieces) or not all(map(is_number, cells)):
+        return NAT
+    year, day = number_of(cells[0]) or 0.0, number_of(cells[1]) or 0.0
+    if not (1900 <= year <= 2200 and 1 <= day < 367 and not year % 1 and not day % 1):
+        return NAT
+    total = (date(int(year), 1, 1).toordinal() - date(1970, 1, 1).toordinal() + int(day) - 1) * DAY_NS
+    for piece, cell in zip(pieces[2:], cells[2:], strict=True):
+        part = _CLOCKS[piece](cell)
+        if part == NAT:
+            return NAT
+        total += part
+    return total
