@@ -9,8 +9,8 @@ from random import Random
 
 import pytest
 
-from thermodata.draft.place import place_of
-from thermodata.draft.vocabulary import PLACE_WORDS
+from thermodata.draft.words.place import place_of
+from thermodata.draft.words.vocabulary import PLACE_WORDS
 from thermodata.effect import all_effects
 from thermodata.effect.describe import describe
 from thermodata.effect.publish import linked

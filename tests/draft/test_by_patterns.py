@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.by_patterns import ids_in
-from thermodata.draft.of_logs import campaign_of_logs
+from thermodata.draft.known.by_patterns import ids_in
+from thermodata.draft.known.of_logs import campaign_of_logs
 from thermodata.schema.load import parse_campaign
 
 Tests = dict[str, dict[str, list[str]]]

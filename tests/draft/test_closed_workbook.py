@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.plan import plan
-from thermodata.draft.scan import scan
-from thermodata.draft.table import closed_workbooks
+from thermodata.draft.campaign.plan import plan
+from thermodata.draft.folder.scan import scan
+from thermodata.draft.folder.table import closed_workbooks
 
 from .labs import LABS
 

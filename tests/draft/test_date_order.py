@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from thermodata.draft.campaign.parts import DraftSource
 from thermodata.draft.make import draft_files
-from thermodata.draft.parts import DraftSource
 
 ORDERS = {"dmy": "%d/%m/%Y", "mdy": "%m/%d/%Y"}
 

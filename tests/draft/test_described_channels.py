@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.guess import called
+from thermodata.draft.signals.guess import called
 from thermodata.plugin import Signal
 from thermodata.schema.load import load_campaign
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import values_of
 
 
 def asked(name: str, *readings: float, unit: str | None = None) -> str:

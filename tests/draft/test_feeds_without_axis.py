@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
 from thermodata.schema.load import load_campaign
 

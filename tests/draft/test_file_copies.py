@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 import pytest
 
-from thermodata.draft.file_copies import copies_in
+from thermodata.draft.folder.file_copies import copies_in
 from thermodata.draft.make import draft_files
 
 from .conftest import Said

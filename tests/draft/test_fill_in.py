@@ -7,7 +7,7 @@ import pytest
 
 from thermodata.calibration.channel import calibrate
 from thermodata.calibration.static import evaluate_scale
-from thermodata.draft.fill_in import filled_in, questions
+from thermodata.draft.writing.fill_in import filled_in, questions
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.load import parse_campaign
 

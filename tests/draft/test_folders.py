@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from thermodata.draft.baseline import model_text_of
+from thermodata.draft.writing.baseline import model_text_of
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign, load_model
 

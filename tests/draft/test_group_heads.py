@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.campaign.parts import DraftChannel
 from thermodata.draft.make import draft_files
-from thermodata.draft.parts import DraftChannel
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import values_of
 from thermodata.reader.text.names.header_rows import names_and_units
 
 UNITS = ["s", "°C", "°C", "mm", "mm"]

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.filenames import matches, normal
-from thermodata.draft.parts import Draft
-from thermodata.draft.plan import plan
-from thermodata.draft.scan import scan
-from thermodata.draft.write import text_of
+from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.campaign.plan import plan
+from thermodata.draft.folder.scan import scan
+from thermodata.draft.words.filenames import matches, normal
+from thermodata.draft.writing.write import text_of
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 
@@ -180,7 +180,7 @@ def test_whatever_names_hold_the_draft_loads(tmp_path: Path) -> None:
 
 def test_a_log_with_too_many_signals_is_drafted_in_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     n = 60
-    monkeypatch.setattr("thermodata.draft.channels._MOST_SIGNALS", 50)
+    monkeypatch.setattr("thermodata.draft.campaign.channels._MOST_SIGNALS", 50)
     text(
         tmp_path / "a.csv",
         ["time [s]", *(f"T{i} [degC]" for i in range(n))],
@@ -211,7 +211,7 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
     (tmp_path / "b.dat").write_text("x\n")
     real = __import__("thermodata.reader.registry", fromlist=["claims"]).claims
     monkeypatch.setattr(
-        "thermodata.draft.raw_file.claims",
+        "thermodata.draft.files.raw_file.claims",
         lambda path: {"crio": "one reason", "table": "another"} if Path(path).name == "b.dat" else real(path),
     )
     drafted(tmp_path)

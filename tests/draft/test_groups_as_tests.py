@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.sample import Sample
-from thermodata.draft.sheets import recordings_in
+from thermodata.draft.files.sample import Sample
+from thermodata.draft.files.sheets import recordings_in
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said

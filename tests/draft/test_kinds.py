@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.draft.cuts import feeds_with_spindle, is_loaded
-from thermodata.draft.kinds import kind_of
-from thermodata.draft.sample import Course
+from thermodata.draft.courses.cuts import feeds_with_spindle, is_loaded
+from thermodata.draft.courses.kinds import kind_of
+from thermodata.draft.files.sample import Course
 from thermodata.plugin import Float1D
 from thermodata.schema.load import load_campaign
 

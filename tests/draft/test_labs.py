@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 import yaml
 
-from thermodata.draft.parts import Draft
-from thermodata.draft.plan import plan
-from thermodata.draft.scan import scan
-from thermodata.draft.write import text_of
+from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.campaign.plan import plan
+from thermodata.draft.folder.scan import scan
+from thermodata.draft.writing.write import text_of
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said

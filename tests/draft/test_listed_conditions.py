@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.table import find_table
+from thermodata.draft.folder.table import find_table
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import values_of
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.values import Values, values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import Values, values_of
 
 
 def _with(mark: float, rows: int = 3) -> Values:

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.languages import LANGUAGES
-from thermodata.draft.values import values_of
-from thermodata.draft.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import values_of
+from thermodata.draft.words.languages import LANGUAGES
+from thermodata.draft.words.vocabulary import FOREIGN, PLACE_WORDS, QUANTITY_WORDS
 from thermodata.reader.text.names.header import split_unit
 
 NAMES = Path(__file__).with_name("names.txt")

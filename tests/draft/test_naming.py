@@ -7,10 +7,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from thermodata.draft.guess import guess
-from thermodata.draft.naming import channel_name, plain, words
-from thermodata.draft.units import from_name, quantities_of
-from thermodata.draft.values import joined, values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.units import from_name, quantities_of
+from thermodata.draft.signals.values import joined, values_of
+from thermodata.draft.words.naming import channel_name, plain, words
 from thermodata.schema.campaign import NAME, RESERVED_NAMES
 
 EASY = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])

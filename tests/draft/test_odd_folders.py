@@ -208,7 +208,7 @@ def test_files_whose_values_nobody_had_time_for_are_said(
     said = "2 files were opened, and no values looked at"
     assert said not in say("init", tmp_path).out + (tmp_path / "campaign.yaml").read_text()
     (tmp_path / "campaign.yaml").unlink()
-    monkeypatch.setattr("thermodata.draft.scan._SAMPLES_S", -1.0)
+    monkeypatch.setattr("thermodata.draft.folder.scan._SAMPLES_S", -1.0)
     found = say("init", tmp_path)
     assert said in found.out + found.err + (tmp_path / "campaign.yaml").read_text()
 
@@ -224,7 +224,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
     whole = (tmp_path / "campaign.yaml").read_text()
     assert "kind: spindle" in whole
     (tmp_path / "campaign.yaml").unlink()
-    monkeypatch.setattr("thermodata.draft.sample._SAMPLE_S", -1.0)
+    monkeypatch.setattr("thermodata.draft.files.sample._SAMPLE_S", -1.0)
     monkeypatch.setattr("thermodata.reader.text.tables.table_rows._BLOCK_VALUES", 3000)
     say("init", tmp_path)
     hurried = (tmp_path / "campaign.yaml").read_text()
@@ -234,7 +234,7 @@ def test_a_file_whose_time_was_up_before_its_end_is_said(
 
 def test_a_busy_machine_drafts_the_same(tmp_path: Path, say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
     """Time that others take is not counted as time for the folder."""
-    from thermodata.draft import sample
+    from thermodata.draft.files import sample
 
     for day in range(8):
         lines = [f"{10 * i},{20 + i / 8:.3f}" for i in range(40)]

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 import yaml
 
-from thermodata.draft.jumps import JumpTest
 from thermodata.draft.make import draft_files
+from thermodata.draft.probes.jumps import JumpTest
 from thermodata.schema.campaign import Campaign
 from thermodata.store.ingest.unanswered import unanswered
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.draft.other_units import unit_question
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.other_units import unit_question
+from thermodata.draft.signals.values import values_of
 
 from .labs import numbers, text
 

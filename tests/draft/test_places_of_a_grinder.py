@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.kinds import kind_of
-from thermodata.draft.said_by_names import said_by
+from thermodata.draft.courses.kinds import kind_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.words.said_by_names import said_by
 
 from .conftest import Said
 

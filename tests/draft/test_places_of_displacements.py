@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.signals.guess import guess
 
 
 @pytest.mark.parametrize("name", ["dZ_stator", "dZ_statore", "dX_stator_dole", "Eddy stator Y", "dZ_tcp_stator"])

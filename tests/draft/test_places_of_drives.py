@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.signals.guess import guess
 
 
 @pytest.mark.parametrize("name", ["T belt drive", "T cinghia", "Riementemperatur", "Temp. courroie", "T_remen"])

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.sample import _take
-from thermodata.draft.values import Values, values_of
+from thermodata.draft.files.sample import _take
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import Values, values_of
 from thermodata.plugin import Block
 
 ON_OFF = values_of(np.tile([0.0, 0.0, 1.0, 1.0], 20))

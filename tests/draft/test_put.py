@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.baseline import model_text_of
-from thermodata.draft.fill_in import filled_in, questions
 from thermodata.draft.make import first_model, modelled, write_answered
-from thermodata.draft.put import EVERY, put
+from thermodata.draft.writing.baseline import model_text_of
+from thermodata.draft.writing.fill_in import filled_in, questions
+from thermodata.draft.writing.put import EVERY, put
 from thermodata.errors import UsageError
 from thermodata.schema.load import load_campaign, load_model, parse_campaign
 

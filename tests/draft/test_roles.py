@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.naming import words
-from thermodata.draft.roles import said_by_list, said_by_name
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.roles import said_by_list, said_by_name
 
 from .conftest import Said
 

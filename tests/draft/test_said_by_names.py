@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.said_by_names import said_by, speed_in
+from thermodata.draft.words.said_by_names import said_by, speed_in
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.values import Values
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import Values
 from thermodata.reader.text import split_unit
 
 from .conftest import Said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.signals.guess import guess
 
 # language -> side of a column -> names of channels
 SIDES = {

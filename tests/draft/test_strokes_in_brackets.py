@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.naming import parts_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.words.naming import parts_of
 from thermodata.schema.load import load_campaign
 
 from .conftest import Said

@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 import pytest
 
+from thermodata.draft.files.raw_file import described_files
 from thermodata.draft.make import draft_files
-from thermodata.draft.raw_file import described_files
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.reader.text.preamble.begin import EITHER
 

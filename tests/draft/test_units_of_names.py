@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.draft import units
-from thermodata.draft.guess import guess
-from thermodata.draft.values import Values, values_of
+from thermodata.draft.signals import units
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import Values, values_of
 
 
 def _seen(low: float, high: float) -> Values:

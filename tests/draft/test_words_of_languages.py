@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.kinds import kind_of
+from thermodata.draft.courses.kinds import kind_of
+from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
 
 

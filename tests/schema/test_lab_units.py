@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from thermodata.draft.units import quantities_of
+from thermodata.draft.signals.units import quantities_of
 from thermodata.errors import UsageError
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, linear_conversion

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
+from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, linear_conversion
 

@@ -30,9 +30,9 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from the names, finds jump tests, and says how sure it is; what only you know is marked '# ?'. What is there is
     never overwritten. Exit code 3 where a reader does not load: its files are missing, or read by another one.
     """
-    from thermodata.draft.answer import as_json
     from thermodata.draft.make import draft_files
-    from thermodata.draft.write import one_line
+    from thermodata.draft.writing.answer import as_json
+    from thermodata.draft.writing.write import one_line
     from thermodata.reader.registry import failed_readers
     from thermodata.schema.counted import counted
 
@@ -113,7 +113,7 @@ def _next_steps(made: Drafted, model: Path | None) -> str:
 
 def _first_model(made: Drafted) -> Path | None:
     """The model file that is there now, drafted or older; None where the sensors allow none."""
-    from thermodata.draft.baseline import model_text
+    from thermodata.draft.writing.baseline import model_text
 
     return made.campaign.with_name("model.yaml") if made.model or model_text(made.draft) else None
 

@@ -58,7 +58,7 @@ def predict_command(
     left out.
     """
     from thermodata.cli.progress import progress_line
-    from thermodata.draft.to_predict import data_of
+    from thermodata.draft.known.to_predict import data_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.predict import predict
     from thermodata.modelling.run import load

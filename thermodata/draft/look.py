@@ -11,8 +11,8 @@ import numpy as np
 
 from thermodata.calibration.quality import ColumnInput, flag_stream
 from thermodata.calibration.quality_concise import concise
-from thermodata.draft.guess import guess_of
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
 from thermodata.reader.preview import when

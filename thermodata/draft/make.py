@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from thermodata.draft.baseline import model_text, model_text_of, responses_of
-from thermodata.draft.letters_of_files import declared_before
-from thermodata.draft.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
-from thermodata.draft.naming import plain
-from thermodata.draft.parts import Draft
-from thermodata.draft.plan import plan
-from thermodata.draft.scan import Progress, scan
-from thermodata.draft.write import questions_in, text_of
+from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.campaign.plan import plan
+from thermodata.draft.files.letters_of_files import declared_before
+from thermodata.draft.folder.scan import Progress, scan
+from thermodata.draft.words.naming import plain
+from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
+from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
+from thermodata.draft.writing.write import questions_in, text_of
 from thermodata.errors import UsageError, unknown_name
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign, load_model, parse_campaign

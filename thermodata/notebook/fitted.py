@@ -110,7 +110,7 @@ class Fit(Shown):
     def predict(self, target: Path | str) -> Predictions:
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
         UsageError where none of its tests can be predicted."""
-        from thermodata.draft.to_predict import data_of
+        from thermodata.draft.known.to_predict import data_of
         from thermodata.modelling.predict import predict
         from thermodata.modelling.run import load
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.draft.guess import guess
-from thermodata.draft.values import values_of
+from thermodata.draft.signals.guess import guess
+from thermodata.draft.signals.values import values_of
 from thermodata.plugin import Array
 from thermodata.reader.text.names.header_rows import names_and_units
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.draft.put import put
+from thermodata.draft.writing.put import put
 from thermodata.errors import UsageError
 from thermodata.schema.load import load_campaign
 from thermodata.web.desk import Desk

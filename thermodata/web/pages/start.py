@@ -10,11 +10,11 @@ from typing import Any
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.draft.baseline import responses_of
-from thermodata.draft.fill_in import Question, filled_in, questions
 from thermodata.draft.make import first_model, modelled, write_answered
-from thermodata.draft.unread import WHAT
-from thermodata.draft.which_way import ways
+from thermodata.draft.probes.which_way import ways
+from thermodata.draft.writing.baseline import responses_of
+from thermodata.draft.writing.fill_in import Question, filled_in, questions
+from thermodata.draft.writing.unread import WHAT
 from thermodata.errors import SpecError, UsageError
 from thermodata.schema.campaign import Channel
 from thermodata.schema.load import parse_campaign

@@ -1,0 +1,192 @@
+"""The channels of one source as a draft has them: what each signal is, from all files that have it."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence, Set
+from dataclasses import replace
+
+from thermodata.draft.campaign.orientation import calibration_of, reads_a_length, sign_of
+from thermodata.draft.campaign.parts import DraftChannel, DraftJump
+from thermodata.draft.folder.legend import IN_LEGEND
+from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
+from thermodata.draft.folder.sources import Group
+from thermodata.draft.probes.jumps import JumpTest
+from thermodata.draft.probes.same_probe import own_name
+from thermodata.draft.signals.guess import called, guess
+from thermodata.draft.signals.other_units import unit_question
+from thermodata.draft.signals.own_scale import scale_note
+from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.units import rate_at_end
+from thermodata.draft.signals.values import Values, in_unit, joined
+from thermodata.draft.words.axis import axis_of
+from thermodata.draft.words.naming import channel_name, parts_of, words
+from thermodata.plugin import Signal
+from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
+from thermodata.reader.interleaved import bare_header
+from thermodata.reader.series import SERIES
+from thermodata.reader.text import split_unit
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF
+from thermodata.schema.counted import counted
+from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
+
+_MOST_SIGNALS = 2000
+_STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
+_TAG_NUMBER = re.compile(r"(?i)(?:numeric|tag|item|point|node)[ _]?id$")
+_SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
+
+
+def channels_of(
+    group: Group, jumps: Sequence[JumpTest], in_tests: Set[str], taken: set[str], calibrations: list[DraftJump]
+) -> tuple[list[DraftChannel], list[str]]:
+    """Channels of a source, and notes. jumps: of its probes; in_tests: the own names of the signals that tests have,
+    which a jump test may have under another head."""
+    found = [
+        one
+        for one in joined_over_heads(joined_over_units(group.signals), group.files)
+        if own_name(one.signal.name) not in in_tests or any(f in group.files for f in one.files)
+    ]
+    more = len(found) - _MOST_SIGNALS
+    notes = [f"{group.source}: {counted(more, 'more signal')}, left out of the draft"] if more > 0 else []
+    twice = {
+        n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
+    }
+    made, seen, beside = [], set(), list[str]()
+    streams = {one.signal.stream for one in found}
+    for one in found[:_MOST_SIGNALS]:
+        signal = one.signal
+        if signal.name in seen and signal.name not in twice:
+            continue  # the same signal, in a stream of another name
+        seen.add(signal.name)
+        said, note = _said(one)
+        if said.quantity is None and signal.unit is None and _counts_rows(one):
+            notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
+            continue
+        if (of := _unit_of(one, found)) is not None:
+            notes.append(f"{group.source}: '{one.written}' holds the unit of '{of.written}', which is taken: left out")
+            continue
+        if _is_of_others(one):
+            beside.append(one.written)
+            continue
+        keys = [(s.stream, s.name) for s in one.spellings]
+        twin = signal.name in twice
+        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
+        if jump is not None and said.quantity == "voltage":
+            said = _moved_probe(said, called(signal))
+        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
+        name = channel_name(_wished(_with_series(signal), said), taken)
+        calibration = None
+        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
+        if said.quantity == "displacement" and in_volts:
+            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
+            calibration, said = sign_of(name, signal, said, jump, calibrations)
+        own = {id(f) for f in one.files}
+        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
+        only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
+        lacking = tuple(t for t in group.tests if t not in having) if only else ()
+        stream = signal.stream if len(streams) > 1 else None
+        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
+        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
+    if beside:
+        shown = ", ".join(beside[:4]) + (f" and {len(beside) - 4} more" if len(beside) > 4 else "")
+        notes.append(
+            f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
+        )
+    return made, notes
+
+
+def _is_of_others(one: OneSignal) -> bool:
+    """Whether a signal says something of another one and nothing of the machine: the quality by which its reader flags
+    a column beside it, or the constant number of a tag (`T_air_NUMERICID`)."""
+    own = [(f, one.of(f) or one.signal) for f in one.files]
+    if own and all(QUALITY_OF in s.properties for _, s in own):
+        return True
+    if one.signal.unit is not None or not _TAG_NUMBER.search(one.signal.name):
+        return False
+    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    return bool(seen) and all(v is not None and v.constant and v.whole for v in seen)
+
+
+def _counts_rows(one: OneSignal) -> bool:
+    """Whether a signal numbers the rows of each file that has it."""
+    own = [(f, one.of(f) or one.signal) for f in one.files]
+    seen = [f.sample.values.get((s.stream, s.name)) for f, s in own]
+    return bool(seen) and all(v is not None and v.counts_rows for v in seen)
+
+
+def _unit_of(one: OneSignal, found: Sequence[OneSignal]) -> OneSignal | None:
+    """The one signal of numbers beside a column of units, which has its unit from there."""
+    if one.signal.dtype != "str" or bare_header(one.signal.name) not in UNIT_WORDS:
+        return None
+    beside = [o for o in found if o.signal.stream == one.signal.stream and o.signal.dtype != "str"]
+    return beside[0] if len(beside) == 1 and beside[0].signal.unit else None
+
+
+def _moved_probe(said: Guess, name: str) -> Guess:
+    """What is in volts and moved in a jump test: a displacement, along the axis that its name says."""
+    letter = (axis_of(words(parts_of(name)[-1])) or "").upper()
+    axis = letter if letter in ("X", "Y", "Z") else None
+    return Guess("displacement", said.unit, "tcp", axis, False, ("data",), () if axis else ("axis?",))
+
+
+def _said(one: OneSignal) -> tuple[Guess, str | None]:
+    """The guess of a signal from all files that have it, with a question where they disagree on it; the note says what
+    they call it beside its name."""
+    values, signal = None, one.signal
+    units = Counter((one.of(f) or signal).unit for f in one.files)
+    usual = units.most_common(1)[0][0]
+    called_so: Counter[str] = Counter()
+    seen: dict[str, Values | None] = {}
+    for f in one.files:
+        own = one.of(f) or signal
+        seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
+        values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
+        called_so[own.properties.get("description", "")] += 1
+    if signal.dtype == "str" and None in seen.values():
+        values = None  # words in one test that are no switch's
+    where = signal.properties.get(IN_LEGEND)
+    note: str | None = f"called '{next(iter(called_so))}' in {where or 'the file'}"
+    note = note if len(called_so) == 1 and "" not in called_so else None
+    # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
+    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    said = replace(said, sure=False) if where else said
+    if len(units) > 1 and said.quantity:
+        names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
+        asked = f"unit: the files disagree: {names}; each file's own is taken"
+        return replace(said, unit=None, instead_of=None, sure=False, questions=(*said.questions, asked)), note
+    questions = [unit_question(said.quantity, seen) if None in units else None]
+    if len(called_so) > 1 and said.quantity:
+        names = ", ".join(f"'{w}' ({n})" if w else f"nothing ({n})" for w, n in called_so.most_common())
+        questions.append(f"the same in all tests? the files call it {names}")
+    if asked_of := [q for q in questions if q]:
+        said = replace(said, sure=False, questions=(*said.questions, *asked_of))
+    return said, note
+
+
+def _with_series(signal: Signal) -> str:
+    """What a signal is called; the series that its column is of is a part of its own name, and no group."""
+    series, name = signal.properties.get(SERIES), called(signal)
+    return name.replace(f"{series}/", f"{series} ", 1) if series else name
+
+
+def _wished(signal: str, said: Guess) -> str:
+    """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
+    bare = rate_at_end(split_unit(signal)[0])[0]
+    parts = [p for p in parts_of(bare.replace("\\", "/")) if p.strip()] or [bare]
+    last = parts[-1]
+    if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
+        last = "_".join(parts[-2:])
+    if len(parts) > 1 and _STATISTIC.fullmatch(last.strip()):  # of which only the name above says what it is of
+        last = f"{split_unit(parts[-2])[0]}_{last.strip()}"
+    if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
+        last = split_unit(parts[-2])[0]
+    foreign = sum(ord(c) > 0x2FF for c in bare)
+    if foreign and said.at and said.quantity in CANONICAL_UNIT:
+        where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
+        tail = "".join(c for c in bare if c.isascii() and c.isdigit())
+        return "_".join(
+            filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
+        )
+    return last

@@ -1,0 +1,239 @@
+"""The draft of a campaign from what its folder holds: sources, channels, calibrations, tests, and what is asked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from thermodata.draft.campaign.by_hand import asked_whether_held
+from thermodata.draft.campaign.channels import channels_of
+from thermodata.draft.campaign.jump_sources import with_their_sources
+from thermodata.draft.campaign.orientation import why_idle
+from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.campaign.siblings import beside_each_other
+from thermodata.draft.campaign.speeds_told import with_told_speeds
+from thermodata.draft.courses.kinds import kind_of
+from thermodata.draft.courses.measuring import Named, rule_of
+from thermodata.draft.courses.warm import warm_starts
+from thermodata.draft.files.letters_of_files import common
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.file_copies import other_versions
+from thermodata.draft.folder.group import counted_on, files_of, tests_of
+from thermodata.draft.folder.legend import with_legends
+from thermodata.draft.folder.one_or_many import one_or_many
+from thermodata.draft.folder.one_signal import joined_over_units
+from thermodata.draft.folder.scan import Scan
+from thermodata.draft.folder.sensor_files import with_their_sensors
+from thermodata.draft.folder.sources import Group, sources_of
+from thermodata.draft.folder.table import TestTable, closed_workbooks, find_table, is_called_table, most_rows
+from thermodata.draft.probes.jumps import JumpTest, jump_of
+from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
+from thermodata.draft.probes.twin_probes import each_its_own
+from thermodata.draft.times.clocks import (
+    Alignment,
+    alignments,
+    repeats_question,
+    set_back_question,
+    start_question,
+    zone_question,
+)
+from thermodata.draft.times.date_order import with_orders_told
+from thermodata.draft.times.hints import hinted
+from thermodata.draft.times.named_days import over_midnight
+from thermodata.draft.words.roles import said_by_list
+from thermodata.schema.counted import counted
+
+
+def plan(campaign: str, folder: Path, found: Scan) -> Draft:
+    """What the folder holds, as a campaign."""
+    early = _claimed_table(folder, found)
+    beside: tuple[tuple[str, str], ...] = ()
+    if early is not None:
+        own = next(f for f in found.logs if str(f.path) == early)
+        beside = tuple(
+            (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
+        )
+        found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
+    found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
+    found, legends = with_legends(folder, found)
+    recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
+    jumps = each_its_own(recorded)
+    groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
+    of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
+    ids = list(dict.fromkeys(t for g in groups for t in g.tests))
+    table = find_table(folder, found.others, ids)
+    taken: set[str] = set()
+    channels: list[DraftChannel] = []
+    by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
+    calibrations: list[DraftJump] = []
+    notes = counted_on(groups) + joined + legends
+    for g in groups:
+        made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
+        made = with_told_speeds(made, g)
+        made = asked_whether_held(beside_each_other(made), g, groups)
+        channels += made
+        notes += left
+        by_signal[g.source] = {
+            (c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity
+        }
+    keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
+    aligned = {a.source: a for a in alignments(groups, keyed)}
+    sources = tuple(
+        DraftSource(
+            g.source,
+            g.reader,
+            g.template,
+            tuple(
+                q
+                for q in (
+                    *(hinted(a, g, groups) for a in g.asks),
+                    *_of_clocks(g, groups, aligned),
+                    *g.questions,
+                    *one_or_many(g, groups, table.rows if table else ()),
+                )
+                if q
+            ),
+            g.table,
+            aligned.get(g.source),
+            common(f.letters for f in (*g.files, *g.calibrations)),
+            g.told,
+        )
+        for g in groups
+    )
+    jumps_drafted, every_source = with_their_sources(calibrations, sources)
+    notes += closed_workbooks(found.others)
+    named = {id(f): keyed[g.source] for g in groups for f in g.files}
+    warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
+    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    tests = tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids)
+    left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
+    used = {j.file for j in calibrations}
+    idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
+    read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
+    known = [j for of_source in of_probes.values() for j in of_source]
+    left_out += tuple((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle)
+    like = [f for f in found.logs if f.like]
+    if like:
+        notes.append(
+            f"{counted(len(like), 'file', 'was', 'were')} not opened (the folder's time was up): taken to be "
+            "like others of their name, "
+            f"e.g. {like[0].path} like {like[0].like}"
+        )
+    unseen = [f for f in found.logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]
+    if unseen:
+        notes.append(
+            f"{counted(len(unseen), 'file', 'was', 'were')} opened, and no values looked at (the folder's time "
+            "was up): their "
+            f"tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
+        )
+    hurried = [f for f in found.logs if f.sample.hurried]
+    if hurried:
+        notes.append(
+            f"{counted(len(hurried), 'file', 'was', 'were')} looked at in the first rows only (the time for "
+            "each was up): what their "
+            f"tests did later is not in this draft, e.g. {hurried[0].path} after "
+            f"{counted(hurried[0].sample.rows, 'row')}; check "
+            "these lines"
+        )
+    return Draft(
+        campaign,
+        tuple(every_source),
+        tuple(channels),
+        tuple(jumps_drafted),
+        tests,
+        table,
+        left_out,
+        found.damaged,
+        tuple(notes),
+        tuple(x for x in found.failed if table is None or x[0] != table.file),
+        tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
+    )
+
+
+def _behind(path: str, used: Sequence[DraftJump], found: Scan, groups: Sequence[Group]) -> list[str]:
+    """The tests that were recorded after a jump test, where those that are used were before it."""
+    began = {str(f.path): f.start_ns for f in found.logs}
+    own, others = began.get(path), [began.get(j.file) for j in used]
+    if own is None or any(o is None or o >= own for o in others):
+        return []
+    tests = {t: [f.start_ns for f in fs if f.start_ns is not None] for g in groups for t, fs in g.tests.items()}
+    return [t for t, starts in tests.items() if starts and min(starts) > own]
+
+
+def _claimed_table(folder: Path, found: Scan) -> str | None:
+    """A table of tests that a reader takes for a log, because it has a column of dates; what holds long logs is none,
+    though a sheet beside them lists the tests."""
+    most = most_rows(len(found.logs))
+    small = [str(f.path) for f in found.logs if f.size < 200_000 and f.part is None and f.sample.rows <= most]
+    called = [p for p in small if is_called_table(p)]
+    jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
+    logs = [f for f in found.logs if str(f.path) not in called]
+    holding = [(t, fs) for g in tests_of(sources_of(logs, jumps)) for t, fs in g.tests.items()]
+    for candidates, by_number in ((called, True), ([p for p in small if p not in called], False)):
+        for candidate in candidates[:20]:
+            ids = list(dict.fromkeys(t for t, fs in holding if any(str(f.path) != candidate for f in fs)))
+            stems = [f.path.stem for f in logs if str(f.path) != candidate]
+            if any(find_table(folder, [candidate], names, by_number) for names in (ids, stems)):
+                return candidate
+    return None
+
+
+def _keyed(
+    group: Group, named: dict[tuple[str, str], tuple[str, str | None, str]]
+) -> dict[tuple[str, str], tuple[str, str | None, str]]:
+    """The channels by (stream, signal) of the files, whatever the campaign file calls them."""
+    plain = {signal.split(":", 1)[-1] if stream else signal: value for (stream, signal), value in named.items()}
+    return {
+        (s.stream, s.name): named.get((s.stream, f"{s.stream}:{one.written}")) or plain[one.written]
+        for one in joined_over_units(group.signals)
+        for s in one.spellings
+        if one.written in plain
+    }
+
+
+def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
+    """Whether a recording that nobody calls a jump test is far shorter than the tests, as one is."""
+    spans = sorted((f.sample.last_ns or 0) - (f.sample.first_ns or 0) for f in files if f is not jump.file)
+    own = (jump.file.sample.last_ns or 0) - (jump.file.sample.first_ns or 0)
+    return bool(spans) and own * 3 < spans[len(spans) // 2]
+
+
+def _test(
+    test: str,
+    groups: Sequence[Group],
+    table: TestTable | None,
+    named: Mapping[int, Named],
+    warm: str | None,
+    version: RawFile | None,
+) -> DraftTest:
+    files = [f for g in groups for f in g.tests.get(test, ())]
+    listed = table.rows.get(test, {}) if table else {}
+    kind = kind_of(test, files, listed)
+    asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
+    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
+    if (role := said_by_list(listed)) is not None:
+        kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
+    for key, value in listed.items():
+        if key in conditions and conditions[key].split()[0] != value.split()[0]:
+            doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
+            continue
+        conditions[key] = value
+    own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
+    window = next((f.block.window for f in files if f.block is not None), None)
+    if window is not None and len(files) > 1:
+        doubts.append("window: it is counted in one log, and meant since the start of the first of several")
+    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
+
+
+def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
+    """Questions about a source's zone, when it began, unless its clock is had from another's, times that repeat
+    and a clock that was set."""
+    known = group.source in aligned or any(a.there == group.source for a in aligned.values())
+    return (
+        zone_question(group, groups),
+        None if known else start_question(group, groups),
+        repeats_question(group),
+        set_back_question(group),
+    )

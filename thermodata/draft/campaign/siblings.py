@@ -1,0 +1,101 @@
+"""What a channel's name means beside the names of the others: 'column R' beside 'column F', speeds beside a speed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from thermodata.draft.campaign.parts import DraftChannel
+from thermodata.draft.words.naming import parts_of, words
+from thermodata.draft.words.place import asked_of
+from thermodata.draft.words.vocabulary import places_in
+from thermodata.reader.text import split_unit
+
+_ORDER = {2: "second", 3: "third", 4: "fourth"}
+
+
+def beside_each_other(channels: Sequence[DraftChannel]) -> list[DraftChannel]:
+    """The channels, the letters of sides read together, several spindles told apart, and speeds that would all be the
+    spindle's asked."""
+    return _speeds(_spindles(_sides(list(channels))))
+
+
+def _own(channel: DraftChannel) -> str:
+    return words(parts_of(split_unit(channel.signal)[0])[-1])
+
+
+def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """R beside F is rear beside front, where no L is there: right has its left."""
+    ends = [(c.source, m[1]) if (m := re.search(r"column ([frl])$", _own(c))) else None for c in channels]
+    made = []
+    for channel, end in zip(channels, ends, strict=True):
+        letters = {e[1] for e in ends if e and end and e[0] == end[0]}
+        if end and letters == {"f", "r"} and channel.said.at in ("column", "column.right"):
+            side = "front" if end[1] == "f" else "rear"
+            channel = replace(channel, said=replace(channel.said, at=f"column.{side}", sure=False))
+        made.append(channel)
+    return made
+
+
+def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """Each spindle by its name, where a machine has several: the milling spindle of a machine that has a counter
+    spindle, a main one, or the speed of another one, and those that the control counts, S1 and S2, where it counts two
+    speeds."""
+    said = [places_in(_own(c)) for c in channels]
+    several = any(s & {"counter spindle", "main spindle"} for s in said) or _mills_beside_a_spindle(channels, said)
+    counted = {n for c in channels if c.said.quantity == "rotational_speed" and (n := _count(c)) is not None}
+    # 'S3 counter spindle' tells whose number 3 is
+    names = dict(_ORDER) | {
+        number: name
+        for channel, words_ in zip(channels, said, strict=True)
+        for name in ("counter", "milling")
+        if f"{name} spindle" in words_ and (number := _count(channel)) is not None
+    }
+    made = []
+    for channel, words_ in zip(channels, said, strict=True):
+        number, name = _count(channel), None
+        if "milling spindle" in words_:
+            name = "milling" if several else None
+        elif not words_ & {"counter spindle", "main spindle"} and len(counted) > 1 and number is not None:
+            name = names.get(number)
+        made.append(channel if name is None else _of_spindle(channel, name))
+    return made
+
+
+def _mills_beside_a_spindle(channels: Sequence[DraftChannel], said: Sequence[frozenset[str]]) -> bool:
+    """Whether one speed is a milling spindle's, and another one that of a spindle of no such name."""
+    turning = [s for c, s in zip(channels, said, strict=True) if c.said.quantity == "rotational_speed"]
+    return any("milling spindle" in s for s in turning) and any(
+        "spindle" in s and "milling spindle" not in s for s in turning
+    )
+
+
+def _of_spindle(channel: DraftChannel, name: str) -> DraftChannel:
+    """name: of a spindle beside the first one."""
+    at = channel.said.at or ""
+    if at.partition(".")[0] != "spindle":
+        return channel
+    asked = tuple(asked_of(q, name) for q in channel.said.questions)
+    return replace(channel, said=replace(channel.said, at=f"{name}_{at}", questions=asked))
+
+
+def _count(channel: DraftChannel) -> int | None:
+    """2 of 'S2 speed' and of 'Spindle2 load'."""
+    found = re.search(r"(?<!\S)(?:s|sp|spindle|spindel|mandrino|broche|husillo|vreteno) ?([1-4])(?!\S)", _own(channel))
+    return int(found[1]) if found else None
+
+
+def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:
+    """A speed whose name does not say spindle is asked where another one of its source stands there."""
+    turning = [c for c in channels if c.said.quantity == "rotational_speed" and c.said.at == "spindle"]
+    made = []
+    for channel in channels:
+        others = [c.name for c in turning if c is not channel and c.source == channel.source]
+        if channel in turning and others and "spindle" not in places_in(_own(channel)) and not channel.said.questions:
+            where = "counter_spindle or rotary.c, as a workhead, or spindle"
+            where = where if "workpiece" in places_in(_own(channel)) else "spindle, rotary.c or table"
+            asked = f"at: {where}? {', '.join(others[:3])} is drafted at the spindle, too"
+            channel = replace(channel, said=replace(channel.said, sure=False, questions=(asked,)))
+        made.append(channel)
+    return made

@@ -1,0 +1,1 @@
+"""One file of a folder: who reads it, what it leaves open, a bounded sample of its values, and tests within it."""

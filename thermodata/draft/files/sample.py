@@ -1,0 +1,181 @@
+"""A bounded sample of a file's values, for a draft: their ranges, and the courses that tell what a test was."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from thermodata.draft.files.set_back import Clock, SetBack, first_of
+from thermodata.draft.signals.guess import guess_of, says_nothing
+from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.values import Values, bare_word, joined, values_of
+from thermodata.errors import ThermodataError
+from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
+from thermodata.reader.guard import guarded
+
+_SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
+SMALL = 4_000_000  # bytes; smaller files are read whole
+_PATIENCE = 4.0  # times as long on the wall, for others may keep the machine busy
+_KEPT_ROWS = 3000  # of a signal whose course tells what a test is
+_COURSE = ("rotational_speed", "feed", "displacement", "voltage", "position", "state")
+_COURSE_IF_ROOM = ("power",)
+_MOST_COURSES = 40
+
+
+class Watch:
+    """Counts the processor's time, and a share of that on the wall: what is looked at must not hang on what else the
+    machine does, and nobody waits for ever for a slow disk."""
+
+    def __init__(self) -> None:
+        self._cpu, self._wall = time.process_time(), time.monotonic()
+
+    @property
+    def spent_s(self) -> float:
+        return max(time.process_time() - self._cpu, (time.monotonic() - self._wall) / _PATIENCE)
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """How a signal went, thinned out. t_ns, values: shape (n,), n <= 3000."""
+
+    t_ns: Int1D
+    values: Float1D
+
+
+@dataclass(frozen=True, slots=True)
+class RepeatedTimes:
+    """Rows at the time of the row before. rows: how many; period_s: how far rows are apart if they are even."""
+
+    rows: int = 0
+    period_s: float = 0.0
+
+    def beside(self, t_ns: Int1D) -> RepeatedTimes:
+        """With those of another block of times, shape (n,)."""
+        same = int(np.count_nonzero(np.diff(t_ns) == 0))
+        if not same:
+            return self
+        stamps, times = np.unique(t_ns, return_counts=True)
+        steps = np.diff(stamps) if stamps.size > 1 else np.zeros(1, np.int64)
+        return RepeatedTimes(self.rows + same, float(np.median(steps)) / float(np.median(times)) / 1e9 or self.period_s)
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
+    for; first_ns, last_ns: of what was read; failed: what ended the reading of it; repeats: of times; set_back: the
+    clock, within the file."""
+
+    values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
+    courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
+    whole: bool = False
+    hurried: bool = False
+    first_ns: int | None = None
+    last_ns: int | None = None
+    losses: int = 0
+    rows: int = 0
+    failed: str = ""
+    repeats: RepeatedTimes = RepeatedTimes()
+    set_back: SetBack | None = None
+
+
+def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
+    """A file's values: of a small one all, of others the first rows. recording: as its reader describes it; size: in
+    bytes."""
+    watch, rows, losses, whole, hurried, failed = Watch(), 0, 0, True, False, ""
+    repeats, clocks = RepeatedTimes(), dict[str, Clock]()
+    values: dict[tuple[str, str], Values] = {}
+    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]] = {}
+    wanted, worded = _courses(recording.signals), set[tuple[str, str]]()
+    first: int | None = None
+    last: int | None = None
+    unseen = {s.stream for s in recording.signals}
+    items = guarded(who, path, source, recording)
+    try:
+        for item in items:
+            if isinstance(item, Loss):
+                losses += 1
+                continue
+            _take(item, values, parts, wanted, worded)
+            unseen.discard(item.stream)
+            repeats = repeats.beside(item.t_ns)
+            clocks.setdefault(item.stream, Clock()).add(item)
+            first = min(x for x in (first, int(item.t_ns[0])) if x is not None)
+            last = max(x for x in (last, int(item.t_ns[-1])) if x is not None)
+            rows += item.t_ns.size
+            spent = watch.spent_s
+            if size < SMALL and spent < 10 * _SAMPLE_S:
+                continue
+            if spent > 2 * _SAMPLE_S or (not unseen and (rows >= _SAMPLE_ROWS or spent > _SAMPLE_S)):
+                whole, hurried = False, rows < _SAMPLE_ROWS
+                break
+    except (ThermodataError, OSError, MemoryError) as error:
+        losses, whole, failed = losses + 1, False, short(error)
+    finally:
+        items.close()  # type: ignore[attr-defined]
+    return Sample(
+        values,
+        {k: _thinned(v) for k, v in parts.items()},
+        whole,
+        hurried,
+        first,
+        last,
+        losses,
+        rows,
+        failed,
+        repeats,
+        first_of(clocks),
+    )
+
+
+def short(error: Exception) -> str:
+    """What an error says and what it got, in one line."""
+    got = getattr(error, "got", None)
+    what = getattr(error, "what", None) or str(error) or type(error).__name__
+    return "; ".join(str(what).splitlines()) + (f" ({got})" if got else "")
+
+
+def _courses(signals: Sequence[Signal]) -> set[tuple[str, str]]:
+    """The signals whose course is kept: what tells the kind of a test, a jump, or a clock."""
+    found: list[tuple[str, str]] = []
+    others: list[tuple[str, str]] = []
+    for signal in signals:
+        said: Guess = guess_of(signal)
+        # what a bare 'value' is, its file's name may say
+        unsaid = said.quantity is None and says_nothing(signal.name)
+        if (unsaid or said.quantity in (*_COURSE, *_COURSE_IF_ROOM)) and signal.dtype != "str":
+            (found if said.quantity in _COURSE else others).append((signal.stream, signal.name))
+    return set((found + others)[:_MOST_COURSES])
+
+
+def _take(
+    block: Block,
+    values: dict[tuple[str, str], Values],
+    parts: dict[tuple[str, str], list[tuple[Int1D, Array]]],
+    wanted: set[tuple[str, str]],
+    worded: set[tuple[str, str]],
+) -> None:
+    """worded: signals so far with words that are none of a switch; they have no values."""
+    for name, column in block.values.items():
+        key = (block.stream, name)
+        seen = values_of(column)
+        if seen is None and column.dtype.kind in "OUS" and any(map(bare_word, column.tolist())):
+            worded.add(key)
+        if key in worded:
+            values.pop(key, None)
+            continue
+        both = joined(values.get(key), seen)
+        if both is not None:
+            values[key] = both
+        if key in wanted and column.dtype.kind in "biuf":
+            step = max(1, column.size // _KEPT_ROWS)
+            parts.setdefault(key, []).append((block.t_ns[::step], column[::step].astype(np.float64)))
+
+
+def _thinned(parts: Sequence[tuple[Int1D, Array]]) -> Course:
+    t_ns, x = (np.concatenate(p) for p in zip(*parts, strict=True))
+    step = max(1, -(-t_ns.size // _KEPT_ROWS))
+    return Course(t_ns[::step], x[::step])

@@ -1,0 +1,80 @@
+"""Files that somebody copied in their folder: 'day 2 - Kopie.csv' beside 'day 2.csv', equal to the last byte;
+and what else is another state of a file: half-written, or corrected."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path, PurePosixPath
+
+from thermodata.draft.files.raw_file import RawFile
+
+_UNFINISHED = (".part", ".partial", ".filepart", ".crdownload", ".download", ".tmp")
+_PART = 1 << 20
+_WHOLE = 64 << 20  # larger ones are compared at both ends
+
+
+def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+    """Copy -> the file that it is of. Only where its name is the other's with a word or a number in brackets more: two
+    tests may well have logs that are equal, as a hall's that lies in both folders."""
+    alike: dict[tuple[PurePosixPath, str, int], list[PurePosixPath]] = {}
+    for path in paths:
+        try:
+            size = (folder / path).stat().st_size
+        except OSError:
+            continue
+        if size:
+            alike.setdefault((path.parent, path.suffix.lower(), size), []).append(path)
+    found: dict[PurePosixPath, PurePosixPath] = {}
+    for together in alike.values():
+        together.sort(key=lambda p: (len(p.stem), p.stem))
+        for i, copy in enumerate(together):
+            of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
+            if of is not None and _equal(folder / copy, folder / of):
+                found[copy] = of
+    return found
+
+
+def unfinished_in(paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+    """File that is called as half-written ones are -> the finished one beside it: 'V2.csv.part' beside 'V2.csv'."""
+    known = set(paths)
+    return {p: p.with_suffix("") for p in paths if p.suffix.lower() in _UNFINISHED and p.with_suffix("") in known}
+
+
+def other_versions(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, RawFile]:
+    """Test -> the file of another one of its source that has the same minutes, and whose name its own goes on:
+    'V1_corrected.csv' beside 'V1.csv'."""
+    alike: dict[tuple[object, ...], list[tuple[str, RawFile]]] = {}
+    for test, files in tests.items():
+        for f in files:
+            if f.start_ns is not None and f.sample.whole:
+                alike.setdefault((f.path.parent, f.start_ns, f.sample.last_ns), []).append((test, f))
+    return {
+        test: other
+        for together in alike.values()
+        for test, own in together
+        for of, other in together
+        if of != test and _is_named_after(own.path, other.path)
+    }
+
+
+def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
+    before, named, after = copy.stem.partition(original.stem)
+    more = f"{before}{after}".strip(" -_.")
+    # 'run 12' is no copy of 'run 1'
+    return bool(named) and bool(re.search(r"[^\W\d_]{2}|\(\d+\)", more)) and not re.match(r"\d", after)
+
+
+def _equal(one: Path, other: Path) -> bool:
+    size = one.stat().st_size
+    try:
+        with one.open("rb") as a, other.open("rb") as b:
+            starts = range(0, size, _PART) if size <= _WHOLE else (0, size - _PART)
+            for start in starts:
+                a.seek(start)
+                b.seek(start)
+                if a.read(_PART) != b.read(_PART):
+                    return False
+    except OSError:
+        return False
+    return True

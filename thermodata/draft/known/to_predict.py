@@ -1,0 +1,101 @@
+"""What a model is to predict: a campaign of the store, a campaign file, or a folder of logs like the model's own."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from thermodata.errors import UsageError
+
+if TYPE_CHECKING:
+    from thermodata.modelling.fitted import FittedModel
+    from thermodata.store import Store
+    from thermodata.store.ingest.progress import Progress
+    from thermodata.view.dataset import Dataset
+
+
+@contextmanager
+def data_of(
+    store: Store,
+    fitted: FittedModel,
+    target: str,
+    say: Callable[[str], object],
+    progress: Progress | None = None,
+) -> Iterator[tuple[Dataset, list[str]]]:
+    """The tests of a campaign of the store; of a campaign file or a folder, through a store that goes again. And tests
+    without data. say: is told of losses."""
+    path = Path(target)
+    with store.reader() as con:
+        known = [str(row[0]) for row in con.execute("select campaign from campaign order by 1").fetchall()]
+    if path.exists() and target in known:
+        raise UsageError(f"'{target}' is a campaign of the store and a path", hint=f"./{target} is the path alone")
+    if target in known:
+        yield _loaded(store, target, fitted.spec.step)
+        return
+    if not path.exists():
+        raise UsageError(
+            f"no folder, campaign file or campaign '{target}'",
+            expected="a path, or a campaign of the store: " + ", ".join(known),
+            got=target,
+        )
+    with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
+        passing, campaign = _ingested(say, progress, store, fitted, path, Path(folder))
+        yield _loaded(passing, campaign, fitted.spec.step)
+
+
+def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
+    from thermodata.modelling.coarse_readings import drawn
+    from thermodata.view.load import load_dataset
+
+    data = drawn(load_dataset(store, campaign, step_s))
+    with store.reader() as con:
+        rows = con.execute("select test from test where campaign = ? order by rowid", [campaign]).fetchall()
+    there = {t.test for t in data.tests}
+    return data, [f"{campaign}/{row[0]}" for row in rows if row[0] not in there]
+
+
+def _ingested(
+    say: Callable[[str], object],
+    progress: Progress | None,
+    store: Store,
+    fitted: FittedModel,
+    path: Path,
+    folder: Path,
+) -> tuple[Store, str]:
+    from thermodata.draft.known.of_logs import campaign_of_logs
+    from thermodata.modelling.drivers import names_of
+    from thermodata.store import Store
+    from thermodata.store.ingest.run import ingest
+    from thermodata.store.trace.replan import read_campaign
+
+    passing = Store(folder / "store", create=True)
+    file = path if path.is_file() else _campaign_file(path)
+    if file is not None:
+        summary = ingest(passing, file, progress=progress)
+    else:
+        first = fitted.spec.campaign_ids[0]
+        terms = [t for r in fitted.responses for t in r.terms]
+        needed = {n for t in terms for text in t.binding.values() for n in names_of(text)}
+        with store.reader() as con:
+            known = read_campaign(con, first)
+        made = campaign_of_logs(known, path, needed)
+        summary = ingest(passing, path / "campaign.yaml", progress=progress, campaign=made)
+    for loss in summary.losses:
+        say(f"loss: {loss.get('reason', loss)}")
+    return passing, summary.campaign
+
+
+def _campaign_file(folder: Path) -> Path | None:
+    found = [
+        p
+        for p in sorted(folder.glob("*.y*ml"))
+        if p.suffix in (".yaml", ".yml") and "thermodata/campaign/" in p.read_text("utf-8", "replace")[:2000]
+    ]
+    if len(found) > 1:
+        raise UsageError(
+            "several campaign files in the folder", where=str(folder), got=", ".join(p.name for p in found)
+        )
+    return found[0] if found else None

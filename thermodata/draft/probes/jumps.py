@@ -1,0 +1,155 @@
+"""Finds jump tests: recordings in which a displacement voltage goes up and down a staircase while all else stands.
+
+Names help (jump, skok, Sprung, Kalibrierung, 标定), the data decide: without steps in it a recording is no jump test.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from thermodata.calibration.plateaus import Step, find_steps
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.files.sample import Course
+from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.vocabulary import says
+from thermodata.plugin import Float1D
+
+NAMED = (
+    "^jump ^skok ^sprung ^kalib ^calib ^einmess stufe. stufen schritt. staircase cal. 标定 校准 跳变 阶跃 step. steps."
+)
+_LONGEST_S = 3600.0
+_MOST_STEPS, _LEAST_STEPS = 40, 2
+_ALONG = 0.4  # of the steps of the probe that moved most: what is across the axis answers by less
+
+
+@dataclass(frozen=True, slots=True)
+class Moved:
+    """A probe that moved in steps: (stream, name), in the unit of the signal, and the usual time between them."""
+
+    signal: tuple[str, str]
+    steps: tuple[Step, ...]
+    dwell_s: float
+
+    @property
+    def height(self) -> float:
+        """Of the largest step."""
+        return max(abs(float(s.size)) for s in self.steps)
+
+
+@dataclass(frozen=True, slots=True)
+class JumpTest:
+    """A recording of a jump test. signal: (stream, name) of the probe that moved, None where none is seen to; steps: in
+    the unit of the signal; dwell_s: the usual time between them; named: the file's name says so too. source: that reads
+    it; written: what its own file calls the probe, where the tests call it otherwise. others: probes that moved nearly
+    as far, as a second one along the axis does."""
+
+    file: RawFile
+    signal: tuple[str, str] | None
+    steps: tuple[Step, ...]
+    dwell_s: float
+    named: bool
+    source: str = ""
+    written: str | None = None
+    others: tuple[Moved, ...] = ()
+
+    def is_of(self, stream: str, name: str) -> bool:
+        """Whether that is the probe that moved. Where each signal has a stream, each file may count these anew."""
+        if self.signal is None or self.signal[1] != name:
+            return False
+        return self.signal[0] == stream or sum(s.name == name for s in self.file.signals) == 1
+
+
+def jump_of(file: RawFile) -> JumpTest | None:
+    """The jump test that a file holds, or None. A file whose name says jump and that shows no steps is one with
+    signal None: a person must look."""
+    named = says(NAMED, words(file.path.stem)) or says(NAMED, words(" ".join(file.path.parent.parts)))
+    moved: list[Moved] = []
+    probes = {(s.stream, s.name): s for s in file.signals if guess_of(s).quantity in ("displacement", "voltage")}
+    stirred = _others_move(file, set(probes))
+    for key, _ in probes.items():
+        course = file.sample.courses.get(key)
+        found = staircase(course) if course is not None else None
+        if found is None or (stirred and not named):
+            continue
+        moved.append(Moved(key, *found))
+    if moved:
+        most = max(moved, key=lambda m: m.height)
+        others = tuple(m for m in moved if m is not most and m.height > _ALONG * most.height)
+        return JumpTest(file, most.signal, most.steps, most.dwell_s, named, others=others)
+    if named and probes and not stirred and _is_short(file):
+        return JumpTest(file, None, (), 10.0, True)
+    return None
+
+
+def _is_short(file: RawFile) -> bool:
+    """Whether it lasts no longer than a jump test: a 'step' of the spindle's speed takes a day."""
+    courses = [c for c in file.sample.courses.values() if c.t_ns.size]
+    return not courses or max(int(c.t_ns[-1]) - int(c.t_ns[0]) for c in courses) / 1e9 <= _LONGEST_S
+
+
+def _others_move(file: RawFile, probes: set[tuple[str, str]]) -> bool:
+    """Whether a spindle turned or an axis travelled, which a jump test does not do."""
+    for signal in file.signals:
+        key = (signal.stream, signal.name)
+        seen = file.sample.values.get(key)
+        if key in probes or seen is None:
+            continue
+        quantity = guess_of(signal).quantity
+        if quantity == "rotational_speed" and max(abs(seen.low), abs(seen.high)) > 20:
+            return True
+        if quantity == "temperature" and seen.high - seen.low > 5:
+            return True
+        if quantity == "position" and seen.high - seen.low > 5:
+            return True
+    return False
+
+
+def staircase(course: Course) -> tuple[tuple[Step, ...], float] | None:
+    """(steps, dwell [s]) where a signal stands on plateaus and little else; the dwell is searched: nobody says it."""
+    fine = np.isfinite(course.values)
+    t: Float1D = (course.t_ns[fine] - course.t_ns[0]) / 1e9
+    x = course.values[fine]
+    # of a clock that was set back, what came before
+    grows = np.concatenate([[True], t[1:] > np.maximum.accumulate(t)[:-1]]) if t.size else np.zeros(0, bool)
+    t, x = t[grows], x[grows]
+    if t.size < 40 or t[-1] > _LONGEST_S or np.ptp(x) <= 0:
+        return None
+    best: tuple[float, tuple[Step, ...], float] | None = None
+    for share in (60, 40, 25, 15, 10, 6, 4):
+        dwell = float(t[-1]) / share
+        steps, noise = find_steps(t, x, dwell)
+        largest = max((abs(s.size) for s in steps), default=0.0)
+        steps = [s for s in steps if abs(s.size) > max(0.08 * largest, 10 * noise)]
+        if not _LEAST_STEPS <= len(steps) <= _MOST_STEPS:
+            continue
+        rest = _unexplained(t, x, steps)
+        if best is None or rest < 0.8 * best[0]:
+            pauses = np.diff([s.t_s for s in steps])
+            best = (rest, tuple(steps), float(np.median(pauses)))
+    # a staircase is explained by its plateaus; a creeping probe is not, nor is one that turns with the spindle
+    if best is None or best[0] > 0.03:
+        return None
+    return best[1], best[2]
+
+
+def _unexplained(t: Float1D, x: Float1D, steps: list[Step]) -> float:
+    """The share of the signal's range that its plateaus leave: the scatter about each one's own median."""
+    edges = [float(t[0]) - 1.0, *(s.t_s for s in steps), float(t[-1]) + 1.0]
+    rests = []
+    for i, (a, b) in enumerate(pairwise(edges)):
+        low = steps[i - 1].to_s if i else a
+        high = steps[i].from_s if i < len(steps) else b
+        part = x[(t > low) & (t < high)]
+        if part.size:
+            rests.append(np.abs(part - np.median(part)))
+    return float(np.quantile(np.concatenate(rests), 0.9) / np.ptp(x)) if rests else 1.0
+
+
+def ratio(steps: tuple[Step, ...]) -> list[float]:
+    """The steps as multiples of the smallest, rounded to halves: [1, 0.5, -2, ...] of the first one's size."""
+    unit = abs(steps[0].size) or 1.0
+    return [round(2 * s.size / unit) / 2 for s in steps]

@@ -1,0 +1,60 @@
+"""A unit that only values suggest, where they suit another unit of the field as well: 8 rpm of a spindle are krpm."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from thermodata.draft.signals import units
+from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.values import Values
+
+_NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
+_NO_REST_C = 60.0  # no bearing, column or oil begins a log above that, though a motor may run there
+_AIR = ("hall", "floor", "outside")
+# spindles turn with hundreds of rpm; in krpm, or in turns a second, a test has fewer than this
+_FEW_RPM = 60.0
+_FURTHEST_UM = 3000.0  # a tool is displaced by tenths of a millimetre
+_COOL = ("bed", "column", "table", "crossbeam", "saddle", "hall", "floor", "outside")  # no heat is made there
+_HOTTEST_C = 150.0  # above it stand counts and kelvins, which are asked for elsewhere
+_SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
+
+
+def doubted(found: Guess, name: str, values: Values) -> Guess:
+    """With a question where values of a channel without a unit may be of another one than `found` has."""
+    asked = None
+    if found.quantity == "temperature" and found.unit == "degC":
+        least = _coldest(values)
+        closed = _NO_HALL_C if units.may_be_fahrenheit(name) or _stands_at(found, _AIR) else _NO_REST_C
+        asked = "degF, or degC?" if values.n > 0 and least >= closed else None
+    elif found.quantity == "rotational_speed" and found.unit == "rpm" and not _stands_at(found, _SLOW):
+        asked = "krpm, 1/s, or rpm?" if 0.0 < max(abs(values.low), abs(values.high)) <= _FEW_RPM else None
+    if asked is None:
+        return found
+    return replace(found, sure=False, questions=(*found.questions, f"unit: {asked} ({range_text(values)})"))
+
+
+def implausible(found: Guess, values: Values) -> Guess:
+    """With a question where a unit that the file says makes readings of it that no machine gives: a header that was
+    typed, and is wrong."""
+    if found.unit is None or values.n == 0:
+        return found
+    asked = None
+    if found.quantity == "displacement":
+        span = (values.high - values.low) * units.factor_to(found.unit, "um")
+        if span > _FURTHEST_UM:
+            asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
+    elif found.quantity == "temperature" and units.kelvins(found.unit) is None and _stands_at(found, _COOL):
+        factor, offset = units.to_degc(found.unit)
+        least = factor * _coldest(values) + offset
+        if _NO_REST_C <= least <= _HOTTEST_C:
+            asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
+    return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
+
+
+def _coldest(values: Values) -> float:
+    """The lowest reading; without the zeros that a logger writes where it lost one."""
+    return min(values.first, values.median) if values.low == 0.0 else values.low
+
+
+def _stands_at(found: Guess, places: tuple[str, ...]) -> bool:
+    return (found.at or "").split(".")[0] in places

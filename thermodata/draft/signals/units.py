@@ -1,0 +1,190 @@
+"""What a unit says about a quantity, and units that stand in a name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from thermodata.draft.signals.values import Values
+from thermodata.errors import UsageError
+from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
+from thermodata.schema.quantity import converts as converts_to
+from thermodata.schema.unit_scale import scaled_unit
+from thermodata.schema.unit_spelling import bare_unit
+
+_BY_UNIT: dict[str, tuple[str, ...]] = {
+    "degC": ("temperature", "temperature_difference"),
+    "degF": ("temperature",),
+    "K": ("temperature", "temperature_difference"),
+    "um": ("displacement",),
+    "nm": ("displacement",),
+    "mm": ("position", "displacement"),
+    "rpm": ("rotational_speed",),
+    "turn/second": ("rotational_speed",),
+    "V": ("voltage", "displacement"),
+    "mV": ("voltage", "displacement"),
+    "percent": ("load", "humidity"),
+    "dimensionless": ("state",),
+    "A": ("current",),
+    "mA": ("current",),
+    "kW": ("power",),
+    "W": ("power",),
+    "N*m": ("torque",),
+    "W/m**2": ("irradiance",),
+    "urad": ("tilt",),
+    "deg": ("angle",),
+    "bar": ("pressure",),
+    "l/min": ("flow",),
+    "ohm": ("resistance",),
+    "m/min": ("feed",),
+    "m": ("position", "displacement"),
+    "cm": ("position",),
+    "inch": ("position", "displacement"),
+    "in": ("position", "displacement"),
+    "thou": ("displacement",),
+}
+SHARES = ("percent", "permille", "‰")  # of what, their names say
+_FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
+_SLOPE = re.compile(r"[uμnm]?m/m")
+_ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
+_ENERGY = re.compile(r"(?:Wh|J|[Cc]al|BTU)$")  # pint takes an energy for a torque
+_LOOSE = ("label", "state", "load", "humidity", "tilt", "angle")  # pint turns any bare number into these
+# A unit at the end of a name, after a separator: unmistakable ones only.
+_IN_NAME = re.compile(
+    r"(?:^|[_.\s-])(deg[CF]|[°º][CF]|[℃℉]|Celsius|Fahrenheit|k?rpm|RPM|rps|kW|um|µm|μm|mm|inch|thou|lpm|ipm|m?bar|"
+    r"kPa|hPa|MPa|psi|mA|mV|Nm|urad|pct|%|‰|promille?|permille|"
+    r"(?:mm|m|l|1|U)[_/](?:min))$"
+)
+
+_SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
+_COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|[°º%][^\[\]]*))\]\s*$")
+# units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
+# but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
+_BESIDE: Mapping[str, Mapping[str, str]] = {
+    # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
+    "power": {"kw": "kW", "hp": "hp", "w": "W"},
+    "displacement": {"m": "m", "nm": "nm"},
+    "position": {"m": "m"},
+    "temperature": {"k": "K"},
+}
+_LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
+_COLDEST_K = 250.0
+_MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
+_FURTHEST_M = 0.05  # no tool is displaced by more
+_VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
+_LABELS = re.compile(r"\s*\{[^{}]*\}$")
+_INCH = re.compile(r"[XYZUVW](?:(?:ERR|POS|ACT|[_ ])[A-Z_ ]*)?\(IN\)$")
+_F_AT_END = re.compile(r"[_.\s(-]F\)?$")
+
+_RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
+
+
+def rate_at_end(name: str) -> tuple[str, str | None]:
+    """(the name without it, a unit with a stroke at its end or None): 'X feed m/min' -> ('X feed', 'm/min'), whose
+    stroke parts no path of names."""
+    match = _RATE_AT_END.search(name.strip())
+    return (name.strip()[: match.start()], match[1]) if match else (name, None)
+
+
+def from_name(name: str) -> str | None:
+    """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
+    match = _IN_NAME.search(name.strip())
+    return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
+
+
+def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
+    """The unit in lower case at the end of a name that says such a quantity: 'spindle_power_kw', 'probe_z_m'. None
+    where the values speak against it."""
+    match = _LOWER_AT_END.search(name.strip())
+    if match is None:
+        return None
+    unit = _BESIDE.get(quantity or "", {}).get(match[1])
+    if unit == "m" and quantity == "displacement":
+        return unit if values is not None and values.high - values.low < _FURTHEST_M else None
+    if unit == "W":
+        return unit if values is not None and values.high > _MOST_KW else None
+    if unit == "K":
+        return unit if values is not None and values.low > _COLDEST_K else None
+    return unit
+
+
+def without_value(name: str) -> str:
+    """A path of names without a last one that says nothing: 'mc/probe/dZ_um/value' -> 'mc/probe/dZ_um'."""
+    return _VALUE.sub("", name) or name
+
+
+def without_labels(name: str) -> str:
+    """A name without Prometheus' labels behind it: 'displacement_um {axis="X"}' -> 'displacement_um'."""
+    return _LABELS.sub("", name) or name
+
+
+def inches(name: str) -> str | None:
+    """The inch of 'X_ERR(IN)', in capitals as controls print; beside an axis alone, for 'COOLANT (IN)' is an inlet."""
+    return "in" if _INCH.match(name.strip()) else None
+
+
+def counts_or_range(name: str) -> str | None:
+    """'10 nm' of 'd6Z [10 nm]': what one count is, or how far the values may go, which only the lab knows."""
+    match = _COUNTS.search(name)
+    return match["all"] if match and is_unit(match["unit"]) else None
+
+
+def may_be_fahrenheit(name: str) -> bool:
+    """Whether a name ends with an F that may be its unit, as in 'T_bearing_F', which may be the front one as well."""
+    return _F_AT_END.search(name.strip()) is not None
+
+
+def without_rate(name: str, unit: str | None) -> str:
+    """A name without the unit at its end, where that is `unit` and a rate: 'feed_x_m_min' -> 'feed_x', whose 'min' is a
+    minute and no smallest value."""
+    written = from_name(name)
+    if written is None or "/" not in written or unit is None or normal_unit(written) != normal_unit(unit):
+        return name
+    return _IN_NAME.sub("", name.strip()) or name
+
+
+def quantities_of(unit: str) -> tuple[str, ...]:
+    """Quantities that can have this unit, the likeliest first; () where none can.
+
+    What is only a number with a name ('%', 'deg') is left to the name where several fit.
+    """
+    bare, normal = bare_unit(unit), normal_unit(scaled_unit(unit)[1])
+    if _FREQUENCY.fullmatch(bare) or _SLOPE.fullmatch(bare) or _ENERGY.search(bare):
+        return ()  # a frequency, a strain, or an energy, unless the name knows better
+    if normal in _BY_UNIT:
+        return _BY_UNIT[normal]
+    return tuple(q for q in CANONICAL_UNIT if q not in _LOOSE and converts(unit, q))
+
+
+def kelvins(unit: str) -> float | None:
+    """How many K a unit is that counts from absolute zero ('mK', '0,1 K'), None where it is another."""
+    scale, bare = scaled_unit(unit)
+    size = {"K": 1.0, "dK": 0.1, "cK": 0.01, "mK": 0.001}.get(normal_unit(bare))
+    return None if size is None else scale * size
+
+
+def factor_to(unit: str, target: str) -> float:
+    """How many of the target one of a unit is; 0 where it does not convert."""
+    try:
+        return abs(linear_conversion(unit, target)[0])
+    except UsageError:
+        return 0.0
+
+
+def to_degc(unit: str) -> tuple[float, float]:
+    """(factor, offset) from a unit of temperature to degC; as if it were degC where it is none."""
+    try:
+        return linear_conversion(unit, "degC")
+    except UsageError:
+        return 1.0, 0.0
+
+
+def is_inclination(unit: str) -> bool:
+    """Whether a unit is one of angles or of slopes, which a name may make a tilt: 'mm/m', 'µm/m', 'arcsec'."""
+    bare = bare_unit(unit)
+    return _SLOPE.fullmatch(bare) is not None or _ANGLE.fullmatch(bare) is not None
+
+
+def converts(unit: str, quantity: str) -> bool:
+    """Whether values in this unit can be values of this quantity."""
+    return converts_to(unit, CANONICAL_UNIT[quantity])

@@ -1,0 +1,216 @@
+"""What the clocks of the sources have to do with each other: a zone that a log does not name, and a quantity that two
+of them logged."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from zoneinfo import ZoneInfo
+
+from thermodata.calibration.clock import estimate_offset
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.sources import Group
+from thermodata.errors import ThermodataError
+from thermodata.reader.text.tables.zone_named import OPEN
+from thermodata.store.ingest.repeated_times import MANY
+from thermodata.store.tidy.times_of_day import began, first_of
+
+Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
+_HOUR_NS = 3_600_000_000_000
+_TOGETHER_NS = 120_000_000_000  # by how much two logs that begin and end together differ in length, as at ingest
+_ZONES = (
+    "UTC",
+    "Europe/Prague",
+    "Europe/Berlin",
+    "Europe/London",
+    "Europe/Helsinki",
+    "Europe/Moscow",
+    "Asia/Shanghai",
+    "Asia/Tokyo",
+    "Asia/Kolkata",
+    "America/New_York",
+    "America/Chicago",
+    "America/Los_Angeles",
+    "America/Sao_Paulo",
+)
+_ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "load")
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """`clock: {align_to: there.source, by: [...]}` of a source. offset_s, uncertainty_s: as found in `test`; None where
+    it could not be had there, and `why` says why: then it is only a question."""
+
+    source: str
+    there: str
+    by: tuple[str, str]
+    offset_s: float | None
+    uncertainty_s: float | None
+    test: str
+    why: str | None = None
+
+
+def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
+    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
+    if not any(f.local for f in group.files):
+        return None
+    head = next((n for f in group.files for n in f.recording.notes if OPEN in n), None)
+    said = "" if head is None else f"; {head}"
+    pairs = [
+        (f.start_ns, begin)
+        for g in groups
+        if g is not group and not any(f.local for f in g.files)
+        for test, files in group.tests.items()
+        if test in g.tests
+        for f in files[:1]
+        if f.start_ns is not None and (begin := _begin(g.tests[test])) is not None
+    ]
+    hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
+    if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
+        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague" + said
+    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
+    ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
+    return f"timezone? local times, {ahead} from the other sources' UTC: " + (
+        f"fits {', '.join(fitting[:3])}{said}" if fitting else f"or a clock that is wrong by whole hours{said}"
+    )
+
+
+def start_question(group: Group, groups: Sequence[Group]) -> str | None:
+    """What to ask about a source without dates beside one that has them; None where none has, or where they last as
+    long in every test: then they begin and end together."""
+    if not group.files or not all(_undated(f) for f in group.files):
+        return None
+    for other in groups:
+        if other is group or any(_undated(f) for f in other.files):
+            continue
+        for test, files in group.tests.items():
+            if (asked := _by_its_clock(test, files, other)) is not None:
+                return asked
+            here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
+            if here is not None and there is not None and abs(there - here) > _TOGETHER_NS:
+                return (
+                    f"when did it begin? it has no dates; '{other.source}' has, and lasts {_hours(there)} h in {test} "
+                    f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "
+                    "clock: {offset: 0 s} if they begin together"
+                )
+    return None
+
+
+def _by_its_clock(test: str, files: Sequence[RawFile], other: Group) -> str | None:
+    """What to ask of a log that tells times of day, beside one with dates that begins at another time."""
+    of_day_ns, there = first_of([f.recording.of_day_ns for f in files]), _begin(other.tests.get(test, ()))
+    # both are local, or the one with dates may be in UTC: by whole hours it may be the zone
+    zone = "UTC" if any(f.local for f in other.files) else None
+    at = None if of_day_ns is None or there is None else began(of_day_ns, there, zone)
+    return at and (
+        f"when did it begin? it tells times of day without a date; beside '{other.source}', {test} began {at} by its "
+        f"first row: start: {at} in the test, and so for the others, or clock: {{offset: 0 s}} if they begin together"
+    )
+
+
+def repeats_question(group: Group) -> str | None:
+    """What to ask where many rows stand at the time of the row before, which count nowhere; None where few do."""
+    for file in group.files:
+        said = file.sample.repeats
+        if said.rows >= MANY * file.sample.rows > 0 and said.period_s > 0 and not any(s.held for s in file.signals):
+            return (
+                f"{said.rows} of {file.sample.rows} rows of {file.path.name} stand at the time of the row before, and "
+                f"count nowhere; are rows evenly spaced? then table: {{time: {{period: {said.period_s:.4g} s}}}}, and "
+                "give each test its start: 2026-03-02 08:00"
+            )
+    return None
+
+
+_HOUR_NS, _ROW_NS = 3600 * 10**9, 120 * 10**9
+
+
+def set_back_question(group: Group) -> str | None:
+    """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
+    follows."""
+    for file in group.files:
+        said = file.sample.set_back
+        if said is not None and file.local and _HOUR_NS - _ROW_NS <= said.by_ns <= _HOUR_NS:
+            continue  # the end of summer time: the zone, which is asked for, tells it
+        if said is not None and file.block is None and not any("resets: allow" in a.ask for a in file.asked):
+            return (
+                f"row {said.row} of {file.path.name} is {said.by_ns / 1e9:g} s earlier than the rows before, and what "
+                "follows is lost: was the clock set back there? then clock: {resets: allow} joins it; if another test "
+                "begins there, cut the file"
+            )
+    return None
+
+
+def _undated(file: RawFile) -> bool:
+    return file.recording.clock == "relative" and file.recording.start_ns is None
+
+
+def _lasts_ns(files: Sequence[RawFile]) -> int | None:
+    """From the first to the last row; None where a file's end was not looked at."""
+    ends = [(f.sample.first_ns, f.sample.last_ns) for f in files if f.sample.whole]
+    known = [(a, b) for a, b in ends if a is not None and b is not None]
+    if not files or len(known) < len(files):
+        return None
+    return max(b for _, b in known) - min(a for a, _ in known)
+
+
+def _hours(ns: int) -> str:
+    return f"{ns / _HOUR_NS:.3g}"
+
+
+def _begin(files: Sequence[RawFile]) -> int | None:
+    return min((f.start_ns for f in files if f.start_ns is not None), default=None)
+
+
+def _offset(name: str, at_ns: int) -> int | None:
+    shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
+    return None if shift is None else round(shift.total_seconds() / 3600)
+
+
+def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[Alignment]:
+    """For each source but the first, the pair of channels by which its clock can be had from another's.
+
+    channels: source -> (stream, signal) -> (quantity, place, channel name). Only pairs whose courses fit in a test.
+    """
+    found: list[Alignment] = []
+    aligned: set[str] = set()
+    order = sorted(
+        (g for g in groups if g.files), key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals)
+    )
+    for i, there in enumerate(order):
+        for here in order[i + 1 :]:
+            if here.source in aligned:
+                continue
+            made = _alignment(here, there, channels)
+            if made is not None:
+                found.append(made)
+                aligned.add(here.source)
+    return found
+
+
+def _alignment(here: Group, there: Group, channels: Mapping[str, Named]) -> Alignment | None:
+    pairs = [
+        (a, b, name_a, name_b)
+        for a, (quantity, place, name_a) in channels[here.source].items()
+        for b, (other, where, name_b) in channels[there.source].items()
+        if quantity == other and quantity in _ALIGNABLE and place == where and place is not None
+    ]
+    refused: Alignment | None = None
+    pairs.sort(key=lambda p: _ALIGNABLE.index(channels[here.source][p[0]][0]))
+    for test in [t for t in here.tests if t in there.tests][:6]:
+        for a, b, name_a, name_b in pairs[:6]:
+            one = next((c for f in here.tests[test] if (c := f.sample.courses.get(a)) is not None), None)
+            two = next((c for f in there.tests[test] if (c := f.sample.courses.get(b)) is not None), None)
+            if one is None or two is None:
+                continue
+            try:
+                said = estimate_offset(one.t_ns, one.values, two.t_ns, two.values)
+            except ThermodataError as error:
+                refused = refused or Alignment(
+                    here.source, there.source, (name_a, name_b), None, None, test, error.what
+                )
+                continue
+            return Alignment(
+                here.source, there.source, (name_a, name_b), said.offset_ns / 1e9, said.uncertainty_ns / 1e9, test
+            )
+    return refused

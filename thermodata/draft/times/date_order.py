@@ -1,0 +1,133 @@
+"""Which way round day and month of dates are, where some files of a source leave it open and others settle it: files of
+the same source whose days leave no choice, or a source with other dates that runs beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_file
+from thermodata.draft.folder.group import tests_of
+from thermodata.draft.folder.sources import Group, sources_of
+from thermodata.draft.times.hints import fitting_others, swapped
+from thermodata.errors import ThermodataError
+from thermodata.reader.guard import described
+from thermodata.reader.registry import reader
+
+_ORDERS = ("dmy", "mdy")
+_EITHER = "format of the dates: dmy or mdy?"
+_DAY_NS = 86_400_000_000_000
+_LEAST_IN_ROW = 3  # files by whose names one more stands out of place
+_LOOKED_AT = 40  # files of a source, each once for either order
+
+
+def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ...]:
+    """The logs, those that leave the order open with the one that is settled: declared, and told instead of asked."""
+    if not any(_is_open(f) for f in logs):
+        return tuple(logs)
+    groups = tests_of(sources_of(logs, []))
+    made: dict[int, RawFile] = {}
+    for group in groups:
+        files = [f for f in (*group.files, *group.calibrations) if _is_open(f)]
+        told = _settled(folder, group, groups) if files else None
+        if told is not None and _out_of_place(group, told[0]):
+            told = None
+        if told is not None:
+            made |= {id(f): _told(folder, f, *told) for f in files}
+    return tuple(made.get(id(f), f) for f in logs)
+
+
+def _is_open(file: RawFile) -> bool:
+    return any(a.ask.startswith(_EITHER) for a in file.asked)
+
+
+def _settled(folder: Path, group: Group, groups: Sequence[Group]) -> tuple[str, str] | None:
+    """(order, why); None where nothing tells it, or not all that tell it agree."""
+    closed = [f for f in (*group.files, *group.calibrations) if not f.asked and not f.like][:_LOOKED_AT]
+    only = {order: f for f in closed if (order := _order_of(folder, f)) is not None}
+    near = fitting_others(group, groups, [f for f in group.files if _is_open(f)])
+    if len({*only, *near}) != 1:
+        return None
+    order = next(iter(only or near))
+    why = f"{only[order].path.name} can only be" if only else f"it fits the dates of '{near[order]}'"
+    return order, f"dates {order}: {why}"
+
+
+def _out_of_place(group: Group, order: str) -> bool:
+    """Whether a file that leaves the order open is of another computer: it ran while another did, as no others, or
+    stands out of the row of files that ascend else, and does not with day and month the other way round. Asked, for
+    one order is declared for all."""
+    files = [f for f in group.files if f.start_ns is not None]
+    spans = [_span(f, order) for f in files]
+    other = [_span(f, next(o for o in _ORDERS if o != order)) for f in files]
+
+    def other_way(n: int) -> list[tuple[int, int]]:
+        return [*spans[:n], other[n], *spans[n + 1 :]]
+
+    by_time = sorted(range(len(files)), key=spans.__getitem__)
+    at_once = [(a, b) for a, b in pairwise(by_time) if spans[b][0] < spans[a][1]]
+    if len(at_once) == 1 and any(_is_open(files[n]) and not _overlap(other_way(n)) for n in at_once[0]):
+        return True
+    back = _back(spans)
+    return (
+        len(files) > _LEAST_IN_ROW
+        and len(back) in (1, 2)
+        and any(
+            _is_open(files[n]) and not _back([*spans[:n], *spans[n + 1 :]]) and not _back(other_way(n))
+            for n in {n + beside for n in back for beside in (0, 1)}
+        )
+    )
+
+
+def _span(file: RawFile, order: str) -> tuple[int, int]:
+    """(first, last time) of a file [ns]; of one that leaves the order open, which is read as dmy meanwhile, by it."""
+    start = file.start_ns or 0
+    begin = swapped(start) if _is_open(file) and order == "mdy" else start
+    return begin, begin + max((file.sample.last_ns or 0) - (file.sample.first_ns or 0), 0)
+
+
+def _overlap(spans: Sequence[tuple[int, int]]) -> bool:
+    return any(b[0] < a[1] for a, b in pairwise(sorted(spans)))
+
+
+def _back(spans: Sequence[tuple[int, int]]) -> list[int]:
+    """The places after which one begins days before that."""
+    return [n for n, (a, b) in enumerate(pairwise(spans)) if b[0] < a[0] - _DAY_NS]
+
+
+def _order_of(folder: Path, file: RawFile) -> str | None:
+    """The one order with which a file begins when it does without a declared one; None where both do, as with a month
+    in letters."""
+    fits = []
+    for order in _ORDERS:
+        try:
+            again = described(reader(file.reader), folder / file.path, _declared(file, order).source)
+        except ThermodataError:
+            continue
+        if again.start_ns is not None and again.start_ns == file.recording.start_ns:
+            fits.append(order)
+    return fits[0] if len(fits) == 1 else None
+
+
+def _format(order: str) -> dict[str, Any]:
+    return {"time": {"format": order}}
+
+
+def _declared(file: RawFile, order: str) -> RawFile:
+    return replace(file, table=merged(file.table or {}, _format(order)))
+
+
+def _told(folder: Path, file: RawFile, order: str, why: str) -> RawFile:
+    """The file as it is with this order. It was looked at as the first of them."""
+    asked = tuple(
+        Asked(why, _format(order), a.times, told=True) if a.ask.startswith(_EITHER) else a for a in file.asked
+    )
+    file = replace(_declared(file, order), asked=asked)
+    if order == _ORDERS[0] or file.like:
+        return file
+    again = described(reader(file.reader), folder / file.path, file.source)
+    file = replace(file, recording=replace(file.recording, start_ns=again.start_ns, notes=again.notes))
+    return replace(file, sample=sample_of_file(folder / file.path, file))

@@ -1,0 +1,1 @@
+"""What words say, in the languages of labs: names taken apart, places, axes, roles, and the names of files."""

@@ -1,0 +1,151 @@
+"""What the names of files and folders say of a test: its speed or schedule, feed, air and date; and how sure that is.
+
+A number is taken only where the name says what it is: 'n6000' and '6000 rpm' are speeds, 'S001' is the first sample,
+'1-8k' may be 1800 rpm or the first test at 8000, and is asked.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from thermodata.draft.words.naming import without_marks
+
+_NUMBER = r"\d+(?:[.,]\d+)?"
+_RPM = r"(?:k?rpm|u/?min|ot(?:/?min)?|1/min|min-1|转)"
+_START, _END = r"(?<![a-z0-9.,])", r"(?![a-z0-9])"
+_WORD = r"(?:sp|rpm|speed|spindle|spindel|drehzahl|otacky|ot|nspi|转速|主轴)"
+_SCHEDULE = re.compile(
+    rf"{_START}({_NUMBER}k?(?:\+{_NUMBER}k?)+) ?({_RPM})?{_END}|"
+    rf"{_START}({_NUMBER}k(?:[->]{_NUMBER}k)+) ?({_RPM})?{_END}"
+)
+_EITHER = re.compile(rf"{_START}(\d)-(\d{{1,2}})k(?:{_RPM})?{_END}")
+_SAID_SPEED = re.compile(rf"{_START}({_NUMBER}) ?(k?) ?{_RPM}{_END}|(?<![a-z]){_WORD} ?[=-]? ?({_NUMBER})(k?){_END}")
+_LETTER = re.compile(rf"(?<![a-z])[sn](\d{{3,5}})(?!\d)(?![a-z])|(?<![a-z])[sn] (\d{{3,5}}){_END}")
+_THOUSANDS = re.compile(rf"{_START}(\d{{1,2}}(?:[.,]\d)?)k{_END}")
+_LEAST_RPM = 50  # of a number behind a word; no spindle test turns slower, and runs are counted so
+_FEED = re.compile(rf"(?<![a-z])(?:f|vf|feed|vorschub|posuv|进给) ?({_NUMBER})(?: ?(m|mm)/? ?min)?{_END}")
+_FEED_UNIT = re.compile(rf"{_START}({_NUMBER}) ?(m|mm)/?min{_END}")
+_DEGREES = rf"((?:(?<![a-z0-9])-)?{_NUMBER}) ?(?:°|deg)?c"  # the dash of 0-20C is none of the number
+_COURSE = re.compile(rf"{_DEGREES} ?(?:to|bis|na|az|auf|->|-|~) ?{_DEGREES}(?![a-z])")
+_AT = re.compile(rf"(?<![a-z])(air|amb\w*|hall\w*|luft|raum\w*|umgebung|room|okoli|气温|室温) ?{_DEGREES}(?![a-z])")
+_SOME_DEGREES = re.compile(rf"(?<![\d.,]){_DEGREES}(?![a-z])")
+_CONDITIONED = re.compile(r"(?<![a-z])(wo|without|no|ohne|bez|w|with|mit|s)[ -]?ac(?![a-z])")
+_WITHOUT = ("wo", "without", "no", "ohne", "bez")
+_DATE = re.compile(
+    r"(?<!\d)(20\d\d)([-. ]?)(0[1-9]|1[0-2])\2(0[1-9]|[12]\d|3[01])(?!\d)"
+    r"(?:[ t-]+([01]\d|2[0-3])[-:h. ]?([0-5]\d)(?:[-:m. ]?([0-5]\d))?(?!\d))?"
+)
+_DATE_DMY = re.compile(r"(?<!\d)(0?[1-9]|[12]\d|3[01])\.(0?[1-9]|1[0-2])\.(20\d\d)(?!\d)")
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """conditions: condition -> value with unit, of which the names leave no other reading; guessed: those that are
+    likely only; speeds: what a speed may be [rpm], where there are several readings; start: date and time of day;
+    questions: what to ask."""
+
+    conditions: dict[str, str] = field(default_factory=dict)
+    guessed: frozenset[str] = frozenset()
+    speeds: tuple[float, ...] = ()
+    start: str | None = None
+    questions: tuple[str, ...] = ()
+
+
+def said_by(names: Sequence[str]) -> Said:
+    """What names say. names: of the test, of its folders and files, the one that counts most first."""
+    texts = [_plain(n) for n in names]
+    conditions: dict[str, str] = {}
+    guessed: set[str] = set()
+    questions: list[str] = []
+    speeds = _speed(texts, conditions, guessed, questions)
+    _feed(texts, conditions, questions)
+    _air(texts, conditions, guessed, questions)
+    start = _date(texts, conditions)
+    return Said(conditions, frozenset(guessed), speeds, start, tuple(questions))
+
+
+def speed_in(piece: str) -> bool:
+    """Whether a piece of a name states a speed, and nothing else: 'S8000', '6000rpm', not 'S001'."""
+    found: dict[str, str] = {}
+    _speed([_plain(piece)], found, set(), [])
+    return "speed" in found
+
+
+def _plain(name: str) -> str:
+    return without_marks(name).replace("_", " ").casefold()
+
+
+def _first(pattern: re.Pattern[str], texts: Sequence[str]) -> re.Match[str] | None:
+    return next((m for t in texts if (m := pattern.search(t))), None)
+
+
+def _value(text: str, thousands: bool = False) -> float:
+    return float(text.replace(",", ".")) * (1000 if thousands else 1)
+
+
+def _speed(
+    texts: Sequence[str], conditions: dict[str, str], guessed: set[str], questions: list[str]
+) -> tuple[float, ...]:
+    """The speed or the schedule; returns the readings of a speed that has several."""
+    if match := _first(_SCHEDULE, texts):
+        parts = re.split(r"[+>-]", match[1] or match[3])
+        thousands = (match[2] or match[4] or "").startswith("k") or parts[-1].endswith("k")
+        levels = [_value(p.rstrip("k"), p.endswith("k") or (thousands and _value(p.rstrip("k")) < 100)) for p in parts]
+        conditions["schedule"] = ", ".join(f"{v:g} rpm" for v in levels)
+        return ()
+    if match := _first(_EITHER, texts):
+        one, other = _value(f"{match[1]}.{match[2]}", True), _value(match[2], True)
+        questions.append(f"speed: '{match[0]}' is {one:g} rpm, or number {match[1]} at {other:g} rpm?")
+        return one, other
+    for match in (m for t in texts for m in _SAID_SPEED.finditer(t)):
+        number, k = (match[1], match[2] or match[0].find("krpm") > 0) if match[1] else (match[3], match[4])
+        if not match[1] and not k and _value(number) < _LEAST_RPM:
+            continue  # 'sp1' is the first spindle, or the first run
+        conditions["speed"] = f"{_value(number, bool(k)):g} rpm"
+        return ()
+    for match in (m for t in texts for m in _LETTER.finditer(t)):
+        digits = match[1] or match[2]
+        if not digits.startswith("0") and (len(digits) > 3 or int(digits) % 50 == 0):
+            conditions["speed"] = f"{int(digits)} rpm"
+            return ()
+    if match := _first(_THOUSANDS, texts):
+        conditions["speed"] = f"{_value(match[1], True):g} rpm"
+        guessed.add("speed")
+    return ()
+
+
+def _feed(texts: Sequence[str], conditions: dict[str, str], questions: list[str]) -> None:
+    match = _first(_FEED_UNIT, texts) or _first(_FEED, texts)
+    if match is None or (match[1].startswith("0") and len(match[1]) > 1):
+        return
+    value = _value(match[1])
+    unit = f"{match[2]}/min" if match[2] else "mm/min" if value >= 100 else "m/min"
+    conditions["feed"] = f"{value:g} {unit}"
+    if not match[2]:
+        questions.append(f"feed in {unit}?")
+
+
+def _air(texts: Sequence[str], conditions: dict[str, str], guessed: set[str], questions: list[str]) -> None:
+    if match := _first(_COURSE, texts):
+        conditions["air"] = f"{_value(match[1]):g} degC to {_value(match[2]):g} degC"
+        guessed.add("air")
+    elif match := _first(_AT, texts):
+        conditions["air"] = f"{_value(match[2]):g} degC"
+    elif (match := _first(_SOME_DEGREES, texts)) and not re.match(r"-?0\d", match[1]):  # '02_C' is number 2 of axis C
+        questions.append(f"{_value(match[1]):g} degC, says the name: of what? e.g. conditions: {{air: ...}}")
+    if match := _first(_CONDITIONED, texts):
+        conditions["air_conditioning"] = "off" if match[1] in _WITHOUT else "on"
+        guessed.add("air_conditioning")
+
+
+def _date(texts: Sequence[str], conditions: dict[str, str]) -> str | None:
+    """The date, and with a time of day the moment."""
+    match = next((m for t in texts if (m := _DATE.search(t)) and m[5]), None) or _first(_DATE, texts)
+    if match is not None:
+        conditions["date"] = f"{match[1]}-{match[3]}-{match[4]}"
+        return None if match[5] is None else f"{conditions['date']} {match[5]}:{match[6]}:{match[7] or '00'}"
+    if match := _first(_DATE_DMY, texts):
+        conditions["date"] = f"{match[3]}-{int(match[2]):02d}-{int(match[1]):02d}"
+    return None

@@ -1,0 +1,126 @@
+"""A first model of a folder: the plain effects whose sensors are there, for `fit`, `compare` and `diagnose`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.writing.write import flow, one_line, scalar
+from thermodata.effect.binding import unnamed
+from thermodata.effect.registry import effects
+from thermodata.schema.campaign import Campaign
+from thermodata.schema.places import is_around
+
+# what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
+_PLAIN = ("spindle_bearing", "feed_screw", "column_bending", "table_bearing", "ambient_frame")
+_WITHOUT_SENSOR = {"spindle_bearing": "spindle_friction"}  # where only the speed is logged
+_AXES = ("Z", "Y", "X")
+_ASKED = ("temperature", "rotational_speed")
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What is known of a channel."""
+
+    quantity: str
+    at: str | None
+    axis: str | None
+
+
+def model_text(draft: Draft) -> str | None:
+    """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
+    said = {c.name: c.said for c in draft.channels}
+    return _text(draft.campaign, {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity})
+
+
+def model_text_of(campaign: Campaign, response: str | None = None) -> str | None:
+    """The same of a campaign file as it stands, with the places that were answered since its draft. response: one of
+    `responses_of`, the first where None."""
+    return _text(campaign.id, _known(campaign), response)
+
+
+def responses_of(campaign: Campaign) -> list[str]:
+    """The displacements that a first model may be of: the tool's before others, Z before Y before X before the rest."""
+    channels = _known(campaign)
+
+    def late(name: str) -> tuple[bool, int]:
+        axis = channels[name].axis
+        return channels[name].at != "tcp", _AXES.index(axis) if axis in _AXES else len(_AXES)
+
+    return sorted((n for n, c in channels.items() if c.quantity == "displacement"), key=late)
+
+
+def _known(campaign: Campaign) -> dict[str, _Known]:
+    return {n: _Known(c.quantity, c.at, c.axis) for n, c in campaign.channels.items()}
+
+
+def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = None) -> str | None:
+    axes = _axes(channels)
+    first = next((n for n, c in channels.items() if axes and _is_tools(c) and c.axis == axes[0]), None)
+    chosen = chosen or first
+    if chosen is None:
+        return None
+    axis = channels[chosen].axis
+    alone = _is_tools(channels[chosen]) and sum(_is_tools(c) and c.axis == axis for c in channels.values()) == 1
+    wanted = f"{{axis: {axis}, at: tcp}}" if alone else f"{{{flow({'channel': chosen})}}}"
+    others = [a for a in axes if a != axis]
+    drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
+    known = effects()
+    lines, missing = [], []
+    for name in _PLAIN:
+        for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
+            effect = known.get(tried)
+            fits = _on_axis(unnamed(effect, drivers), drivers, axis or "none") if effect is not None else []
+            if effect is not None and fits:
+                rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
+                spec = flow({"effect": tried, "drivers": fits[0]})
+                lines.append(f"  - {{{spec}}}   # {one_line(effect.meaning.split(':')[0])}{rest}")
+                break
+        else:
+            missing.append(name)
+    if not lines:
+        return None
+    nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
+    return "\n".join(
+        [
+            "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
+            "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
+            "schema: thermodata/model/1",
+            f"name: {'baseline' if chosen == first else scalar(f'baseline_{chosen}')}",
+            f"campaign: {scalar(campaign)}",
+            f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
+            "step: 60 s",
+            "effects:",
+            *lines,
+            *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
+            *(
+                [f"# ? drive nothing until their place ('at') is answered: {', '.join(nowhere[:12])}"]
+                if nowhere
+                else []
+            ),
+            "",
+        ]
+    )
+
+
+def _axes(channels: Mapping[str, _Known]) -> list[str]:
+    """The axes of the tool's displacements, the one that is modelled first before the others: Z before Y before X."""
+    there = {c.axis for c in channels.values() if _is_tools(c)}
+    return [a for a in _AXES if a in there]
+
+
+def _is_tools(channel: _Known) -> bool:
+    return channel.quantity == "displacement" and channel.at == "tcp" and channel.axis is not None
+
+
+def _on_axis(found: list[dict[str, str]], drivers: Mapping[str, _Known], axis: str) -> list[dict[str, str]]:
+    """The bindings, without those whose sensor sits on another axis than the modelled one."""
+
+    def own(name: str) -> bool:
+        at = drivers[name].at or ""
+        return not at.startswith("axis.") or at.split(".")[1] == axis.lower()
+
+    # the air of the hall before that at its top or bottom, which is warmer or colder for most of the day
+    mine = [b for b in found if all(own(c) for c in b.values())]
+    return sorted(mine, key=lambda b: any(is_around(at := drivers[c].at) and "." in (at or "") for c in b.values()))
