@@ -1,4 +1,4 @@
-"""What labs write in further languages, by the keys of the vocabulary; written as there (vocabulary.py).
+"""What labs write in further languages, by the keys of the vocabulary; written as there (words/vocabulary.py).
 
 Latin words that a name of another language could hold by chance carry the dot or the '^'. Cyrillic, kana and Hangul are
 looked for anywhere. Diacritics may stand here or not: they are gone before matching.
