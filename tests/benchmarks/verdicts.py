@@ -98,7 +98,7 @@ def diagnosed(case: Case) -> dict[str, Any]:
     from thermodata.diagnosis import selection
     from thermodata.diagnosis.answer import answer
     from thermodata.effect import effects
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
     from thermodata.virtual.binned import to_dataset
     from thermodata.virtual.world import make_world
 

@@ -14,7 +14,7 @@ from thermodata.diagnosis.detection import Limit, of_each_effect
 from thermodata.diagnosis.probability import CLAIMED, probability, sharpness_asked
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 

@@ -17,8 +17,8 @@ from thermodata.diagnosis.gain_by import gains_by_condition, named
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.model import EffectSpec, Model

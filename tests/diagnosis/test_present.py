@@ -8,9 +8,9 @@ import numpy as np
 
 from thermodata.diagnosis.known_effects import base_columns, from_other_zero, remembered
 from thermodata.diagnosis.present import ALL_MODES, Present, modes, present
-from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.transfer import FreeFunction, GivenFunction
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
+from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.schema.model import EffectSpec, Model
 
 from .conftest import make_data

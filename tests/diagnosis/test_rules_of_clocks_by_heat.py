@@ -14,7 +14,7 @@ from thermodata.diagnosis.commanded import is_command
 from thermodata.diagnosis.heat_balance import Disagreement, Pair
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.diagnosis import ClockMoved
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

@@ -23,8 +23,8 @@ from thermodata.diagnosis.ranking import Ranked
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Member, Selection
 from thermodata.effect import effects
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted import FittedModel, FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 

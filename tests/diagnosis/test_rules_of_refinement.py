@@ -19,7 +19,7 @@ from thermodata.diagnosis.refinement import PART, Refinement
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D, Param
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo

@@ -24,7 +24,7 @@ from thermodata.diagnosis.ranking import rank_in
 from thermodata.diagnosis.rules import blunt
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.turned_locked import turned_locked
-from thermodata.modelling.resolve import term_ids
+from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import Dataset

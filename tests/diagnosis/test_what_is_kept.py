@@ -13,7 +13,7 @@ from thermodata.diagnosis.basis import basis
 from thermodata.diagnosis.candidates import CandidateEffect
 from thermodata.diagnosis.known_effects import base_columns, remembered
 from thermodata.diagnosis.problem import Problem
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Drivers, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
 

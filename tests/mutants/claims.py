@@ -77,7 +77,7 @@ def heat(file: str, old: str, new: str, why: str) -> Mutant:
 
 
 def check(old: str, new: str, why: str, file: str = "checks.py") -> Mutant:
-    return Mutant(f"thermodata/modelling/{file}", old, new, why, CHECKS)
+    return Mutant(f"thermodata/modelling/trust/{file}", old, new, why, CHECKS)
 
 
 def calibration(file: str, old: str, new: str, why: str) -> Mutant:

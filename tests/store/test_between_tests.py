@@ -216,7 +216,7 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
     from thermodata.diagnosis.candidates import candidates
     from thermodata.diagnosis.logging_faults import faulty_sensors
     from thermodata.effect.registry import effects
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
     from thermodata.schema.model import Model
     from thermodata.view.load import load_dataset
 

@@ -25,8 +25,8 @@ from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.suspect import suspect
 from thermodata.diagnosis.unexplained import characterise
 from thermodata.diagnosis.unlocking import Look, unlocked
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData

@@ -22,10 +22,10 @@ from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.effect.places import holds
 from thermodata.errors import UsageError, unknown_name
-from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.candidate import phase_ids, phases_id, with_phases
-from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.terms.acting import acting, moved_while
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.versions.candidate import phase_ids, phases_id, with_phases
 from thermodata.plugin import Effect, Gain, Param
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData

@@ -22,9 +22,9 @@ from thermodata.diagnosis.present import (
 from thermodata.diagnosis.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
-from thermodata.modelling.candidate import with_effect
-from thermodata.modelling.drivers import has_drivers, make_drivers
-from thermodata.modelling.lead import columns, with_lead
+from thermodata.modelling.inputs.drivers import has_drivers, make_drivers
+from thermodata.modelling.inputs.lead import columns, with_lead
+from thermodata.modelling.versions.candidate import with_effect
 from thermodata.plugin import Effect, Float1D, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.places import is_around, is_beside, is_casting

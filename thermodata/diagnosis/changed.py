@@ -11,8 +11,8 @@ from thermodata.diagnosis.discrepancy import Noise
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import Scored
 from thermodata.errors import SpecError
-from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 
 # what else a gain may be, as a share of the one gain: by machine, wear or preload; soft (`evidence.BEYOND`)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.known_effects import otherwise, remembered
 from thermodata.diagnosis.problem import Base, Problem, build_problem
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.view.dataset import Dataset, TestData
 
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows

@@ -12,11 +12,11 @@ from thermodata.diagnosis.foretold import Foretold
 from thermodata.diagnosis.problem import freed
 from thermodata.diagnosis.scored import ACTS
 from thermodata.errors import ThermodataError
-from thermodata.modelling.bound_checks import IMPLAUSIBLE
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.modelling.resolve import term_ids
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.trust.bound_checks import IMPLAUSIBLE
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, Parameter

@@ -21,10 +21,10 @@ from thermodata.diagnosis.known_effects import owners
 from thermodata.diagnosis.problem import Problem
 from thermodata.diagnosis.scored import ACTS, Scored
 from thermodata.errors import unknown_name
-from thermodata.modelling.bound import OF_TESTS, group_of
-from thermodata.modelling.candidate import gain_by_id, with_gain_by
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.said_conditions import refuse_unsaid
+from thermodata.modelling.model_file.said_conditions import refuse_unsaid
+from thermodata.modelling.terms.bound import OF_TESTS, group_of
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
 from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData

@@ -43,7 +43,7 @@ from thermodata.diagnosis.rules import failed_rules
 from thermodata.diagnosis.scored import Scored
 from thermodata.diagnosis.selection import Member, Selection, any_stands_out, first_ranking, select
 from thermodata.diagnosis.weak import weak_spots
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
 from thermodata.schema.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

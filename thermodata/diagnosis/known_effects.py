@@ -8,10 +8,10 @@ import numpy as np
 
 from thermodata.diagnosis.present import TIME_UNITS
 from thermodata.diagnosis.problem import Base
-from thermodata.modelling.drivers import has_drivers, make_drivers, names_of
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.lead import columns as led_columns
-from thermodata.modelling.lead import with_lead
+from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of
+from thermodata.modelling.inputs.lead import columns as led_columns
+from thermodata.modelling.inputs.lead import with_lead
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Float1D, Float2D
 from thermodata.view.dataset import TestData
 

@@ -16,11 +16,11 @@ from thermodata.diagnosis.judge import Judgement
 from thermodata.diagnosis.known import rms
 from thermodata.diagnosis.rules import HALVES
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import with_candidate
+from thermodata.modelling.versions.candidate import with_candidate
 
 if TYPE_CHECKING:
-    from thermodata.modelling.fitted_response import FittedResponse
     from thermodata.modelling.run import Loaded
+    from thermodata.modelling.terms.fitted_response import FittedResponse
     from thermodata.schema.candidate import Candidate
     from thermodata.schema.model import EffectSpec, Model
     from thermodata.store import Store

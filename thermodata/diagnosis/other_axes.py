@@ -13,8 +13,8 @@ from thermodata.diagnosis.probability import probability
 from thermodata.diagnosis.rules import surely
 from thermodata.diagnosis.scored import Scored
 from thermodata.errors import ThermodataError
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.model import Model, Response
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

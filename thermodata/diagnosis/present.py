@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from thermodata.effect.binding import bindings, family_of
-from thermodata.modelling.drivers import names_of
-from thermodata.modelling.fitted_response import FittedResponse, FittedTerm
-from thermodata.modelling.nested import ModelOutput
-from thermodata.modelling.transfer import GivenFunction
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.model_file.nested import ModelOutput
+from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect
 from thermodata.view.dataset import ChannelInfo
 

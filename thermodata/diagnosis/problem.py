@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.modelling.nuisance import unknown_start
+from thermodata.modelling.terms.nuisance import unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 

@@ -23,7 +23,7 @@ from thermodata.diagnosis.probability import probability, sharpness
 from thermodata.diagnosis.problem import Block, Problem
 from thermodata.diagnosis.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.scored import Scored
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Int1D
 
 MODE = "it is another mode of what the model has"

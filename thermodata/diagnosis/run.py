@@ -23,9 +23,9 @@ from thermodata.diagnosis.turned_locked import turned_locked
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
-from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__

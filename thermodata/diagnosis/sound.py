@@ -20,8 +20,8 @@ from thermodata.diagnosis.declared_clocks import Declared
 from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, is_alike, meets
 from thermodata.diagnosis.problem import TARGET_ROWS
 from thermodata.diagnosis.turned import turned_probes
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model

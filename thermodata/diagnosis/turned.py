@@ -18,7 +18,7 @@ from thermodata.diagnosis.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.known import FloatND
 from thermodata.diagnosis.present import GENERIC, present
 from thermodata.diagnosis.problem import Block, Problem
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Float1D, Float2D, Int1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.confirm import shape_of
 from thermodata.diagnosis.known import rms
-from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.modelling.score import fit_percent
+from thermodata.modelling.predictions.score import fit_percent
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
