@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.clock_moves import moved
+from thermodata.diagnosis.clocks.moves import moved
 from thermodata.diagnosis.sound import sound
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model

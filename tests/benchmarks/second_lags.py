@@ -22,7 +22,7 @@ from typing import Any
 
 from measure import machine, table
 
-from thermodata.diagnosis.confirm import on_all_open, rmse
+from thermodata.diagnosis.locked.confirm import on_all_open, rmse
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.schema.model import EffectSpec, Model

@@ -1,4 +1,4 @@
-"""An effect of the model with heating and cooling apart, as a candidate (diagnosis/by_phase.py)."""
+"""An effect of the model with heating and cooling apart, as a candidate (weigh/by_phase.py)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.by_phase import heating_and_cooling_apart, named_apart
+from thermodata.diagnosis.weigh.by_phase import heating_and_cooling_apart, named_apart
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.errors import UsageError

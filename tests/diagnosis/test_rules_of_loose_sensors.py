@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.loose import Fall, between_the_same_tests, conditions_changed, loose_sensors, telling
+from thermodata.diagnosis.sensors.loose import Fall, between_the_same_tests, conditions_changed, loose_sensors, telling
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model

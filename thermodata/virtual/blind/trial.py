@@ -8,7 +8,7 @@ from time import process_time
 from typing import Any
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.confirm import on_all_open, rmse
+from thermodata.diagnosis.locked.confirm import on_all_open, rmse
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted_response import FittedResponse
