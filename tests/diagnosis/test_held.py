@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.diagnosis.locked import held as rules
 from thermodata.diagnosis.locked.held import as_held, held
-from thermodata.diagnosis.verdict.on_locked import held as rules
 from thermodata.schema import diagnosis as results
 
 

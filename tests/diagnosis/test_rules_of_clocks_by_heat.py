@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.clocks.by_commands import by_heat as clocks_by_heat
+from thermodata.diagnosis.clocks import by_heat as clocks_by_heat
 from thermodata.diagnosis.clocks.by_heat import as_artefact, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.heat_balance import Disagreement, Pair
 from thermodata.diagnosis.steps.commanded import is_command

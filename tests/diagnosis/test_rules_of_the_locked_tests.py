@@ -12,13 +12,13 @@ import pytest
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.locked import confirm as confirming
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape, extended, on_all_open, rmse
 from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.verdict.on_locked import confirm as confirming
 from thermodata.diagnosis.verdict.on_locked import foretell
 from thermodata.diagnosis.weigh.evidence import columns
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.candidates import basis as module
 from thermodata.diagnosis.candidates.basis import basis
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.candidates.of_library import basis as module
 from thermodata.diagnosis.question.known_effects import base_columns, remembered
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.modelling.fit.model import fit_model

@@ -1,7 +1,7 @@
 """Two logs of one machine that disagree about the time, told by heat: a body warms when its drive works, not an hour
 before.
 
-What a command moves at once says when the displacement was measured (`clocks`), and nothing of a logger of
+What a command moves at once says when the displacement was measured (`by_commands`), and nothing of a logger of
 temperatures. So each temperature of one source is foretold by a heat balance with the commands of another, which are
 moved until that is best: in all tests, then in one, as they act in the others unmoved.
 """
