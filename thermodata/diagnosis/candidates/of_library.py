@@ -48,10 +48,11 @@ class CandidateEffect:
     for it, and it reads the temperature of a casting, of what stands beside the machine, or one of which nobody
     declared where it sits, while others have a place. log_prior: how much less probable than others before any data.
     kin: how near it is to what the model has already (`Kin`). unforetold: why left-out tests can't be asked of it; None
-    where they can. unread: places of other parts that it may be (`unread`). around: whether it reads nothing but one
-    temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions. of_holder: whether
-    it reads the temperature of what holds the probes, or of the tool, which warm with all in the working space. lesser:
-    whether it is the part of an axis that moves the tool less as a rule, and `unread` has the other."""
+    where they can. unread: places of other parts that it may be (`unread`). around: whether it reads nothing
+    but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
+    of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
+    working space. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
+    other."""
 
     effect: Effect
     binding: Mapping[str, str]
