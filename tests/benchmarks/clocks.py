@@ -16,11 +16,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.clock_moves import moved
+from thermodata.diagnosis.clocks.moves import moved
 from thermodata.diagnosis.sound import sound
 from thermodata.effect import effects
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.lathe.data import model_of, to_dataset

@@ -22,7 +22,7 @@ from into_control.programs import driven, program, readings
 from into_control.run_c import COMPILER, run_c
 
 from thermodata.effect.linear import lag_filter
-from thermodata.modelling.state_space import system_of
+from thermodata.modelling.seen.state_space import system_of
 from thermodata.plugin import Float1D
 
 HOURS = 24

@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 
 from thermodata.diagnosis import answer as answering
-from thermodata.diagnosis.beside import beside
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.detection import limits
-from thermodata.diagnosis.investigate import Investigation
-from thermodata.diagnosis.known import known
-from thermodata.diagnosis.scored import ACTS
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.detection import limits
+from thermodata.diagnosis.question.known import known
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.weigh.beside import beside
+from thermodata.diagnosis.weigh.scored import ACTS
 from thermodata.virtual.blind.trial import Trial, judge
 from thermodata.virtual.lathe.data import contribution
 from thermodata.virtual.lathe.right_names import mark

@@ -26,8 +26,8 @@ import numpy as np
 import peers
 
 from thermodata.effect.lag import lag
+from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.run import fit_alone
-from thermodata.modelling.score import fit_percent
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

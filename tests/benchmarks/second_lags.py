@@ -22,9 +22,9 @@ from typing import Any
 
 from measure import machine, table
 
-from thermodata.diagnosis.confirm import on_all_open, rmse
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.second_lag import with_second_lags
+from thermodata.diagnosis.locked.confirm import on_all_open, rmse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
@@ -103,7 +103,7 @@ def measured(case: Case) -> dict[str, Any]:
 
 
 def _ids(spec: Model) -> list[str]:
-    from thermodata.modelling.resolve import term_ids
+    from thermodata.modelling.model_file.resolve import term_ids
 
     return term_ids(spec.effects)
 

@@ -95,10 +95,10 @@ def diagnosed(case: Case) -> dict[str, Any]:
     """The answer and the rankings behind it, as plain values."""
     from dataclasses import replace
 
-    from thermodata.diagnosis import selection
     from thermodata.diagnosis.answer import answer
+    from thermodata.diagnosis.verdict import selection
     from thermodata.effect import effects
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
     from thermodata.virtual.binned import to_dataset
     from thermodata.virtual.world import make_world
 

@@ -12,7 +12,7 @@ import pytest
 
 from thermodata.effect import registry
 from thermodata.errors import UsageError
-from thermodata.modelling import make_effect, not_installed
+from thermodata.modelling.model_file import make_effect, not_installed
 from thermodata.store import Store
 
 from .conftest import Said

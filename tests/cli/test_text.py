@@ -15,7 +15,7 @@ from thermodata.cli.besides import as_table
 from thermodata.cli.common import plain
 from thermodata.cli.json_text import json_text
 from thermodata.cli.layout import LAYOUTS, latex, markdown
-from thermodata.modelling.beside import Beside
+from thermodata.modelling.compare.beside import Beside
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.evidence import Columns, Weighed
-from thermodata.diagnosis.kin import Kin
-from thermodata.diagnosis.measure import Measure
-from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.candidates.kin import Kin
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.weigh.evidence import Columns, Weighed
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 from thermodata.view.dataset import ChannelInfo, TestData
 

@@ -11,7 +11,7 @@ import pytest
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model

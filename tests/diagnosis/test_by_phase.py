@@ -1,4 +1,4 @@
-"""An effect of the model with heating and cooling apart, as a candidate (diagnosis/by_phase.py)."""
+"""An effect of the model with heating and cooling apart, as a candidate (weigh/by_phase.py)."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.by_phase import heating_and_cooling_apart, named_apart
+from thermodata.diagnosis.weigh.by_phase import heating_and_cooling_apart, named_apart
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
-from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.candidate import phases_id, phases_of, with_candidate, with_phases
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.acting import acting, moved_while
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.versions.candidate import phases_id, phases_of, with_candidate, with_phases
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset, TestData

@@ -1,4 +1,4 @@
-"""A choice of the user's own is asked of the locked tests in which it acts (diagnosis/confirm.py)."""
+"""A choice of the user's own is asked of the locked tests in which it acts (locked/confirm.py)."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Confirmation, confirm
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.locked.confirm import Confirmation, confirm
 from thermodata.effect import effect
 from thermodata.effect.lag import lag
 from thermodata.view.dataset import Dataset, TestData

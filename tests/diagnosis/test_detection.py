@@ -1,4 +1,4 @@
-"""How large an effect must be to be claimed (diagnosis/detection.py)."""
+"""How large an effect must be to be claimed (claims/detection.py)."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.detection import Limit, of_each_effect
-from thermodata.diagnosis.probability import CLAIMED, probability, sharpness_asked
+from thermodata.diagnosis.claims.detection import Limit, of_each_effect
+from thermodata.diagnosis.claims.probability import CLAIMED, probability, sharpness_asked
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 

@@ -16,20 +16,20 @@ from scipy.linalg import block_diag, null_space
 from scipy.special import logsumexp
 from scipy.stats import kstest, multivariate_normal
 
-from thermodata.diagnosis import discrepancy
-from thermodata.diagnosis.beside import beside
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.directions import Weighted, log_evidence
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns, columns, moments, of_each_series, weigh
-from thermodata.diagnosis.in_noise_of_best import likeliest_beside
-from thermodata.diagnosis.invariance import spread_of_gain
-from thermodata.diagnosis.known import Known, known, likeliest
-from thermodata.diagnosis.locked import _with, foretell
-from thermodata.diagnosis.null import best_of_chance, p_value
-from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.ranking import rank_in
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question import discrepancy
+from thermodata.diagnosis.question.directions import Weighted, log_evidence
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.known import Known, known, likeliest
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.verdict.on_locked import _with, foretell
+from thermodata.diagnosis.weigh.beside import beside
+from thermodata.diagnosis.weigh.evidence import Columns, columns, moments, of_each_series, weigh
+from thermodata.diagnosis.weigh.in_noise_of_best import likeliest_beside
+from thermodata.diagnosis.weigh.invariance import spread_of_gain
+from thermodata.diagnosis.weigh.null import best_of_chance, p_value
+from thermodata.diagnosis.weigh.ranking import rank_in
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Bool1D, Float1D, Float2D, Gain, Param
 
 from .hand_made import Parts, problem
@@ -373,7 +373,7 @@ def test_the_best_of_chance_is_against_all_that_was_tried() -> None:
 @pytest.mark.parametrize(("share", "moves"), [(0.99, True), (1.01, False)])
 def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(share: float, moves: bool) -> None:
     """What is as free as its own size, or freer, would be fitted again: it stays as fitted."""
-    from thermodata.diagnosis.null import _responses
+    from thermodata.diagnosis.weigh.null import _responses
 
     one = small(cause=0.0)
     large = replace(one, blocks=tuple(replace(b, slack=1e6 * b.slack, base=1e6 * b.base) for b in one.blocks))

@@ -1,4 +1,4 @@
-"""A gain for each value of a condition, as a candidate (diagnosis/gain_by.py)."""
+"""A gain for each value of a condition, as a candidate (weigh/gain_by.py)."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import next_test
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.gain_by import gains_by_condition, named
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.weigh.gain_by import gains_by_condition, named
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.model import EffectSpec, Model

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.first_seen import where
-from thermodata.diagnosis.goes_with import (
+from thermodata.diagnosis.unlogged.first_seen import where
+from thermodata.diagnosis.unlogged.goes_with import (
     Companion,
     companions,
     hours_of_day,
     strong_and_weak_tests,
 )
-from thermodata.diagnosis.missing_heat import Course, MissingHeat
-from thermodata.diagnosis.suspect import Suspect
-from thermodata.diagnosis.unexplained import characterise
+from thermodata.diagnosis.unlogged.missing_heat import Course, MissingHeat
+from thermodata.diagnosis.unlogged.unexplained import characterise
+from thermodata.diagnosis.verdict.suspect import Suspect
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData

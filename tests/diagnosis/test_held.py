@@ -1,11 +1,11 @@
-"""What holds on the locked tests: the shape of a choice, and the error as it is scored (diagnosis/held.py)."""
+"""What holds on the locked tests: the shape of a choice, and the error as it is scored (locked/held.py)."""
 
 from __future__ import annotations
 
 import pytest
 
-from thermodata.diagnosis import held as rules
-from thermodata.diagnosis.held import as_held, held
+from thermodata.diagnosis.locked import held as rules
+from thermodata.diagnosis.locked.held import as_held, held
 from thermodata.schema import diagnosis as results
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.ladder import chance, courses, left_out, rungs
-from thermodata.diagnosis.rules import blunt, failed_rules
+from thermodata.diagnosis.claims.rules import blunt, failed_rules
+from thermodata.diagnosis.tell.ladder import chance, courses, left_out, rungs
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
 from thermodata.view.dataset import ChannelInfo

@@ -1,4 +1,4 @@
-"""What earlier claims left on the locked tests speaks against "nothing is missing" (diagnosis/left_on_locked.py)."""
+"""What earlier claims left on the locked tests speaks against "nothing is missing" (locked/left_on_locked.py)."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.judge import Judgement
-from thermodata.diagnosis.left_on_locked import contradicted, left_on_locked
+from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked
+from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.store.catalogue import models as catalogue
 from thermodata.view.dataset import ChannelInfo

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from thermodata.diagnosis import missing_heat as module
-from thermodata.diagnosis.missing_heat import MissingHeat, missing_heat
-from thermodata.diagnosis.one_way import Normal, solve
-from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.source_steps import box_columns
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.unlogged import missing_heat as module
+from thermodata.diagnosis.unlogged.missing_heat import MissingHeat, missing_heat
+from thermodata.diagnosis.unlogged.one_way import Normal, solve
+from thermodata.diagnosis.unlogged.source_steps import box_columns
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 

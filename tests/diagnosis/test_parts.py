@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.diagnosis.candidates import grid
-from thermodata.diagnosis.weak import weak_spots
+from thermodata.diagnosis.candidates.of_library import grid
+from thermodata.diagnosis.question.weak import weak_spots
 from thermodata.plugin import Param
 
 from .conftest import STEP_S, make_test

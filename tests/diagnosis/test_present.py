@@ -1,4 +1,4 @@
-"""What a model has, by what it does (diagnosis/present.py), and what its columns depend on."""
+"""What a model has, by what it does (question/present.py), and what its columns depend on."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.known_effects import base_columns, from_other_zero, remembered
-from thermodata.diagnosis.present import ALL_MODES, Present, modes, present
-from thermodata.modelling.acting import acting, moved_while
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.transfer import FreeFunction, GivenFunction
+from thermodata.diagnosis.question.known_effects import base_columns, from_other_zero, remembered
+from thermodata.diagnosis.question.present import ALL_MODES, Present, modes, present
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
+from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.schema.model import EffectSpec, Model
 
 from .conftest import make_data

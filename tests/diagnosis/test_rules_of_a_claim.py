@@ -1,4 +1,4 @@
-"""Every rule that a claim must keep (diagnosis/judge.py), just inside and just outside its limit."""
+"""Every rule that a claim must keep (verdict/judge.py), just inside and just outside its limit."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.judge import equivalents
-from thermodata.diagnosis.kin import Kin
-from thermodata.diagnosis.measure import Measure
-from thermodata.diagnosis.probability import at_best, probability, sharpness
-from thermodata.diagnosis.rules import acting_size, apart, blunt, explained, failed_rules
+from thermodata.diagnosis.candidates.kin import Kin
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import at_best, probability, sharpness
+from thermodata.diagnosis.claims.rules import acting_size, apart, blunt, explained, failed_rules
+from thermodata.diagnosis.verdict.judge import equivalents
 
 from .hand_made import measure, scored
 

@@ -1,4 +1,4 @@
-"""What may be asked for, and within which bounds (diagnosis/candidates.py)."""
+"""What may be asked for, and within which bounds (candidates/of_library.py)."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates import CandidateEffect, candidates, grid
-from thermodata.diagnosis.present import Present
+from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates, grid
+from thermodata.diagnosis.question.present import Present
 from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
 from thermodata.view.dataset import ChannelInfo

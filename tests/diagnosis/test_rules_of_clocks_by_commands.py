@@ -1,4 +1,4 @@
-"""A clock that is off, by what commands move at once (diagnosis/clocks.py), just inside and outside each limit."""
+"""A clock that is off, by what commands move at once (clocks/by_commands.py), just inside and outside each limit."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.clock_moves import with_clocks_right
-from thermodata.diagnosis.clock_timings import Timing, as_artefact, clock_is_off
-from thermodata.diagnosis.clocks import beyond_trend, timings
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.clocks.by_commands import beyond_trend, timings
+from thermodata.diagnosis.clocks.moves import with_clocks_right
+from thermodata.diagnosis.clocks.timings import Timing, as_artefact, clock_is_off
+from thermodata.diagnosis.question.problem import Problem
 from thermodata.schema.diagnosis import ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset
 

@@ -1,4 +1,4 @@
-"""Logs that disagree about the time, told by heat (diagnosis/clocks_by_heat.py), just inside and outside each limit."""
+"""Logs that disagree about the time, told by heat (clocks/by_heat.py), just inside and outside each limit."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import clocks_by_heat
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.clocks_by_heat import as_artefact, compared, late_in_one, late_logs
-from thermodata.diagnosis.commanded import is_command
-from thermodata.diagnosis.heat_balance import Disagreement, Pair
+from thermodata.diagnosis.clocks import by_heat as clocks_by_heat
+from thermodata.diagnosis.clocks.by_heat import as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks.heat_balance import Disagreement, Pair
+from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.diagnosis import ClockMoved
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

@@ -1,4 +1,4 @@
-"""A clock that is off in a part of the tests (diagnosis/clock_sides.py), by heat and by what commands move at once."""
+"""A clock that is off in a part of the tests (clocks/sides.py), by heat and by what commands move at once."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.clock_moves import moved
-from thermodata.diagnosis.clock_sides import Key, Part, Sides, in_order, in_words, part_of
-from thermodata.diagnosis.clock_timings import Timing
-from thermodata.diagnosis.clock_timings import as_artefact as by_commands
-from thermodata.diagnosis.clocks import timings
-from thermodata.diagnosis.clocks_by_heat import Late, Logs, as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks.by_commands import timings
+from thermodata.diagnosis.clocks.by_heat import Late, Logs, as_artefact, compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks.moves import moved
+from thermodata.diagnosis.clocks.sides import Key, Part, Sides, in_order, in_words, part_of
+from thermodata.diagnosis.clocks.timings import Timing
+from thermodata.diagnosis.clocks.timings import as_artefact as by_commands
 from thermodata.view.dataset import TestData
 
 from .test_rules_of_clocks_by_commands import CHANNELS as SPEED

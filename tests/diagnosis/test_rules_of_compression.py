@@ -1,4 +1,4 @@
-"""Which tests take part and how much of each (diagnosis/problem.py)."""
+"""Which tests take part and how much of each (question/problem.py)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.problem import Problem, build_problem
+from thermodata.diagnosis.question.problem import Problem, build_problem
 from thermodata.plugin import Float2D
 from thermodata.view.dataset import Dataset, TestData
 

@@ -1,4 +1,4 @@
-"""A locked test that is a copy of an open one (diagnosis/copies.py)."""
+"""A locked test that is a copy of an open one (locked/copies.py)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.copies import as_artefacts, copies
+from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.view.dataset import TestData
 
 from .hand_made import a_test

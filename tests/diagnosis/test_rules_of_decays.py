@@ -1,12 +1,12 @@
-"""What decays is no step, and what is said of how long one takes (diagnosis/sudden.py), on both sides of each limit."""
+"""What decays is no step, and what is said of how long one takes (steps/sudden.py), on both sides of each limit."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
-from thermodata.diagnosis.sudden import comes_back
+from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.sudden import comes_back
 from thermodata.plugin import Float1D
 
 from .hand_made import Parts, problem

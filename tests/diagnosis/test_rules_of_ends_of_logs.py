@@ -1,11 +1,11 @@
-"""Clocks by how logs begin and end beside each other (diagnosis/ends_of_logs.py): what is moved, and what is told."""
+"""Clocks by how logs begin and end beside each other (clocks/ends_of_logs.py): what is moved, and what is told."""
 
 from __future__ import annotations
 
 import pytest
 
-from thermodata.diagnosis.ends_of_logs import Ends, OddEnds, is_alike, meets
-from thermodata.diagnosis.heat_balance import UNMOVED_S
+from thermodata.diagnosis.clocks.ends_of_logs import Ends, OddEnds, is_alike, meets
+from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
 from thermodata.schema.diagnosis import ClockMoved
 
 SHIFT_S = 1560.0

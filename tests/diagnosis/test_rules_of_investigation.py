@@ -9,22 +9,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import investigate as investigating
-from thermodata.diagnosis import locked as locking
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns
-from thermodata.diagnosis.foretold import Foretold
-from thermodata.diagnosis.investigate import Investigation, investigate
-from thermodata.diagnosis.judge import Judged
-from thermodata.diagnosis.known_effects import base_columns, otherwise, owners
-from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.ranking import Ranked
-from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Member, Selection
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.known_effects import base_columns, otherwise, owners
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.verdict import investigate as investigating
+from thermodata.diagnosis.verdict import on_locked as locking
+from thermodata.diagnosis.verdict.investigate import Investigation, investigate
+from thermodata.diagnosis.verdict.judge import Judged
+from thermodata.diagnosis.verdict.selection import Member, Selection
+from thermodata.diagnosis.weigh.evidence import Columns
+from thermodata.diagnosis.weigh.foretold import Foretold
+from thermodata.diagnosis.weigh.ranking import Ranked
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel, FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted import FittedModel, FittedResponse
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 

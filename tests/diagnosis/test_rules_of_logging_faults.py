@@ -1,13 +1,12 @@
-"""Every rule that names a fault of the logs (diagnosis/logging_faults.py), just inside and outside its limit."""
+"""Every rule that names a fault of the logs (sensors/logging_faults.py), just inside and outside its limit."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
-from thermodata.diagnosis.judge import Judgement
-from thermodata.diagnosis.logging_faults import (
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.sensors.logging_faults import (
     CLOCK_DROP,
     a_fault_explains,
     clock_offsets,
@@ -18,7 +17,8 @@ from thermodata.diagnosis.logging_faults import (
     wrong_gains,
     wrong_parameters,
 )
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.verdict.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import ChannelInfo, TestData

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.loose import Fall, between_the_same_tests, conditions_changed, loose_sensors, telling
+from thermodata.diagnosis.sensors.loose import Fall, between_the_same_tests, conditions_changed, loose_sensors, telling
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model

@@ -1,4 +1,4 @@
-"""What other axes of the same place say of a candidate (diagnosis/other_axes.py), and what that does to a claim."""
+"""What other axes of the same place say of a candidate (claims/other_axes.py), and what that does to a claim."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import other_axes
-from thermodata.diagnosis.other_axes import OtherAxes, beside, is_same
-from thermodata.diagnosis.probability import CLAIMED, may_be_borne_out, probability
-from thermodata.diagnosis.rules import blunt
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.claims import other_axes
+from thermodata.diagnosis.claims.other_axes import OtherAxes, beside, is_same
+from thermodata.diagnosis.claims.probability import CLAIMED, may_be_borne_out, probability
+from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError
 from thermodata.schema.model import EffectSpec, Model, Response

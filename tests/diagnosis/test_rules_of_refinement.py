@@ -1,4 +1,4 @@
-"""Whether a candidate is a cause of its own or refines the model (diagnosis/refinement.py)."""
+"""Whether a candidate is a cause of its own or refines the model (claims/refinement.py)."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import refinement
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.kin import Kin
-from thermodata.diagnosis.known_effects import from_other_zero, is_warm
-from thermodata.diagnosis.probability import CLAIMED, PROBABILITY
-from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.refinement import PART, Refinement
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.candidates.kin import Kin
+from thermodata.diagnosis.claims import refinement
+from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
+from thermodata.diagnosis.claims.refinement import PART, Refinement
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D, Param
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo

@@ -1,12 +1,12 @@
-"""Steps that repeat alike are of the machine, and no slips (diagnosis/repeating.py), on both sides of each limit."""
+"""Steps that repeat alike are of the machine, and no slips (steps/repeating.py), on both sides of each limit."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.artefact import Step, find_steps
-from thermodata.diagnosis.repeating import as_artefacts, repeating, single
+from thermodata.diagnosis.steps.artefact import Step, find_steps
+from thermodata.diagnosis.steps.repeating import as_artefacts, repeating, single
 
 from .hand_made import Parts, problem
 

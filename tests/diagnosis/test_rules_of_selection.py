@@ -1,4 +1,4 @@
-"""Which effects are selected, and which of two is preferred (diagnosis/selection.py)."""
+"""Which effects are selected, and which of two is preferred (verdict/selection.py)."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import beside as besides
-from thermodata.diagnosis import context as contexts
-from thermodata.diagnosis import in_noise_of_best as noises
-from thermodata.diagnosis import selection as selecting
-from thermodata.diagnosis.beside import extended
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import Columns, columns
-from thermodata.diagnosis.preference import better_twin, gives_way, preferred, what_warms_it
-from thermodata.diagnosis.problem import Problem
-from thermodata.diagnosis.ranking import Ranked, rank_in
-from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection, first_ranking, select
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.verdict import context as contexts
+from thermodata.diagnosis.verdict import selection as selecting
+from thermodata.diagnosis.verdict.preference import better_twin, gives_way, preferred, what_warms_it
+from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
+from thermodata.diagnosis.weigh import beside as besides
+from thermodata.diagnosis.weigh import in_noise_of_best as noises
+from thermodata.diagnosis.weigh.beside import extended
+from thermodata.diagnosis.weigh.evidence import Columns, columns
+from thermodata.diagnosis.weigh.ranking import Ranked, rank_in
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Param
 
 from .hand_made import Parts, PlainEffect, of_tests, problem, scored

@@ -1,4 +1,4 @@
-"""What is a step of a probe and what is not (diagnosis/artefact.py), just inside and just outside each limit."""
+"""What is a step of a probe and what is not (steps/artefact.py), just inside and just outside each limit."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.artefact import (
+from thermodata.diagnosis.steps.artefact import (
     Z_ALONE,
     Step,
     _step_score,
@@ -18,9 +18,9 @@ from thermodata.diagnosis.artefact import (
     noise_with_treads,
     tread_of_response,
 )
-from thermodata.diagnosis.commanded import tells, through_zero
-from thermodata.diagnosis.investigate import _without_steps
-from thermodata.diagnosis.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
+from thermodata.diagnosis.steps.commanded import tells, through_zero
+from thermodata.diagnosis.steps.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
+from thermodata.diagnosis.verdict.investigate import _without_steps
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 

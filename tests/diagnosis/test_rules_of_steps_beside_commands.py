@@ -1,12 +1,12 @@
-"""A step where a command changes just then, and one that only commands outdo (diagnosis/artefact.py, sudden.py)."""
+"""A step where a command changes just then, and one that only commands outdo (steps/artefact.py, steps/sudden.py)."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.artefact import Step, as_artefacts, find_steps
-from thermodata.diagnosis.sudden import is_quick, smooth_but_for
+from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.sudden import is_quick, smooth_but_for
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 

@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import answer as answering
-from thermodata.diagnosis.confirm import Confirmation, Shape
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.foretold import Foretold
-from thermodata.diagnosis.investigate import Investigation
-from thermodata.diagnosis.judge import Judged, Judgement, Verdict
-from thermodata.diagnosis.measure import Measure
-from thermodata.diagnosis.ranking import Ranked
-from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Selection
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.locked.confirm import Confirmation, Shape
+from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.sound import Sound
-from thermodata.diagnosis.suspect import Suspect
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, Verdict
+from thermodata.diagnosis.verdict.selection import Selection
+from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.diagnosis.weigh.foretold import Foretold
+from thermodata.diagnosis.weigh.ranking import Ranked
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.report.verdict import beside
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown

@@ -1,4 +1,4 @@
-"""What the locked tests decide: diagnosis/locked.py and confirm.py, and claims that they contradict in answer.py."""
+"""What the locked tests decide: verdict/on_locked.py, locked/confirm.py, and claims they contradict in answer.py."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import confirm as confirming
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Confirmation, Shape, extended, on_all_open, rmse
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.evidence import columns
-from thermodata.diagnosis.foretold import Foretold, Looked
-from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.locked import foretell
-from thermodata.diagnosis.opened import kept_where_they_hold
-from thermodata.diagnosis.probability import probability
-from thermodata.diagnosis.problem import Block, Problem
-from thermodata.diagnosis.ranking import rank_in
-from thermodata.diagnosis.rules import blunt
-from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.turned_locked import turned_locked
-from thermodata.modelling.resolve import term_ids
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.locked import confirm as confirming
+from thermodata.diagnosis.locked.confirm import Confirmation, Shape, extended, on_all_open, rmse
+from thermodata.diagnosis.locked.opened import kept_where_they_hold
+from thermodata.diagnosis.locked.turned_locked import turned_locked
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.on_locked import foretell
+from thermodata.diagnosis.weigh.evidence import columns
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.ranking import rank_in
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import Dataset

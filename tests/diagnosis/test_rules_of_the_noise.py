@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.discrepancy import Noise, Whitened, ascend, bounds_of, chain_of, left_over
-from thermodata.diagnosis.evidence import columns
-from thermodata.diagnosis.known import known, likeliest, likeliest_of
-from thermodata.diagnosis.problem import Problem, freed, start_directions
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.discrepancy import Noise, Whitened, ascend, bounds_of, chain_of, left_over
+from thermodata.diagnosis.question.known import known, likeliest, likeliest_of
+from thermodata.diagnosis.question.problem import Problem, freed, start_directions
+from thermodata.diagnosis.weigh.evidence import columns
 from thermodata.plugin import Float1D, Gain, Param
 
 from .hand_made import Parts, PlainEffect, problem
@@ -100,7 +100,7 @@ def test_the_noise_is_searched_in_some_seven_hundred_rows(
     asked: list[int] = []
     thin = Problem.thinned
     monkeypatch.setattr(Problem, "thinned", lambda self, every: asked.append(every) or thin(self, every))
-    monkeypatch.setattr("thermodata.diagnosis.known.ascend", lambda goal, x, bounds: x)
+    monkeypatch.setattr("thermodata.diagnosis.question.known.ascend", lambda goal, x, bounds: x)
     likeliest(of_noise(0.3, 1.0, n=rows // 4))
     assert asked == thinned
 
@@ -116,7 +116,7 @@ def test_a_thinned_problem_keeps_every_second_row_of_what_is_long_enough() -> No
 
 
 def test_the_search_begins_where_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("thermodata.diagnosis.known.ascend", lambda goal, x, bounds: x)
+    monkeypatch.setattr("thermodata.diagnosis.question.known.ascend", lambda goal, x, bounds: x)
     start = Noise(0.5, 0.7, 3000.0, 0.2)
     found = likeliest(of_noise(0.3, 1.0), start)
     assert (found.white, found.slow, found.tau_s, found.share) == pytest.approx((0.5, 0.7, 3000.0, 0.2))

@@ -1,4 +1,4 @@
-"""From what was selected to a verdict (diagnosis/judge.py), just inside and just outside its limits."""
+"""From what was selected to a verdict (verdict/judge.py), just inside and just outside its limits."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from thermodata.diagnosis.discrepancy import Noise
-from thermodata.diagnosis.foretold import Foretold, Looked
-from thermodata.diagnosis.judge import Judged, Judgement, concluded, judge
-from thermodata.diagnosis.ranking import Ranked
-from thermodata.diagnosis.scored import Scored
-from thermodata.diagnosis.selection import Member, Selection
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
+from thermodata.diagnosis.verdict.selection import Member, Selection
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.ranking import Ranked
+from thermodata.diagnosis.weigh.scored import Scored
 
 from .hand_made import measure, of_tests, scored
 

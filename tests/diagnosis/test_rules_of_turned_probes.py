@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.turned import is_turned, turned
+from thermodata.diagnosis.sensors.turned import is_turned, turned
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Diagnosis, PutRight
 from thermodata.schema.model import Model

@@ -1,4 +1,4 @@
-"""Which other part of its axis a candidate may be (diagnosis/unread.py), and what that does to a claim."""
+"""Which other part of its axis a candidate may be (candidates/unread.py), and what that does to a claim."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from thermodata.diagnosis.candidates import candidates
-from thermodata.diagnosis.next_test import to_find, to_log
-from thermodata.diagnosis.present import Present
-from thermodata.diagnosis.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
-from thermodata.diagnosis.rules import blunt
-from thermodata.diagnosis.scored import Scored
+from thermodata.diagnosis.candidates.of_library import candidates
+from thermodata.diagnosis.claims.probability import TOLD_APART, at_best, elsewhere, probability, sharpness_asked
+from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.question.present import Present
+from thermodata.diagnosis.tell.next_test import to_find, to_log
+from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.verdict import causes, verdict_sentence
 from thermodata.schema.candidate import Candidate

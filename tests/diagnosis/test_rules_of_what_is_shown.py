@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.next_test import to_bear_out, to_decide, to_find, to_separate, to_tell_parts
-from thermodata.diagnosis.suspect import suspect
-from thermodata.diagnosis.unexplained import characterise
-from thermodata.diagnosis.weak import describe_state, weak_spots
-from thermodata.diagnosis.why import in_spite_of
+from thermodata.diagnosis.question.weak import describe_state, weak_spots
+from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_find, to_separate, to_tell_parts
+from thermodata.diagnosis.tell.why import in_spite_of
+from thermodata.diagnosis.unlogged.unexplained import characterise
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData

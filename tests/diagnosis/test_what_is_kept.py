@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import basis as module
-from thermodata.diagnosis.basis import basis
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.known_effects import base_columns, remembered
-from thermodata.diagnosis.problem import Problem
-from thermodata.modelling.fit import fit_model
+from thermodata.diagnosis.candidates import basis as module
+from thermodata.diagnosis.candidates.basis import basis
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.known_effects import base_columns, remembered
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Drivers, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
 

@@ -11,8 +11,8 @@ import numpy as np
 from thermodata.effect import effect as find_effect
 from thermodata.effect import law
 from thermodata.export.control.program import Input, Limits, Program, build
-from thermodata.modelling.drivers import ZERO_AT_REST
-from thermodata.modelling.laws import Drive, GainLaw, TermLaw
+from thermodata.modelling.inputs.drivers import ZERO_AT_REST
+from thermodata.modelling.seen.laws import Drive, GainLaw, TermLaw
 from thermodata.plugin import Drivers, Effect, Float1D
 from thermodata.schema.quantity import CANONICAL_UNIT
 

@@ -18,7 +18,7 @@ from thermodata.export.control.data import as_data, json_text, write_mat
 from thermodata.export.control.program import Limits, Program
 from thermodata.export.control.python import python_module
 from thermodata.export.control.st import structured_text
-from thermodata.modelling.transfer import FreeFunction
+from thermodata.modelling.model_file.transfer import FreeFunction
 from thermodata.plugin import Float1D
 
 from .programs import WIDE, Driven, driven, program, readings
@@ -298,10 +298,10 @@ def test_units_version_and_parameters_stand_in_the_comments() -> None:
 
 def test_another_models_output_runs_in_a_control_and_phases_are_refused(tmp_path: Path) -> None:
     """Model A of [mares2017]: a frame's output times a gain is its own effects, each times that gain."""
-    from thermodata.modelling import laws as room
-    from thermodata.modelling.bound import BoundResponse, BoundTerm
-    from thermodata.modelling.fitted_response import FittedResponse, FittedTerm, Values
-    from thermodata.modelling.nested import ModelOutput
+    from thermodata.modelling.model_file.nested import ModelOutput
+    from thermodata.modelling.seen.as_system import laws as room
+    from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
+    from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Values
     from thermodata.schema.model import EffectSpec
     from thermodata.view.dataset import ChannelInfo
 

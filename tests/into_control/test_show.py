@@ -9,10 +9,10 @@ import pytest
 from thermodata.effect.law import parse, with_parameters
 from thermodata.effect.law_run import filtered
 from thermodata.effect.linear import Filter, Mode, lag_filter, partial_fractions, partial_fractions_of_s
-from thermodata.modelling.linear_parts import CurvedError, paths
-from thermodata.modelling.residual_tests import against, autocorrelation, ljung_box
-from thermodata.modelling.state_space import system_of
-from thermodata.modelling.transfer import GivenFunction
+from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.seen.linear_parts import CurvedError, paths
+from thermodata.modelling.seen.residual_tests import against, autocorrelation, ljung_box
+from thermodata.modelling.seen.state_space import system_of
 
 SAME = 1e-9
 STEP = 60.0

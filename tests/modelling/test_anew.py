@@ -12,14 +12,14 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
-from thermodata.modelling.anew import could_fall, fit_anew
-from thermodata.modelling.coordinate import Searched
-from thermodata.modelling.drivers import start_deviation, start_value
-from thermodata.modelling.joint import fitted_problem
-from thermodata.modelling.labels import alike, fastest_first
-from thermodata.modelling.profile import Profile
-from thermodata.modelling.search import Problem, search
-from thermodata.modelling.uncertainty import _Estimate
+from thermodata.modelling.fit.joint import fitted_problem
+from thermodata.modelling.inputs.drivers import start_deviation, start_value
+from thermodata.modelling.least_squares.labels import alike, fastest_first
+from thermodata.modelling.least_squares.search import Problem, search
+from thermodata.modelling.trust.anew import could_fall, fit_anew
+from thermodata.modelling.trust.coordinate import Searched
+from thermodata.modelling.trust.profile import Profile
+from thermodata.modelling.trust.uncertainty import _Estimate
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.modelling.bands import bands
-from thermodata.modelling.table import prediction_columns
+from thermodata.modelling.predictions.bands import bands
+from thermodata.modelling.predictions.table import prediction_columns
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 

@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.beside import MEAN, beside
+from thermodata.modelling.compare.beside import MEAN, beside
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 

@@ -9,9 +9,9 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.result import make_result
-from thermodata.modelling.uncertainty import effective_count, memory
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.trust.uncertainty import effective_count, memory
+from thermodata.modelling.versions.result import make_result
 from thermodata.schema.result import Check
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 

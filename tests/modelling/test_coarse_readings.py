@@ -1,4 +1,4 @@
-"""Temperatures that are read in coarse steps (modelling/coarse_readings.py)."""
+"""Temperatures that are read in coarse steps (modelling/inputs/coarse_readings.py)."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from thermodata.modelling.coarse_readings import COARSE_K, drawn, said, smoothest, treads_of
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.inputs.coarse_readings import COARSE_K, drawn, said, smoothest, treads_of
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

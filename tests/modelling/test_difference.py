@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.modelling.difference import difference, difference_of_tests
+from thermodata.modelling.compare.difference import difference, difference_of_tests
 from thermodata.plugin import Float1D
 
 N, STEP = 1440, 30.0

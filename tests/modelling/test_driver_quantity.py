@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.modelling.resolve import resolve
+from thermodata.modelling.model_file.resolve import resolve
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .conftest import Spec

@@ -11,8 +11,9 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
-from thermodata.modelling import coarse, fit_model
-from thermodata.modelling.result import model_id
+from thermodata.modelling import fit_model
+from thermodata.modelling.least_squares import coarse
+from thermodata.modelling.versions.result import model_id
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset, TestData
 

@@ -13,12 +13,12 @@ import yaml
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.acting import acting
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.left_out_error import LeftOut
-from thermodata.modelling.portability import portability
-from thermodata.modelling.result import make_result, model_id
-from thermodata.modelling.second_lag import with_second_lags
+from thermodata.modelling.compare.left_out_error import LeftOut
+from thermodata.modelling.compare.portability import portability
+from thermodata.modelling.terms.acting import acting
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.versions.result import make_result, model_id
+from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import Model

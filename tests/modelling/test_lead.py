@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.effect.lag import lag
-from thermodata.modelling.lead import with_lead
+from thermodata.modelling.inputs.lead import with_lead
 from thermodata.plugin import Drivers
 
 STEP_S = 60.0

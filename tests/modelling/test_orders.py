@@ -14,10 +14,10 @@ from scipy.signal import lfilter
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.left_out import folds, left_out_fit
-from thermodata.modelling.left_out_error import LeftOut
-from thermodata.modelling.orders import free_run_fit
-from thermodata.modelling.transfer import GivenFunction
+from thermodata.modelling.compare.left_out_error import LeftOut
+from thermodata.modelling.fit.orders import free_run_fit
+from thermodata.modelling.model_file.transfer import GivenFunction
+from thermodata.modelling.predictions.left_out import folds, left_out_fit
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -294,7 +294,7 @@ def test_a_delay_that_all_tests_chose_is_not_chosen_again_in_each_fold(
     def again(*_: object) -> None:
         raise AssertionError("chosen again")
 
-    monkeypatch.setattr("thermodata.modelling.fit.choose_orders", again)
+    monkeypatch.setattr("thermodata.modelling.fit.model.choose_orders", again)
     said = spec(FUNCTION | {"method": "arx", "orders": [2, 2], "delay": steps})
     assert left.errors(model) == left.errors(said)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.modelling.portability import classify, portability
+from thermodata.modelling.compare.portability import classify, portability
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS, Spec

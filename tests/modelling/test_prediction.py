@@ -9,9 +9,9 @@ import pytest
 
 from thermodata.errors import SpecError
 from thermodata.modelling import fit_model
-from thermodata.modelling.prediction import read_prediction
-from thermodata.modelling.result import model_id
-from thermodata.modelling.score import scores
+from thermodata.modelling.model_file.prediction import read_prediction
+from thermodata.modelling.predictions.score import scores
+from thermodata.modelling.versions.result import model_id
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
@@ -84,7 +84,7 @@ def test_the_id_follows_the_content_of_the_file(spec: Spec, theirs: Path) -> Non
 
 
 def test_another_programs_prediction_keeps_its_scale_unless_its_gain_is_freed() -> None:
-    from thermodata.modelling.resolve import as_it_was_made
+    from thermodata.modelling.model_file.resolve import as_it_was_made
     from thermodata.schema.model import EffectSpec
 
     assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv")).fixed == {"gain": 1.0}

@@ -10,14 +10,14 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
-from thermodata.modelling.apart import cooled
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import Values
-from thermodata.modelling.joint import fitted_problem
-from thermodata.modelling.labels import fastest_first
-from thermodata.modelling.parameters import interval
-from thermodata.modelling.profile import Profile
-from thermodata.modelling.profiles import profiles_of
+from thermodata.modelling.fit.joint import fitted_problem
+from thermodata.modelling.least_squares.labels import fastest_first
+from thermodata.modelling.seen.profiles import profiles_of
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import Values
+from thermodata.modelling.terms.parameters import interval
+from thermodata.modelling.trust.apart import cooled
+from thermodata.modelling.trust.profile import Profile
 from thermodata.schema.result import Check, Parameter
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
@@ -241,7 +241,7 @@ def test_the_interval_of_a_lag_of_minutes_is_that_of_all_samples(spec: Spec, mon
     ]
     days = _days(25)
     found = _fit(spec, days, *effects).parameters()
-    monkeypatch.setattr("thermodata.modelling.joint.rough", lambda *_: None)
+    monkeypatch.setattr("thermodata.modelling.fit.joint.rough", lambda *_: None)
     whole = _fit(spec, days, *effects).parameters()
     for name in ("tool.tau", "tool.gain", "hall.tau", "hall.gain"):
         assert (found[name].low, found[name].high) == pytest.approx((whole[name].low, whole[name].high), rel=1e-6)
@@ -268,7 +268,7 @@ def test_where_few_samples_show_the_same_they_are_searched_instead_of_all(
     monkeypatch.setattr(Profile, "rise", rise)
     found = _fit(spec, tests, one).parameters()["l.tau"]
     few, sizes[:] = list(sizes), []
-    monkeypatch.setattr("thermodata.modelling.joint.rough", lambda *_: None)
+    monkeypatch.setattr("thermodata.modelling.fit.joint.rough", lambda *_: None)
     whole = _fit(spec, tests, one).parameters()["l.tau"]
     assert few
     assert sizes

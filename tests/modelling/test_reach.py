@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.modelling.candidate import with_effect
+from thermodata.modelling.versions.candidate import with_effect
 from thermodata.schema.model import EffectSpec
 
 from .conftest import Spec

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, with_effect
-from thermodata.modelling.resolve import resolve, term_ids
+from thermodata.modelling.model_file.resolve import resolve, term_ids
+from thermodata.modelling.versions.candidate import candidate_spec, with_effect
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import ChannelInfo, Dataset
 

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.modelling import bound_checks, checks, parameters
-from thermodata.modelling.fitted_response import Values
-from thermodata.modelling.parameters import gain_unit
+from thermodata.modelling.terms import parameters
+from thermodata.modelling.terms.fitted_response import Values
+from thermodata.modelling.terms.parameters import gain_unit
+from thermodata.modelling.trust import bound_checks, checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.report.fit_text import span
 from thermodata.schema.result import Check

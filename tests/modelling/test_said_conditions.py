@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.resolve import resolve
+from thermodata.modelling.model_file.resolve import resolve
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS, Spec

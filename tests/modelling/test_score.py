@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.modelling.phases import activity, phases
-from thermodata.modelling.result import make_result, model_id
-from thermodata.modelling.score import IN_SAMPLE, figures, peak_sum, scores, share_removed
-from thermodata.modelling.table import prediction_columns, prediction_tables
+from thermodata.modelling.inputs.phases import activity, phases
+from thermodata.modelling.predictions.score import IN_SAMPLE, figures, peak_sum, scores, share_removed
+from thermodata.modelling.predictions.table import prediction_columns, prediction_tables
+from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import EFFECTS, Change, Spec

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.modelling import fit_model, second_lag
-from thermodata.modelling.left_out_error import Errors, LeftOut
-from thermodata.modelling.second_lag import is_single_lag, with_second_lags
+from thermodata.modelling import fit_model
+from thermodata.modelling.compare.left_out_error import Errors, LeftOut
+from thermodata.modelling.versions import second_lag
+from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset

@@ -12,8 +12,8 @@ import yaml
 
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.score import scores
+from thermodata.modelling.predictions.score import scores
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Float1D
 from thermodata.schema.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData

@@ -16,8 +16,8 @@ from pydantic import ValidationError
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
-from thermodata.modelling.score import scores
-from thermodata.modelling.transfer import GivenFunction, given
+from thermodata.modelling.model_file.transfer import GivenFunction, given
+from thermodata.modelling.predictions.score import scores
 from thermodata.plugin import Float1D
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import EffectSpec

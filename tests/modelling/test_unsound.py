@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.modelling.unsound import heeding
+from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.diagnosis import ClockMoved, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset

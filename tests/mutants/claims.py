@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mutant import Mutant
+
+ROOT = Path(__file__).resolve().parents[2]
 
 # the tests that stand beside the rules of a module
 BESIDE = {
     "answer.py": ("the_answer", "the_locked_tests"),
     "artefact.py": ("steps", "steps_beside_commands"),
-    "candidates.py": ("candidates", "unread_parts"),
-    "clock_moves.py": ("clocks_in_part",),
-    "clock_sides.py": ("clocks_in_part",),
-    "clock_timings.py": ("clocks_by_commands", "clocks_in_part"),
-    "clocks.py": ("clocks_by_commands",),
-    "clocks_by_heat.py": ("clocks_by_heat", "clocks_in_part"),
+    "of_library.py": ("candidates", "unread_parts"),
+    "moves.py": ("clocks_in_part",),
+    "sides.py": ("clocks_in_part",),
+    "timings.py": ("clocks_by_commands", "clocks_in_part"),
+    "by_commands.py": ("clocks_by_commands",),
+    "by_heat.py": ("clocks_by_heat", "clocks_in_part"),
     "copies.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps", "clocks_by_heat", "steps_beside_commands"),
@@ -31,7 +35,7 @@ BESIDE = {
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
     "listed.py": ("the_answer", "the_locked_tests"),
-    "locked.py": ("the_locked_tests", "investigation"),
+    "on_locked.py": ("the_locked_tests", "investigation"),
     "logging_faults.py": ("logging_faults",),
     "measure.py": ("a_claim", "the_verdict"),
     "next_test.py": ("what_is_shown", "unread_parts"),
@@ -62,22 +66,28 @@ CHECKS = ("tests/modelling/test_rules_of_checks.py",)
 CALIBRATION = ("tests/calibration/test_rules_of_jump_checks.py", "tests/calibration/test_rules_of_clocks.py")
 
 
+def in_its_room(file: str) -> str:
+    """The path of a module of the diagnosis, whose names are each there once."""
+    [path] = (ROOT / "thermodata/diagnosis").rglob(file)
+    return path.relative_to(ROOT).as_posix()
+
+
 def diagnosis(file: str, old: str, new: str, why: str) -> Mutant:
     tests = tuple(f"tests/diagnosis/test_rules_of_{topic}.py" for topic in BESIDE[file])
-    return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
+    return Mutant(in_its_room(file), old, new, why, tests)
 
 
 def products(file: str, old: str, new: str, why: str) -> Mutant:
-    return Mutant(f"thermodata/diagnosis/{file}", old, new, why, BRUTE_FORCE)
+    return Mutant(in_its_room(file), old, new, why, BRUTE_FORCE)
 
 
 def heat(file: str, old: str, new: str, why: str) -> Mutant:
     tests = ("tests/diagnosis/test_missing_heat.py", "tests/diagnosis/test_goes_with.py")
-    return Mutant(f"thermodata/diagnosis/{file}", old, new, why, tests)
+    return Mutant(in_its_room(file), old, new, why, tests)
 
 
 def check(old: str, new: str, why: str, file: str = "checks.py") -> Mutant:
-    return Mutant(f"thermodata/modelling/{file}", old, new, why, CHECKS)
+    return Mutant(f"thermodata/modelling/trust/{file}", old, new, why, CHECKS)
 
 
 def calibration(file: str, old: str, new: str, why: str) -> Mutant:
@@ -107,7 +117,7 @@ MUTANTS = [
     diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
     diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
     diagnosis("probability.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
-    diagnosis("candidates.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
+    diagnosis("of_library.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "warm == len(names) == 1", "warm", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "(moving and heat != AIR)", "(heat != AIR)", "where an axis stands is taken for its heat"),
     diagnosis("unread.py", "if not own <= {", "if False and {", "a scale is taken for a part that rubs"),
@@ -115,7 +125,7 @@ MUTANTS = [
     diagnosis("unread.py", "and quantity == TEMPERATURE}", "}", "a feed at the motor is no longer the screw's"),
     diagnosis("next_test.py", "if channel.faulty is None}", "}", "a sensor that failed is as good as one"),
     diagnosis("listed.py", "if not reads(beside, place)", "", "what another claim reads is named beside this one"),
-    diagnosis("candidates.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
+    diagnosis("of_library.py", "known |= {", "known & {", "a nut that is modelled is named beside its guideway"),
     diagnosis(
         "probability.py", "BORNE_OUT, WORTH_ASKING = 0.5", "BORNE_OUT, WORTH_ASKING = 1.5", "another axis decides"
     ),
@@ -137,32 +147,32 @@ MUTANTS = [
     diagnosis("probability.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("probability.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
     diagnosis(
-        "candidates.py", "passive = placed and nameless", "passive = nameless", "without places nothing is claimed"
+        "of_library.py", "passive = placed and nameless", "passive = nameless", "without places nothing is claimed"
     ),
-    diagnosis("candidates.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
+    diagnosis("of_library.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
     diagnosis(
-        "candidates.py", "if not nameless and len(bodies) == len(names):", "if False:", "a washed table is friction"
+        "of_library.py", "if not nameless and len(bodies) == len(names):", "if False:", "a washed table is friction"
     ),
-    diagnosis("candidates.py", "(bool(bodies) or any(_follows", "(any(_follows", "a washed table is a cause"),
+    diagnosis("of_library.py", "(bool(bodies) or any(_follows", "(any(_follows", "a washed table is a cause"),
     diagnosis(
-        "candidates.py", 'c.quantity == "temperature" and holds(h, c.at)', "holds(h, c.at)", "a speed is a sensor"
+        "of_library.py", 'c.quantity == "temperature" and holds(h, c.at)', "holds(h, c.at)", "a speed is a sensor"
     ),
-    diagnosis("candidates.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
-    diagnosis("candidates.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
+    diagnosis("of_library.py", " or is_casting(channel.at)", "", "a casting that follows the cause is claimed"),
+    diagnosis("of_library.py", " or is_beside(channel.at)", "", "an electrical cabinet is claimed"),
     diagnosis(
         "refinement.py", "of_motion and kin in", "of_motion and kin not in", "a speed is a cause beside its motor"
     ),
     diagnosis("rules.py", "DOUBLES = -1.0", "DOUBLES = -9.0", "a part is claimed against all other tests"),
     diagnosis("rules.py", " and scored.candidate.kin is None", "", "one test makes a cause of another mode"),
     Mutant(
-        "thermodata/diagnosis/basis.py",
+        "thermodata/diagnosis/candidates/basis.py",
         "left, tests = list(params), {",
         "left, tests = [], {",
         "a lag has a finer grid than its name",
         ("tests/diagnosis/test_what_is_kept.py",),
     ),
     Mutant(
-        "thermodata/diagnosis/left_on_locked.py",
+        "thermodata/diagnosis/locked/left_on_locked.py",
         "left <= HALVES * spread",
         "left <= spread",
         "nothing is missing, though the locked tests say otherwise",
@@ -329,19 +339,19 @@ MUTANTS = [
     diagnosis("foretold.py", "PROBABLE = 0.5", "PROBABLE = 0.0", "a proxy survives the locked tests"),
     diagnosis("foretold.py", "PROBABLE = 0.5", "PROBABLE = 9.0", "one slow test withdraws a cause"),
     products(
-        "locked.py",
+        "on_locked.py",
         "base.log_probability(both) - base.log_probability(tests)",
         "base.log_probability(both)",
         "open tests speak twice",
     ),
     diagnosis(
-        "locked.py",
+        "on_locked.py",
         "    tests = np.arange(opened)\n",
         "    tests = np.arange(len(problem.blocks))\n",
         "the locked tests take part in the estimate",
     ),
-    diagnosis("locked.py", "[p - p.mean() for p in parts]", "parts", "one unlucky zero withdraws a claim"),
-    diagnosis("locked.py", "_with(problem, tests, noise, kept)", "problem", "what else was selected is forgotten"),
+    diagnosis("on_locked.py", "[p - p.mean() for p in parts]", "parts", "one unlucky zero withdraws a claim"),
+    diagnosis("on_locked.py", "_with(problem, tests, noise, kept)", "problem", "what else was selected is forgotten"),
     diagnosis(
         "confirm.py",
         "before, after = self.shape_before, self.shape_after",
@@ -393,7 +403,7 @@ MUTANTS = [
     diagnosis("opened.py", "j.refines is not None and (", "False and (", "a mode is claimed as a cause"),
     diagnosis("opened.py", "and asked[worst].refines is None", "", "a twin of a mode is claimed"),
     diagnosis("judge.py", "[: MOST_CLAIMS - len(claims)]", "", "everything likely is asked at once"),
-    diagnosis("locked.py", "if acts[i] or not claims", "", "a test in which a claim rests decides of it"),
+    diagnosis("on_locked.py", "if acts[i] or not claims", "", "a test in which a claim rests decides of it"),
     diagnosis("problem.py", "result - start @ (start.T @ result)", "result", "a warm start is to be explained"),
     diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
@@ -564,25 +574,25 @@ MUTANTS = [
     diagnosis("evidence.py", "BEYOND = 0.25", "BEYOND = 0.0", "implausible gains"),
     diagnosis("known_effects.py", "BANK = (1 / 25, 1 / 5, 5.0, 25.0)", "BANK = (1 / 5, 5.0, 9.0, 25.0)", "fast modes"),
     # ---- what is asked for
-    diagnosis("candidates.py", "UNNAMED = -3.0", "UNNAMED = 0.0", "lags rival named effects"),
+    diagnosis("of_library.py", "UNNAMED = -3.0", "UNNAMED = 0.0", "lags rival named effects"),
     diagnosis(
-        "candidates.py", "and not placed", "and all(usable[c].at is None for c in binding.values())", "any sensor"
+        "of_library.py", "and not placed", "and all(usable[c].at is None for c in binding.values())", "any sensor"
     ),
     diagnosis("kin.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
-    diagnosis("candidates.py", "or effect.name == STATIC", "", "a gain is asked for twice"),
+    diagnosis("of_library.py", "or effect.name == STATIC", "", "a gain is asked for twice"),
     diagnosis(
-        "candidates.py",
+        "of_library.py",
         "SLACK_FACTORS = (0.2, 5.0)",
         "SLACK_FACTORS = (0.9, 1.1)",
         "a distributed machine is a missing effect",
     ),
     diagnosis(
-        "candidates.py",
+        "of_library.py",
         "if any(p.channels == names and p.modes >= modes(effect) for p in plain):",
         "if False:",
         "what the model lags already is claimed by name",
     ),
-    diagnosis("candidates.py", "and not model.has_one_of(", "and model.has_one_of(", "refinements of nothing"),
+    diagnosis("of_library.py", "and not model.has_one_of(", "and model.has_one_of(", "refinements of nothing"),
     diagnosis("problem.py", "MIN_ROWS = 10", "MIN_ROWS = 1", "a test of one sample is left out in turn"),
     diagnosis("problem.py", "FEW_TESTS = 3", "FEW_TESTS = 9", "parts of one test pass as tests"),
     diagnosis("problem.py", "PART_ROWS = 100", "PART_ROWS = 10", "parts too short to tell anything"),
@@ -592,7 +602,7 @@ MUTANTS = [
         "investigate.py", "if lock is None or not lock.confirms(found, told, j, measure)", "", "all axes are asked"
     ),
     diagnosis("investigate.py", " or len(open_still) < len(standing)", "", "a casting beside what the lock names"),
-    diagnosis("locked.py", "self.asked.setdefault(claim.scored.candidate.id)", "pass", "a look is not counted"),
+    diagnosis("on_locked.py", "self.asked.setdefault(claim.scored.candidate.id)", "pass", "a look is not counted"),
     diagnosis("unlocking.py", "dict.fromkeys(found.looked_for)", "dict[str, None]()", "a look is not counted"),
     diagnosis(
         "unlocking.py",
@@ -609,9 +619,9 @@ MUTANTS = [
     diagnosis("turned_locked.py", "LEAST_FIT = 70.0", "LEAST_FIT = 97.0", "no locked probe is turned"),
     diagnosis("turned_locked.py", " or rms([is_there]) <= floor", "", "noise is turned"),
     diagnosis("foretold.py", "SECOND_LOOK = 0.5", "SECOND_LOOK = 0.2", "a second look claims by chance"),
-    diagnosis("locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
-    diagnosis("locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
-    diagnosis("locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
+    diagnosis("on_locked.py", "if may_be_confirmed(one.scored) else None", "", "the lock is opened for anything"),
+    diagnosis("on_locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
+    diagnosis("on_locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
     diagnosis(
         "investigate.py", "_error_of(asked_about, tests)", "_error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),
@@ -694,16 +704,16 @@ MUTANTS = [
     diagnosis(
         "heat_balance.py", "_mean_over(air[rows], over))", "np.zeros((len(both[0]), 0)))", "the air moves a clock"
     ),
-    diagnosis("clocks_by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 1.1", "a log switched on late is moved"),
-    diagnosis("clocks_by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 0.6", "a wrong clock stays where it is"),
+    diagnosis("by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 1.1", "a log switched on late is moved"),
+    diagnosis("by_heat.py", "MOST_LEFT = 2 / 3", "MOST_LEFT = 0.6", "a wrong clock stays where it is"),
     diagnosis("ends_of_logs.py", "self.late, -self.shift_s", "self.late, self.shift_s", "a late log is moved later"),
     diagnosis("ends_of_logs.py", "tests[0] == tests[1] and", "", "logs of other tests are moved together"),
     diagnosis("judge.py", "(*OUTWEIGHED, *few)", "OUTWEIGHED", "one of two tests shuts the lock"),
-    diagnosis("clocks_by_heat.py", "if of.warmed == home:", "if False:", "the right log is moved"),
-    diagnosis("clocks_by_heat.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
-    diagnosis("clocks_by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
-    diagnosis("clocks_by_heat.py", "if 2 * len(", "if len(", "half of the tests are blamed on the others, by heat"),
-    diagnosis("clocks_by_heat.py", "if f.of.key == one.key]", "if f]", "one test hides another"),
+    diagnosis("by_heat.py", "if of.warmed == home:", "if False:", "the right log is moved"),
+    diagnosis("by_heat.py", "DECIDES = 0.15", "DECIDES = 0.13", "a log is moved by a guess"),
+    diagnosis("by_heat.py", "warmed if where_it_is > moved else by", "warmed", "the right log is moved, too"),
+    diagnosis("by_heat.py", "if 2 * len(", "if len(", "half of the tests are blamed on the others, by heat"),
+    diagnosis("by_heat.py", "if f.of.key == one.key]", "if f]", "one test hides another"),
     diagnosis(
         "heat_balance.py", "MOST_OWN = 0.5", "MOST_OWN = 0.6", "a drive that hardly worked elsewhere moves a clock"
     ),
@@ -714,23 +724,23 @@ MUTANTS = [
     diagnosis("heat_balance.py", "LEAST_LEFT = 0.45", "LEAST_LEFT = 0.3", "what is left of a test moves its clock"),
     diagnosis("heat_balance.py", "telling[usual].mean()", "telling.mean()", "what tells nowhere speaks for a clock"),
     diagnosis("heat_balance.py", "self.share - self.rest < TELLS", "False", "a test in which the machine waits tells"),
+    diagnosis("timings.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"),
     diagnosis(
-        "clock_timings.py", "if 2 * len(single) <", "if len(single) <", "half of the tests are blamed on the others"
+        "by_commands.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"
     ),
-    diagnosis("clocks.py", "float(self.shifts_s[best] - all_s)", "float(self.shifts_s[best])", "a move counts twice"),
-    diagnosis("clocks.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
-    diagnosis("clock_sides.py", "changes <= 1 or", "True or", "a clock that comes and goes in most tests is moved"),
+    diagnosis("by_commands.py", ") > np.sum(best >", ") < -np.sum(best >", "the clock of all is never told"),
+    diagnosis("sides.py", "changes <= 1 or", "True or", "a clock that comes and goes in most tests is moved"),
+    diagnosis("sides.py", "(more - less >= APART)", "(more >= less)", "what tells neither way speaks for a clock"),
+    diagnosis("by_heat.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
+    diagnosis("timings.py", "abs(t.shift_s + all_s) <=", "abs(t.shift_s) <=", "all are moved for a part"),
+    diagnosis("moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
+    diagnosis("timings.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
+    diagnosis("timings.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
+    diagnosis("timings.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
     diagnosis(
-        "clock_sides.py", "(more - less >= APART)", "(more >= less)", "what tells neither way speaks for a clock"
+        "by_commands.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"
     ),
-    diagnosis("clocks_by_heat.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
-    diagnosis("clock_timings.py", "abs(t.shift_s + all_s) <=", "abs(t.shift_s) <=", "all are moved for a part"),
-    diagnosis("clock_moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
-    diagnosis("clock_timings.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
-    diagnosis("clock_timings.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
-    diagnosis("clock_timings.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
-    diagnosis("clocks.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"),
-    diagnosis("clock_timings.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
+    diagnosis("timings.py", "BEATS = 2.0", "BEATS = 1.0", "a clock that is nearly as good is wrong"),
     diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
     diagnosis("commanded.py", "change if told else {", "change if True else {", "a motor that cools excuses a slip"),

@@ -24,8 +24,8 @@ import pytest
 
 from thermodata.cli import main
 from thermodata.effect.lag import lag
-from thermodata.modelling.portability import classify
-from thermodata.modelling.transfer import GivenFunction
+from thermodata.modelling.compare.portability import classify
+from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.plugin import Float1D
 
 from .document import Cell, hold_table

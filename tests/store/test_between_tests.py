@@ -213,10 +213,10 @@ effects:
 def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(store: Store, tmp_path: Path) -> None:
     import yaml
 
-    from thermodata.diagnosis.candidates import candidates
-    from thermodata.diagnosis.logging_faults import faulty_sensors
+    from thermodata.diagnosis.candidates.of_library import candidates
+    from thermodata.diagnosis.sensors.logging_faults import faulty_sensors
     from thermodata.effect.registry import effects
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
     from thermodata.schema.model import Model
     from thermodata.view.load import load_dataset
 
@@ -241,8 +241,8 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
 
 
 def test_a_sensor_that_failed_in_one_test_of_many_drives_in_the_others(store: Store, tmp_path: Path) -> None:
-    from thermodata.diagnosis.candidates import candidates
-    from thermodata.diagnosis.logging_faults import faulty_sensors
+    from thermodata.diagnosis.candidates.of_library import candidates
+    from thermodata.diagnosis.sensors.logging_faults import faulty_sensors
     from thermodata.effect.registry import effects
     from thermodata.view.load import load_dataset
 

@@ -139,7 +139,7 @@ def test_what_cannot_be_simulated_is_refused(kwargs: dict[str, object], word: st
 
 
 def test_a_sum_of_lags_comes_near_but_does_not_reach_the_noise() -> None:
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
 
     world = make_world("none", 2)
     data = to_dataset(world, 120.0)

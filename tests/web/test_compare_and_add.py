@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.modelling.residual_tests import autocorrelation
+from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.store import Store
 from thermodata.store.keep.check import check_store
 from thermodata.view.models import model_rows

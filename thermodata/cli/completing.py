@@ -96,7 +96,7 @@ def _candidates(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _effects_of(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
-    from thermodata.modelling.resolve import term_ids
+    from thermodata.modelling.model_file.resolve import term_ids
     from thermodata.store.catalogue.models import find_model
 
     effects = find_model(store, str(words.get("model"))).spec.effects

@@ -122,7 +122,7 @@ def compare_command(
         return
     if tests:
         raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")
-    from thermodata.modelling.not_installed import not_installed
+    from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import find_model, load_diagnosis

@@ -17,7 +17,7 @@ from thermodata.report.table import table
 from thermodata.report.words import duration
 
 if TYPE_CHECKING:
-    from thermodata.modelling.predict import Predicted
+    from thermodata.modelling.predictions.predict import Predicted
     from thermodata.view.dataset import Dataset
 
 
@@ -60,7 +60,7 @@ def predict_command(
     from thermodata.cli.progress import progress_line
     from thermodata.draft.known.to_predict import data_of
     from thermodata.export.series import as_table, check_out, write_table
-    from thermodata.modelling.predict import predict
+    from thermodata.modelling.predictions.predict import predict
     from thermodata.modelling.run import load
 
     kind = None if out is None else check_out(out, force)

@@ -11,7 +11,7 @@ from thermodata.report.table import table
 from thermodata.report.words import number
 
 if TYPE_CHECKING:
-    from thermodata.modelling.profiles import Curve, Profiles
+    from thermodata.modelling.seen.profiles import Curve, Profiles
 
 
 @command("profiles")

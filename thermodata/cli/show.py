@@ -18,7 +18,7 @@ from thermodata.report.words import duration, number, probability_text
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.modelling.seen import Seen, SeenPath
+    from thermodata.modelling.seen.as_system import Seen, SeenPath
     from thermodata.store.catalogue.models import StoredModel
 
 DIGITS = 12  # of coefficients: a pole at 0.99998 needs nine
@@ -37,9 +37,9 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
     constants, gain at rest, state space; and what the residual of the calibration tests still tells: its
     autocorrelation with Ljung-Box, and how it goes with each state. --json has the curves too.
     """
-    from thermodata.modelling.not_installed import not_installed
+    from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import load
-    from thermodata.modelling.seen import see
+    from thermodata.modelling.seen.as_system import see
     from thermodata.store.catalogue.models import find_model
 
     if png is not None and png.suffix.lower() != ".png":
@@ -73,7 +73,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
 def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) -> None:
     """What the fit stored of a model that can't be run here; it has no system to show."""
     from thermodata.cli.common import plain
-    from thermodata.modelling.not_installed import as_stored
+    from thermodata.modelling.model_file.not_installed import as_stored
     from thermodata.report.fit_text import fit_text
 
     warnings.warn(as_stored(lacking, stored.name), stacklevel=2)

@@ -7,26 +7,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.diagnosis import ladder
-from thermodata.diagnosis.advice import advice
-from thermodata.diagnosis.artefact import noise_with_treads
-from thermodata.diagnosis.confirm import Confirmation, Fits, confirm
-from thermodata.diagnosis.copies import as_artefacts, copies
-from thermodata.diagnosis.detection import LARGE, Limit
-from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends
-from thermodata.diagnosis.investigate import Investigation, investigate
-from thermodata.diagnosis.judge import Judged, Judgement
-from thermodata.diagnosis.left_on_locked import contradicted
-from thermodata.diagnosis.listed import candidate, explainable, listed
-from thermodata.diagnosis.loose import loose_sensors
-from thermodata.diagnosis.other_axes import OtherAxes
-from thermodata.diagnosis.problem import Problem
+from thermodata.diagnosis.claims.detection import LARGE, Limit
+from thermodata.diagnosis.claims.other_axes import OtherAxes
+from thermodata.diagnosis.clocks.ends_of_logs import UNKNOWN, Ends
+from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
+from thermodata.diagnosis.locked.copies import as_artefacts, copies
+from thermodata.diagnosis.locked.left_on_locked import contradicted
+from thermodata.diagnosis.locked.unlocking import Look, unlocked
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.sensors.loose import loose_sensors
 from thermodata.diagnosis.sound import sound, told
-from thermodata.diagnosis.suspect import suspect
-from thermodata.diagnosis.unexplained import characterise
-from thermodata.diagnosis.unlocking import Look, unlocked
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.diagnosis.steps.artefact import noise_with_treads
+from thermodata.diagnosis.tell import ladder
+from thermodata.diagnosis.tell.advice import advice
+from thermodata.diagnosis.tell.listed import candidate, explainable, listed
+from thermodata.diagnosis.unlogged.unexplained import characterise
+from thermodata.diagnosis.verdict.investigate import Investigation, investigate
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.verdict.suspect import suspect
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData

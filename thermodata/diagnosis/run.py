@@ -10,22 +10,22 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, worst_response
-from thermodata.diagnosis.by_phase import named_apart
-from thermodata.diagnosis.candidates import CandidateEffect
-from thermodata.diagnosis.confirm import Fits, confirm
-from thermodata.diagnosis.copies import copies
-from thermodata.diagnosis.ends_of_logs import ends_of_logs
-from thermodata.diagnosis.gain_by import named
-from thermodata.diagnosis.held import as_held, held
-from thermodata.diagnosis.left_on_locked import left_on_locked
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
+from thermodata.diagnosis.locked.confirm import Fits, confirm
+from thermodata.diagnosis.locked.copies import copies
+from thermodata.diagnosis.locked.held import as_held, held
+from thermodata.diagnosis.locked.left_on_locked import left_on_locked
+from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.sound import sound, told
-from thermodata.diagnosis.turned_locked import turned_locked
+from thermodata.diagnosis.weigh.by_phase import named_apart
+from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.candidate import candidate_spec, changed, gain_by_of, phases_of
-from thermodata.modelling.fitted_response import FittedResponse
 from thermodata.modelling.run import Loaded, chosen_id, load
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__

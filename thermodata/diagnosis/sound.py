@@ -8,20 +8,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from thermodata.diagnosis.clock_moves import with_clocks_right
-from thermodata.diagnosis.clock_sides import in_order
-from thermodata.diagnosis.clock_timings import as_artefact
-from thermodata.diagnosis.clocks import timings
-from thermodata.diagnosis.clocks_by_heat import as_artefact as by_heat
-from thermodata.diagnosis.clocks_by_heat import compared, late_in_one, late_logs
-from thermodata.diagnosis.compressed import compressed
-from thermodata.diagnosis.confirm import on_all_open
-from thermodata.diagnosis.declared_clocks import Declared
-from thermodata.diagnosis.ends_of_logs import UNKNOWN, Ends, is_alike, meets
-from thermodata.diagnosis.problem import TARGET_ROWS
-from thermodata.diagnosis.turned import turned_probes
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel
+from thermodata.diagnosis.clocks.by_commands import timings
+from thermodata.diagnosis.clocks.by_heat import as_artefact as by_heat
+from thermodata.diagnosis.clocks.by_heat import compared, late_in_one, late_logs
+from thermodata.diagnosis.clocks.declared import Declared
+from thermodata.diagnosis.clocks.ends_of_logs import UNKNOWN, Ends, is_alike, meets
+from thermodata.diagnosis.clocks.moves import with_clocks_right
+from thermodata.diagnosis.clocks.sides import in_order
+from thermodata.diagnosis.clocks.timings import as_artefact
+from thermodata.diagnosis.locked.confirm import on_all_open
+from thermodata.diagnosis.question.compressed import compressed
+from thermodata.diagnosis.question.problem import TARGET_ROWS
+from thermodata.diagnosis.sensors.turned import turned_probes
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.model import Model

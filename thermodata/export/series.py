@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import UsageError
-from thermodata.modelling.predict import Predicted
+from thermodata.modelling.predictions.predict import Predicted
 from thermodata.store.base.files import whole_file
 from thermodata.view.rows import with_units
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import ThermodataError, UsageError
-from thermodata.modelling.result import model_id
 from thermodata.modelling.run import fit, load_data
+from thermodata.modelling.versions.result import model_id
 from thermodata.schema.load import load_model
 from thermodata.schema.locate import located
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
-from thermodata.modelling.resolve import term_ids
-from thermodata.modelling.result import make_result
+from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.run import fit, load
-from thermodata.modelling.second_lag import is_lag_of
+from thermodata.modelling.versions.result import make_result
+from thermodata.modelling.versions.second_lag import is_lag_of
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult
 

@@ -8,23 +8,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
-from thermodata.modelling import coarse_readings, nested
-from thermodata.modelling.beside import Beside, beside
-from thermodata.modelling.candidate import with_candidate, with_effect
-from thermodata.modelling.differences import TestDifference, differences
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.not_installed import as_stored, not_installed, refuse_not_installed
-from thermodata.modelling.orders import Tried
-from thermodata.modelling.portability import Portability, portability
-from thermodata.modelling.profiles import Profiles, profiles_of
-from thermodata.modelling.resolve import term_ids
-from thermodata.modelling.result import make_result, model_id
-from thermodata.modelling.roles import find_tests, opened, resolve_roles
-from thermodata.modelling.second_lag import with_second_lags
-from thermodata.modelling.table import prediction_tables
-from thermodata.modelling.transfer import NAME
-from thermodata.modelling.unsound import heeding
+from thermodata.modelling.compare.beside import Beside, beside
+from thermodata.modelling.compare.differences import TestDifference, differences
+from thermodata.modelling.compare.portability import Portability, portability
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.fit.orders import Tried
+from thermodata.modelling.inputs import coarse_readings
+from thermodata.modelling.inputs.roles import find_tests, opened, resolve_roles
+from thermodata.modelling.model_file import nested
+from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.model_file.transfer import NAME
+from thermodata.modelling.predictions.table import prediction_tables
+from thermodata.modelling.seen.profiles import Profiles, profiles_of
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.versions.candidate import with_candidate, with_effect
+from thermodata.modelling.versions.result import make_result, model_id
+from thermodata.modelling.versions.second_lag import with_second_lags
+from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset

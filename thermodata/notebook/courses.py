@@ -19,7 +19,7 @@ from thermodata.view.rows import with_units
 if TYPE_CHECKING:
     import pandas as pd
 
-    from thermodata.modelling.predict import Predicted
+    from thermodata.modelling.predictions.predict import Predicted
     from thermodata.view.predictions import Prediction
 
 

@@ -111,7 +111,7 @@ class Fit(Shown):
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
         UsageError where none of its tests can be predicted."""
         from thermodata.draft.known.to_predict import data_of
-        from thermodata.modelling.predict import predict
+        from thermodata.modelling.predictions.predict import predict
         from thermodata.modelling.run import load
 
         lost = list[str]()
@@ -138,7 +138,7 @@ class Fit(Shown):
     def residual_tests(self) -> ResidualTests:
         """Autocorrelation with Ljung-Box, and the residual against each state, over the calibration tests."""
         from thermodata.modelling.run import load
-        from thermodata.modelling.seen import see
+        from thermodata.modelling.seen.as_system import see
 
         loaded = load(self.store, self.id)
         return ResidualTests(self.id, see(loaded.fitted, loaded.data))

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from thermodata.chart import effect_styles
-from thermodata.modelling.residual_tests import Against, LjungBox
-from thermodata.modelling.seen import Seen
+from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.residual_tests import Against, LjungBox
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D

@@ -17,8 +17,8 @@ from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.result import Score
 
 if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel
     from thermodata.modelling.run import Loaded
+    from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.store import Store
     from thermodata.store.catalogue.models import StoredModel
     from thermodata.view.dataset import Dataset
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 def collect(store: Store, ref: str) -> ReportData:
     """All of a report about a model (id, prefix or name). Opens no locked test."""
-    from thermodata.modelling.not_installed import as_stored, not_installed
-    from thermodata.modelling.result import make_result
+    from thermodata.modelling.model_file.not_installed import as_stored, not_installed
     from thermodata.modelling.run import load
-    from thermodata.modelling.seen import see
+    from thermodata.modelling.seen.as_system import see
+    from thermodata.modelling.versions.result import make_result
     from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
@@ -77,7 +77,7 @@ def collect(store: Store, ref: str) -> ReportData:
 
 def _refitted(store: Store, version: StoredModel, loaded: Loaded) -> tuple[FittedModel, Dataset]:
     """A version of the same chain on the data as they are now."""
-    from thermodata.modelling.fit import fit_model
+    from thermodata.modelling.fit.model import fit_model
     from thermodata.modelling.run import load_data
 
     same = (version.spec.campaign_ids, version.spec.step) == (loaded.fitted.spec.campaign_ids, loaded.fitted.spec.step)
@@ -88,7 +88,7 @@ def _refitted(store: Store, version: StoredModel, loaded: Loaded) -> tuple[Fitte
 def _scores_today(store: Store, version: StoredModel, loaded: Loaded) -> list[Score]:
     if not version.stale:
         return version.result.scores
-    from thermodata.modelling.score import scores
+    from thermodata.modelling.predictions.score import scores
 
     return scores(*_refitted(store, version, loaded), version.model)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.modelling.seen import Seen
+from thermodata.modelling.seen.as_system import Seen
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.result import Check, Parameter, Score

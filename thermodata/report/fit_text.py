@@ -11,7 +11,7 @@ from thermodata.report.words import base_role, change, duration, number, pooled
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from thermodata.modelling.differences import TestDifference
+    from thermodata.modelling.compare.differences import TestDifference
     from thermodata.schema.diagnosis import WeakSpot
     from thermodata.schema.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak

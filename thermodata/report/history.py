@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None = None) -> tuple[Version, ...]:
     """The chain as rows, oldest first, with what each version added to the one before it, or removed. scored: the
     scores of each, those that were kept with it where None."""
-    from thermodata.modelling.resolve import term_ids
+    from thermodata.modelling.model_file.resolve import term_ids
 
     made: list[Version] = []
     known: dict[str, str] = {}

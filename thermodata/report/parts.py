@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from thermodata.modelling.score import role_of
+from thermodata.modelling.predictions.score import role_of
 from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import base_role
 from thermodata.schema.result import Score
 
 if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel
     from thermodata.modelling.run import Loaded
+    from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.view.dataset import Dataset, TestData
 
 _LANES = ("rotational_speed", "feed", "power", "load", "state", "flow")
@@ -41,7 +41,7 @@ def parts_of(
     fitted: FittedModel, data: Dataset, conditions: Mapping[tuple[str, str], dict[str, Any]]
 ) -> Iterable[TestPart]:
     """A part for every open test and response that can be predicted, in the order of the data."""
-    from thermodata.modelling.table import prediction_columns
+    from thermodata.modelling.predictions.table import prediction_columns
 
     drivers = _driver_names(fitted, data)
     for test in fitted.tests(data):
@@ -128,7 +128,7 @@ def _lane_names(test: TestData) -> list[str]:
 
 def _driver_names(fitted: FittedModel, data: Dataset) -> list[str]:
     """The temperatures that the model's effects are driven by."""
-    from thermodata.modelling.drivers import names_of
+    from thermodata.modelling.inputs.drivers import names_of
 
     names = [
         name

@@ -18,7 +18,7 @@ def weak_spots_of(loaded: Loaded, diagnoses: Iterable[Diagnosis | None] = ()) ->
 
     Tests that are not locked only.
     """
-    from thermodata.diagnosis.weak import weak_spots
+    from thermodata.diagnosis.question.weak import weak_spots
 
     noises = {d.response: d.noise_um for d in diagnoses if d is not None and d.noise_um is not None}
     tests = loaded.fitted.tests(loaded.data)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
-from thermodata.modelling.residual_tests import Against
-from thermodata.modelling.seen import Seen
+from thermodata.modelling.seen.as_system import Seen
+from thermodata.modelling.seen.residual_tests import Against
 
 BAND = 1.96  # of white noise: 95 % of its correlations are within
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
-from thermodata.modelling.seen import Seen
+from thermodata.modelling.seen.as_system import Seen
 from thermodata.report.words import probability_text
 from thermodata.store.base.files import whole_file
 

@@ -73,7 +73,7 @@ class TestData:
 @dataclass(frozen=True, slots=True)
 class Dataset:
     """The tests of one or more campaigns on one step. channels: the union over tests, by name. drawn_k: temperatures
-    that were read in coarse steps and are drawn through them, with the step (`modelling.coarse_readings`)."""
+    that were read in coarse steps and are drawn through them, with the step (`modelling.inputs.coarse_readings`)."""
 
     step_s: float
     tests: tuple[TestData, ...]

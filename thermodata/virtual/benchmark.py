@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
-from thermodata.modelling.fit import fit_model
+from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Effect
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.virtual.binned import to_dataset

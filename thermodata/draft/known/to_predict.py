@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 
 if TYPE_CHECKING:
-    from thermodata.modelling.fitted import FittedModel
+    from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.store import Store
     from thermodata.store.ingest.progress import Progress
     from thermodata.view.dataset import Dataset
@@ -47,7 +47,7 @@ def data_of(
 
 
 def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
-    from thermodata.modelling.coarse_readings import drawn
+    from thermodata.modelling.inputs.coarse_readings import drawn
     from thermodata.view.load import load_dataset
 
     data = drawn(load_dataset(store, campaign, step_s))
@@ -66,7 +66,7 @@ def _ingested(
     folder: Path,
 ) -> tuple[Store, str]:
     from thermodata.draft.known.of_logs import campaign_of_logs
-    from thermodata.modelling.drivers import names_of
+    from thermodata.modelling.inputs.drivers import names_of
     from thermodata.store import Store
     from thermodata.store.ingest.run import ingest
     from thermodata.store.trace.replan import read_campaign

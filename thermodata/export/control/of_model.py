@@ -10,10 +10,10 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.export.control.program import Input, Limits, Program, build
-from thermodata.modelling.drivers import ZERO_AT_REST, names_of
-from thermodata.modelling.fitted import FittedModel
-from thermodata.modelling.fitted_response import FittedResponse
-from thermodata.modelling.laws import TermLaw, laws, refuse_unlawful
+from thermodata.modelling.inputs.drivers import ZERO_AT_REST, names_of
+from thermodata.modelling.seen.laws import TermLaw, laws, refuse_unlawful
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.version import __version__
 from thermodata.view.dataset import Dataset
 

@@ -14,7 +14,7 @@ from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
 from thermodata.export.control.names import Names, identifier
-from thermodata.modelling.laws import TermLaw
+from thermodata.modelling.seen.laws import TermLaw
 
 LONGEST_S, SHORTEST_S = 3600.0, 1e-3  # of a cycle
 MOST_DELAYED = 50_000  # samples in one delay

@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 from scipy.signal import lfilter
 
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Float2D, Int1D
 from thermodata.view.dataset import Dataset, TestData
 

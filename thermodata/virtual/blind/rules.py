@@ -19,7 +19,6 @@ def fingerprint() -> str:
     root = Path(__file__).parents[2]
     files = {file for part in JUDGING for file in (root / part).rglob("*.py")}
     files |= {Path(inspect.getfile(type(e))) for e in effects().values()}
-    whole = hashlib.sha256()
-    for file in sorted(files, key=lambda f: (f.parent.name, f.name)):
-        whole.update(file.name.encode() + ast.dump(ast.parse(file.read_bytes())).encode())
-    return whole.hexdigest()[:12]
+    # in an order that neither depends on where this is installed nor on a folder's name, which two may have
+    parts = sorted(file.name.encode() + ast.dump(ast.parse(file.read_bytes())).encode() for file in files)
+    return hashlib.sha256(b"".join(parts)).hexdigest()[:12]

@@ -8,11 +8,11 @@ from time import process_time
 from typing import Any
 
 from thermodata.diagnosis.answer import answer
-from thermodata.diagnosis.confirm import on_all_open, rmse
+from thermodata.diagnosis.locked.confirm import on_all_open, rmse
 from thermodata.effect import effects
-from thermodata.modelling.candidate import with_candidate, with_effect
-from thermodata.modelling.fit import fit_model
-from thermodata.modelling.fitted_response import FittedResponse
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.versions.candidate import with_candidate, with_effect
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thermodata.modelling.candidate import candidate_spec
-from thermodata.modelling.coarse_readings import drawn
+from thermodata.modelling.inputs.coarse_readings import drawn
+from thermodata.modelling.versions.candidate import candidate_spec
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.quantity import CANONICAL_UNIT

@@ -13,9 +13,9 @@ from starlette.responses import Response
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
-from thermodata.modelling.difference import Difference
-from thermodata.modelling.differences import Course, between, over_tests
-from thermodata.modelling.residual_tests import autocorrelation, lags_told
+from thermodata.modelling.compare.difference import Difference
+from thermodata.modelling.compare.differences import Course, between, over_tests
+from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.history import versions

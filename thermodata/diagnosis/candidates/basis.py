@@ -1,0 +1,96 @@
+"""What candidates would do, as columns: compressed, a test each, at every point of a grid, and kept between rankings.
+
+The same candidates are ranked again beside a first effect; their columns do not change with what the model can do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect, grid
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.plugin import Float2D, Param
+
+KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
+
+
+@dataclass(frozen=True, slots=True)
+class Basis:
+    """A candidate's columns. points: of the grid, without those that change nothing.
+
+    own: a block each, shape (m, points, gains). others: shape (m, points, ways, gains), how each column differs where
+    the effect acts faster or slower (`CandidateEffect.slack_params`).
+    """
+
+    points: list[dict[str, float]]
+    own: list[NDArray[np.float64]]
+    others: list[NDArray[np.float64]]
+
+    @property
+    def nbytes(self) -> int:
+        return sum(a.nbytes for a in (*self.own, *self.others))
+
+
+def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
+    """From what the problem keeps, or made."""
+    bases = problem.kept.setdefault("basis", {})
+    kept = bases.get(id(candidate))
+    if kept is not None and kept[0] is candidate:
+        found: Basis = kept[1]
+        return found
+    made = _made(problem, candidate)
+    if sum(b.nbytes for _, b in bases.values()) + made.nbytes <= KEPT_BYTES:
+        bases[id(candidate)] = candidate, made
+    return made
+
+
+def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
+    points = grid(_acting(problem, candidate), problem.step_s)
+    held = {p.name: p.start for p in candidate.effect.params}
+    points = [{**held, **p} for p in points]
+    asked = [q for p in points for q in (p, *candidate.slack_params(p))]
+    full: dict[int, Float2D] = {}
+    compressed = []
+    for block in problem.blocks:
+        # parts of one test share its columns
+        whole = full.get(id(block.test))
+        if whole is None:
+            columns_at = candidate.in_test(block.test)
+            whole = full[id(block.test)] = np.concatenate([columns_at(q) for q in asked], axis=1)
+        columns = block.compress(whole)
+        compressed.append(columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains)))
+    place = _first_alike(compressed)
+    kept = sorted(set(place))
+    own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
+    others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
+    return Basis([points[i] for i in kept], own, others)
+
+
+def _acting(problem: Problem, candidate: CandidateEffect) -> list[Param]:
+    """The parameters that change a column in any test: an exponent of a speed means nothing where a temperature drives
+    the effect, and a grid of time constants alone is finer."""
+    params = candidate.effect.params
+    if len(params) < 2:
+        return list(params)
+    held = {p.name: p.start for p in params}
+    left, tests = list(params), {id(b.test): b.test for b in problem.blocks}
+    for test in tests.values():
+        at = candidate.in_test(test)
+        left = [p for p in left if np.array_equal(at({**held, p.name: p.lower}), at({**held, p.name: p.upper}))]
+        if not left:
+            break
+    return [p for p in params if p not in left] or list(params)
+
+
+def _first_alike(compressed: Sequence[NDArray[np.float64]]) -> list[int]:
+    """For each grid point the first one with the same columns in all tests: an exponent of a speed means nothing
+    where a temperature drives the effect."""
+    place: list[int] = []
+    for i in range(compressed[0].shape[1]):
+        alike = (j for j in sorted(set(place)) if all(np.array_equal(c[:, i], c[:, j]) for c in compressed))
+        place.append(next(alike, i))
+    return place

@@ -1,0 +1,245 @@
+"""The candidates: every effect of the library, bound to every set of channels that fits what it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.kin import Kin, ModelOf, kin_of, refines
+from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.question.present import (
+    CONTROL,
+    GENERIC,
+    SECONDS,
+    TIME_UNITS,
+    Present,
+    is_plain,
+    modes,
+    stands_for,
+)
+from thermodata.effect.binding import bindings, candidate_id, family_of
+from thermodata.effect.places import holds
+from thermodata.modelling.inputs.drivers import has_drivers, make_drivers
+from thermodata.modelling.inputs.lead import columns, with_lead
+from thermodata.modelling.versions.candidate import with_effect
+from thermodata.plugin import Effect, Float1D, Float2D, Param
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.places import is_around, is_beside, is_casting
+from thermodata.view.dataset import ChannelInfo, TestData
+
+InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
+STATIC = "static"
+NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
+# parts of a body that make heat
+HEATED_PARTS = ("bearing", "motor")
+# a distributed machine also acts with these multiples of an effect's time constant
+SLACK_FACTORS = (0.2, 5.0)
+# a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
+UNNAMED = -3.0
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateEffect:
+    """An effect and the channels it would be driven by. family: with the axis that its channels sit on.
+    placeless: nobody declared where any temperature sits, so it can only be a plain lag. passive: no effect has a name
+    for it, and it reads the temperature of a casting, of what stands beside the machine, or one of which nobody
+    declared where it sits, while others have a place. log_prior: how much less probable than others before any data.
+    kin: how near it is to what the model has already (`Kin`). unforetold: why left-out tests can't be asked of it; None
+    where they can. unread: places of other parts that it may be (`unread`). around: whether it reads nothing
+    but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
+    of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
+    working space. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
+    other."""
+
+    effect: Effect
+    binding: Mapping[str, str]
+    family: str
+    placeless: bool = False
+    passive: bool = False
+    log_prior: float = 0.0
+    kin: Kin = None
+    unforetold: str | None = None
+    unread: tuple[str, ...] = ()
+    around: bool = False
+    of_motion: bool = False
+    of_holder: bool = False
+    lesser: bool = False
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        return tuple(self.binding.values())
+
+    @property
+    def id(self) -> str:
+        return candidate_id(self.effect.name, self.binding)
+
+    @property
+    def within(self) -> str | None:
+        """The effect of the model that it changes; None where it is an effect more."""
+        return None
+
+    @property
+    def becomes(self) -> tuple[str, ...]:
+        """The ids of what that effect is in a model with it."""
+        return ()
+
+    @property
+    def gain_by(self) -> str | None:
+        """The condition that its gain differs by."""
+        return None
+
+    @property
+    def phases(self) -> tuple[str, ...]:
+        """The phases that it acts in by functions of their own."""
+        return ()
+
+    @property
+    def protocol(self) -> str | None:
+        """The test that tells it from others; None where its channels say that (`next_test`)."""
+        return None
+
+    def added_to(self, spec: Model) -> Model:
+        """A model with it."""
+        return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
+
+    def in_test(self, test: TestData) -> InTest:
+        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there."""
+        failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
+        if failed or not has_drivers(test, self.binding):
+            return lambda p: np.zeros((len(test.t_s), len(self.effect.gains)))
+        led = with_lead(make_drivers(test, self.effect, self.binding))
+        return lambda p: columns(self.effect, led, p)
+
+    def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
+        """The parameters of the same effect acting faster and slower (see `known_effects.otherwise`)."""
+        return [
+            {**p, param.name: p[param.name] * factor}
+            for param in self.effect.params
+            if param.unit in TIME_UNITS
+            for factor in SLACK_FACTORS
+        ]
+
+
+def candidates(
+    library: Mapping[str, Effect],
+    channels: Mapping[str, ChannelInfo],
+    present: Iterable[Present],
+    response: str,
+) -> list[CandidateEffect]:
+    """What could be missing. present: what the model has. Every channel is asked as a plain lag too, whatever named
+    effects it drives: a name must earn its place. Artefacts are looked for within tests, not here."""
+    own = tuple(present)
+    plain = [p for p in own if is_plain(p.effect, library)]
+    # a plain function is no other effect than what it stands for
+    acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
+    model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
+    # a sensor that failed goes with anything that happened when it did; one that failed in a test or two of many drives
+    # nothing there (`CandidateEffect.in_test`)
+    usable = {
+        n: c
+        for n, c in channels.items()
+        if n != response and c.quantity not in NOT_DRIVERS and c.faulty is None and not c.is_mask
+    }
+    placed = any(c.at is not None for c in usable.values() if c.quantity == "temperature")
+    known = {part for p in acting if p.effect in library for part in parts_of(library[p.effect], p.channels, channels)}
+    # a temperature that is modelled reads its own part
+    if response in channels and channels[response].quantity == "temperature":
+        known |= {part for part in [part_of(channels[response].at)] if part}
+    found: list[CandidateEffect] = []
+    for effect in library.values():
+        # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
+        if effect.family == "artefact" or not effect.needs or effect.name == STATIC:
+            continue
+        for binding in bindings(effect, usable):
+            nowhere = effect.family == GENERIC and not placed
+            names, family = frozenset(binding.values()), family_of(effect, binding, channels)
+            if any(p.effect == effect.name and p.channels == names for p in own):
+                continue
+            if any(p.channels == names and p.modes >= modes(effect) for p in plain):
+                continue
+            if refines(effect) and not model.has_one_of(refines(effect), names):
+                continue
+            kin = kin_of(effect, family, names, model, library, usable)
+            nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable)]
+            if not nameless and len(bodies) == len(names):
+                continue
+            passive = placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names))
+            other = unread(effect, binding.values(), usable, known)
+            around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
+            of_motion = all(is_motion(usable[n].quantity) for n in names)
+            found.append(
+                CandidateEffect(
+                    effect,
+                    binding,
+                    family,
+                    nowhere,
+                    passive,
+                    kin=kin,
+                    unread=other,
+                    around=around,
+                    of_motion=of_motion,
+                    of_holder=all(is_holder(usable[n]) for n in names),
+                    lesser=is_lesser(effect, names, usable, other),
+                )
+            )
+    named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
+    return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
+
+
+def _follows(channel: ChannelInfo) -> bool:
+    """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
+    follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at)
+    return channel.quantity == "temperature" and follows
+
+
+def _is_body(name: str, channels: Mapping[str, ChannelInfo]) -> bool:
+    """Whether it reads the temperature of a body, as a table's, of which a part that makes heat has a sensor of its
+    own: what such a body does beyond that comes from elsewhere, as from the coolant that washes it."""
+    own = channels[name]
+    if own.quantity != "temperature" or own.at is None:
+        return False
+    heated = (f"{own.at}.{part}" for part in HEATED_PARTS)
+    return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
+
+
+def _is_around(channel: ChannelInfo) -> bool:
+    return channel.quantity == "temperature" and is_around(channel.at)
+
+
+def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
+    """Whether its name says no more than which channels it reads."""
+    return candidate.family == CONTROL or (candidate.family == GENERIC and candidate.channels in named)
+
+
+def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
+    """Points of the nonlinear parameters: time constants evenly in their logarithm, and half as close beyond
+    their bounds; others evenly."""
+    params = tuple(params)
+    if not params:
+        return [{}]
+    count = {1: 10, 2: 5}.get(len(params), 3)
+    axes = []
+    for p in params:
+        seconds = SECONDS.get(p.unit)
+        lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
+        if p.reach is not None and p.upper > lower:
+            # nor does what is added reach what a sample does not resolve
+            resolved = min(lower, max(p.reach[0], step_s / 4 / seconds)) if seconds else p.reach[0]
+            axes.append(_within_and_beyond((lower, p.upper), (resolved, p.reach[1]), count))
+        elif seconds or (p.lower > 0 and p.upper / p.lower > 10):
+            axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
+        else:
+            axes.append(np.linspace(p.lower, p.upper, min(count, 4)))
+    return [{p.name: float(v) for p, v in zip(params, values, strict=True)} for values in product(*axes)]
+
+
+def _within_and_beyond(bounds: tuple[float, float], reach: tuple[float, float], count: int) -> Float1D:
+    """count points within the bounds, and those beyond them twice as far apart."""
+    (first, last), within = bounds, np.geomspace(*bounds, count)
+    apart = 2 * np.log(last / first) / (count - 1)
+    below, above = (max(round(float(np.log(ratio) / apart)), 0) for ratio in (first / reach[0], reach[1] / last))
+    shorter, longer = np.geomspace(reach[0], first, below + 1)[:-1], np.geomspace(last, reach[1], above + 1)[1:]
+    return np.concatenate([shorter, within, longer])

@@ -1,0 +1,215 @@
+"""Whether a candidate is a cause of its own, or refines an effect that the model has.
+
+Three ways to refine: it takes a known effect's place; it is kin (same family, channels or place) and small beside it;
+or it acts as a known effect would if its temperature counted from another one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.kin import cause, refines
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.probability import probability, sharpness
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.known import known, rms
+from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm, owners
+from thermodata.diagnosis.question.present import GENERIC
+from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.weigh.beside import beside
+from thermodata.diagnosis.weigh.changed import ChangedEffect
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.plugin import Float1D, Int1D
+
+MODE = "it is another mode of what the model has"
+PART = (
+    "the model reads it already, together with others: another share of that, or a cause of its own, "
+    "which these tests can't tell"
+)
+LITTLE = "it is little beside what the model has of that family"
+AIR = "ambient"  # a temperature of the air counts from nothing else
+# what a model leaves that is good already: more, and something is missing (share of the response)
+GOOD = 0.4
+# what takes away so much of what is left (as a share of the error), and is so probable, is missing, not another mode of
+# what is there
+MOST, SURE = 0.6, 0.85
+# a known effect is replaced where, beside the candidate, it is worth this share of what it was worth alone
+REPLACED = 0.1
+WORTH = 20.0  # log evidence: an effect that was worth less was never there to be replaced
+KEPT = 0.25  # and stands beside it where it is worth this share
+LIKE = 0.9  # and both act alike (cosine)
+AT_ALL_LIKE = 0.5  # another mode of a known part acts at all as it does
+SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
+OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
+SHARE = (0.2, 1.5)  # and how much of it that takes away
+EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
+# nor does the machine move by this share of what the candidate does, in a quarter of the tests in which the known
+# effect does less than the candidate
+MOVES, QUARTER = 0.6, 0.25
+
+
+class Refinement:
+    """Asked for each member of a selection, in the noise beside all members."""
+
+    def __init__(self, fitted: FittedResponse, problem: Problem, noise: Noise) -> None:
+        self.fitted, self.problem, self.noise = fitted, problem, noise
+        self.owners = tuple(np.array(o, dtype=np.int64) for o in owners(fitted))
+        self._worth: dict[int, float] = {}
+
+    def __call__(self, scored: Scored) -> str | None:
+        """What it refines of the model, in words."""
+        if not self.fitted.terms:
+            return None
+        if isinstance(scored.candidate, ChangedEffect):
+            return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
+        kin, most = scored.candidate.kin, scored.drop >= MOST
+        if refines(scored.candidate.effect) or kin == "same":
+            return MODE
+        if kin == "part" and sharpness(scored) < STRONG:
+            return PART
+        if kin == "heat" and not self._acts_beside(scored):
+            return MODE
+        if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
+            return MODE
+        good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
+        largest = max(self._size(i) for i in range(len(self.fitted.terms)))
+        # what is surely a cause is one, however small beside its kin
+        if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
+            return LITTLE if kin in ("near", "related") else MODE
+        # what reads the same heat elsewhere stands for the known effect, however much else is missing
+        near = kin == "near" and not is_surely_missing(scored)
+        may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
+        for number, term in enumerate(self.fitted.terms):
+            if may_replace and self._replaces(scored, number):
+                return f"it takes the place of {term.id}"
+            if not good or sharpness(scored) >= EVIDENT:
+                continue
+            channel = self._other_zero(scored, number)
+            if channel is not None:
+                return f"it acts as {term.id} would if its temperature counted from {channel}"
+        return None
+
+    def _acts_beside(self, scored: Scored) -> bool:
+        """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the
+        model has of that cause is worth as much beside it."""
+        if not is_surely_missing(scored):
+            return False
+        own = [n for n, term in enumerate(self.fitted.terms) if cause(term.effect) == cause(scored.candidate.effect)]
+        return bool(own) and all(self._is_kept(scored, number) for number in own)
+
+    def _is_kept(self, scored: Scored, term: int) -> bool:
+        """Whether a known effect is worth as much beside it."""
+        return self._cost(beside(self.problem, [scored]), term) >= KEPT * self._alone(term)
+
+    def _alone(self, term: int) -> float:
+        if term not in self._worth:
+            self._worth[term] = self._cost(self.problem, term)
+        return self._worth[term]
+
+    def _replaces(self, scored: Scored, term: int) -> bool:
+        alone = self._alone(term)
+        if alone < WORTH or self._likeness(scored, term) < LIKE:
+            return False
+        return self._cost(beside(self.problem, [scored]), term) < REPLACED * alone
+
+    def _like_its_family(self, scored: Scored) -> bool:
+        """Whether it acts at all like a known effect of its family."""
+        family = scored.candidate.family
+        own = [number for number, term in enumerate(self.fitted.terms) if term.family == family]
+        return any(self._likeness(scored, number) >= AT_ALL_LIKE for number in own)
+
+    def _cost(self, problem: Problem, term: int) -> float:
+        """Log evidence that dropping a known effect costs."""
+        return known(problem, self.noise).log_evidence - known(self._lacking(problem, term), self.noise).log_evidence
+
+    def _lacking(self, problem: Problem, term: int) -> Problem:
+        base, spare = (_others(o, term) for o in self.owners)
+        blocks = []
+        for b in problem.blocks:
+            added = np.arange(len(self.owners[0]), b.base.shape[1]), np.arange(len(self.owners[1]), b.slack.shape[1])
+            blocks.append(
+                replace(
+                    b,
+                    base=b.base[:, np.concatenate([base, added[0]])],
+                    slack=b.slack[:, np.concatenate([spare, added[1]])],
+                )
+            )
+        return replace(problem, blocks=tuple(blocks))
+
+    def _likeness(self, scored: Scored, term: int) -> float:
+        """Cosine, without sign, of what the candidate and a known effect do."""
+        own = np.concatenate(
+            [c[:, scored.weighed.best[0]] @ scored.weighed.coefficients for c in scored.columns.blocks]
+        )
+        theirs = np.concatenate([self._does(b, term) for b in self.problem.blocks])
+        size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
+        return abs(float(own @ theirs)) / size if size > 0 else 0.0
+
+    def _does(self, block: Block, term: int) -> Float1D:
+        gains = len(self.fitted.terms[term].effect.gains)
+        own = np.flatnonzero(self.owners[0] == term)[:gains]
+        return np.asarray(block.base[:, own].sum(axis=1))
+
+    def _size(self, term: int) -> float:
+        """RMS of what a known effect does, as fitted, in its largest test."""
+        return max(float(np.sqrt(np.mean(self._does(b, term) ** 2))) for b in self.problem.blocks)
+
+    def _other_zero(self, scored: Scored, term: int) -> str | None:
+        channels = scored.candidate.channels
+        if self.fitted.terms[term].family == AIR or not _surrounds(scored.candidate):
+            return None
+        if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
+            return None
+        if acting_size(scored) >= SMALL * self._size(term):
+            return None
+        alike, point = [], scored.weighed.best[0]
+        for block, columns in zip(self.problem.blocks, scored.columns.blocks, strict=True):
+            other = from_other_zero(self.fitted, term, channels[0], block.test)
+            if other is None:
+                return None
+            alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
+        own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
+        if not _takes_away(own, theirs) or self._moves_by_itself(term, [own for own, _ in alike]):
+            return None
+        return channels[0]
+
+    def _moves_by_itself(self, term: int, candidate: Sequence[Float1D]) -> bool:
+        """Whether the machine moves where a known effect does less than the candidate: an effect that counts from
+        another temperature is taken back there, and the machine rests. candidate: what it does, a test each."""
+        others = [n for n in range(len(self.fitted.terms)) if n != term]
+        shares = []
+        for block, own in zip(self.problem.blocks, candidate, strict=True):
+            does = self._does(block, term)
+            if own.std() >= does.std() and own.any():
+                left = block.response - sum((self._does(block, n) for n in others), np.zeros(len(own)))
+                shares.append(float(left.std() / own.std()))
+        return len(shares) >= LEAST_TESTS and float(np.quantile(shares, QUARTER)) >= MOVES
+
+
+def is_surely_missing(scored: Scored) -> bool:
+    """Whether it takes away most, and is sure. A motion has the timing of no part: what one lag of a known part leaves
+    follows the same motion, but leaves less evidence."""
+    timed = not scored.candidate.of_motion or sharpness(scored) >= EVIDENT
+    return timed and scored.drop >= MOST and probability(scored) >= SURE
+
+
+def _surrounds(candidate: CandidateEffect) -> bool:
+    """Whether it reads what a warm part may count from: the air, a casting, or what nobody declared a place of."""
+    body = candidate.passive or candidate.placeless
+    return candidate.family == AIR or (candidate.family == GENERIC and body)
+
+
+def _takes_away(own: Float1D, theirs: Float1D) -> bool:
+    product, size = float(own @ theirs), float(theirs @ theirs)
+    if size == 0 or not own.any():
+        return False
+    return product / np.sqrt(size * float(own @ own)) < OPPOSITE and SHARE[0] <= -product / size <= SHARE[1]
+
+
+def _others(owned: Int1D, term: int) -> Int1D:
+    return np.flatnonzero(owned != term)

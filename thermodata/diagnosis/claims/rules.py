@@ -1,0 +1,274 @@
+"""The rules of a claim: what is measured of a candidate, its limit, and why who breaks a rule is no cause."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
+from thermodata.diagnosis.question.present import CONTROL
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.null import in_words as chance_in_words
+from thermodata.diagnosis.weigh.null import p_value
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.places import heat_at
+
+P_LIMIT = 0.01
+# so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take
+# part of what is missing, and that the gain differs between them; and even how many they are
+STRONG = 0.4
+OVERWHELMING = 0.5
+DROP_LIMIT = 0.15  # fall of the error on left-out tests in which it acts,
+DOUBLES = -1.0  # but no cause doubles that error, however evident: then tests go against each other
+STEADYING_DROP_LIMIT = 0.3  # and of any casting, or two temperatures: what is slow steadies a misfit a little
+LEAST_TESTS = 2  # in which it acts: no other foretells what acts in one only
+BETTER_LIMIT = 0.6  # share of these tests that it makes more probable,
+SURE_BETTER_LIMIT = 0.4  # and of what is as probable as a claim asks: its few tests say much
+SPREAD_LIMIT = 0.5  # of its gain between tests, as a share,
+FORETOLD = 0.5  # unless left-out tests are foretold to this share of their error: few tests can't tell a spread
+WORTH_SHARE = 0.1  # of the response: less is not worth a name,
+# unless what is as probable as a claim asks does so much of the response, by a gain that differs so little between
+# tests: then the known effects take for their own what it does, and the error hardly shows it
+WORTH_SIZE, WORTH_SPREAD = 0.2, 0.2
+PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
+PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
+HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One rule of a claim, asked of a candidate. value: held against the limit, at the `least` or at the `most`; beyond
+    it the rule may hold, where it is not asked. asks: what it asks, in words. fails: why who breaks it is no cause."""
+
+    name: str
+    asks: str
+    value: float
+    limit: float
+    at: Literal["least", "most"]
+    holds: bool
+    fails: str
+    unit: str = "1"
+
+    @property
+    def asked(self) -> bool:
+        """Whether it decides: what misses the limit and holds is outweighed."""
+        return not self.holds or (self.value >= self.limit if self.at == "least" else self.value <= self.limit)
+
+
+def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
+    """Every rule that a sound candidate keeps, in the order in which they are asked."""
+    p, count = p_value(scored.evidence, measure.chance), int(scored.acts.sum())
+    fall = STEADYING_DROP_LIMIT if _steadies(scored) else DROP_LIMIT
+    told, worth, tests = explained(scored), WORTH_SHARE * measure.spread, measure.tests
+    strong, overwhelming = sharpness(scored) >= STRONG, sharpness(scored) >= OVERWHELMING
+    sure = probability(scored) >= limit_of(scored)
+    better = SURE_BETTER_LIMIT if sure else BETTER_LIMIT
+    unasked = "; not asked where the evidence is {:g} a sample"
+    alone = overwhelming and scored.candidate.kin is None
+    return [
+        Rule(
+            "chance",
+            "share of responses without a missing effect on which chance does as well",
+            p,
+            P_LIMIT,
+            "most",
+            p <= P_LIMIT,
+            f"{chance_in_words(scored.evidence, measure.chance)} (limit {100 * P_LIMIT:.0f} %)",
+        ),
+        Rule(
+            "fall",
+            f"fall of the error where it acts, its size from the other {tests}{unasked.format(STRONG)}, or it is as "
+            "probable as a claim asks",
+            scored.drop,
+            fall,
+            "least",
+            scored.drop >= fall or ((strong or sure) and scored.drop >= DOUBLES),
+            _too_little(scored, fall, unit, tests),
+        ),
+        Rule(
+            "tests",
+            f"share of these {tests} that it makes more probable",
+            scored.better,
+            better,
+            "least",
+            scored.better >= better,
+            f"it makes {round(scored.better * count)} of the {count} {tests} in which it acts more probable (limit "
+            f"{better:.0%})",
+        ),
+        Rule(
+            "gain",
+            f"how much its gain differs between {tests}; not asked where the error falls by {FORETOLD:.0%}, or the "
+            f"evidence is {STRONG:g} a sample",
+            scored.spread,
+            SPREAD_LIMIT,
+            "most",
+            strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
+            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit {SPREAD_LIMIT:.0%}): a "
+            "cause acts alike everywhere",
+        ),
+        Rule(
+            "others",
+            f"{tests} in which it acts{unasked.format(OVERWHELMING)} and the model has nothing of its family",
+            count,
+            LEAST_TESTS,
+            "least",
+            alone or count >= LEAST_TESTS,
+            f"it acts in one {tests[:-1]} only: no other foretells it",
+        ),
+        Rule(
+            "worth",
+            f"what it explains where it acts{unasked.format(STRONG)}, or it is as probable as a claim asks and "
+            f"does {WORTH_SIZE:.0%} of the response by a gain that is alike in all {tests}",
+            told,
+            worth,
+            "least",
+            strong or told >= worth or (sure and _does_much(scored, measure)),
+            f"it explains {told:.2g} {unit} where it acts, {_share(told, measure.spread)} of the response's "
+            f"{measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
+            unit,
+        ),
+    ]
+
+
+def _share(part: float, whole: float) -> str:
+    return f"{part / whole:.1%}" if whole > 0 else "none"
+
+
+def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
+    """Why the error falls too little, its size from the other tests."""
+    if scored.drop < DOUBLES:
+        return (
+            f"its size from the other {tests}, the error more than doubles where it acts ({scored.error_before:.2f} -> "
+            f"{scored.error_after:.2f} {unit}): {tests} go against each other"
+        )
+    count = int(scored.acts.sum())
+    where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
+    if scored.drop <= 0:
+        return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
+    return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {fall:.0%})"
+
+
+def apart(value: float, limit: float) -> str:
+    """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
+    texts = [f"{value:.{digits}%}" for digits in range(3)]
+    return next((t for digits, t in enumerate(texts) if t != f"{limit:.{digits}%}"), texts[0])
+
+
+def _does_much(scored: Scored, measure: Measure) -> bool:
+    """Whether it does much of the response, and surely so."""
+    return scored.spread <= WORTH_SPREAD and acting_size(scored) >= WORTH_SIZE * measure.spread
+
+
+def surely(scored: Scored) -> Rule:
+    """Whether a sound candidate is a cause: it has the timing of what is missing and leaves little noise; what stands
+    in for it has its slow shape alone."""
+    sure, limit = probability(scored), limit_of(scored)
+    return Rule(
+        "probability",
+        "that it is what is missing, by its log evidence a sample, the fall of the error, whether it is the air "
+        "beside something sharper, whether it reads a body that makes no heat, the tool, what holds the probes, "
+        "or what the model reads with others, whether another part may be it, "
+        "whether another axis misses it as well, and what the locked tests say",
+        sure,
+        limit,
+        "least",
+        sure >= limit,
+        f"causes like it were right in {apart(sure, limit)} of cases only (limit {limit:.0%}): {_in_short(scored)}",
+    )
+
+
+def _in_short(scored: Scored) -> str:
+    """What its probability hangs on."""
+    falls = f"where it acts the error {f'falls by {scored.drop:.0%}' if scored.drop > 0 else 'does not fall'}"
+    beaten = scored.beaten and scored.candidate.around
+    more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
+    if scored.candidate.passive:
+        more.append("it reads a body that makes no heat, one beside the machine, or one whose place nobody declared")
+    if scored.candidate.kin == "part":
+        more.append("the model reads it already, together with others")
+    if scored.candidate.of_holder:
+        more.append("it reads the tool, or what holds the probes, which warms with all in the working space")
+    if scored.candidate.unread:
+        more.append(f"what it reads does not tell it from {heat_at(scored.candidate.unread, ' or ')}")
+    more += [also_missing(scored)] if scored.also_on else []
+    if scored.looked is not None and scored.looked.saying:
+        more.append(on_locked(scored.looked))
+    return "; ".join([f"its evidence is {sharpness(scored):.2f} a sample, and {falls}", *more])
+
+
+def on_locked(looked: Looked) -> str:
+    """'on the locked tests the error falls by 60%', or in each of two ways."""
+    first, added = looked.foretold, looked.added
+    if len(looked.saying) < 2 or added is None:
+        return f"on the locked tests the error {in_words(looked.saying[0])}"
+    return (
+        f"on the locked tests the error {in_words(added)} with it added as it stands, and {in_words(first)} where the "
+        "effects of the model may act otherwise than by their fitted lags"
+    )
+
+
+def in_words(of: Foretold) -> str:
+    """'falls by 60%', 'hardly changes', 'rises by 20%'."""
+    if of.falls:
+        return f"falls by {of.fall:.0%}"
+    return f"rises by {of.after / of.before - 1:.0%}" if of.after > 1.005 * of.before > 0 else "hardly changes"
+
+
+def also_missing(scored: Scored) -> str:
+    """'dX misses it as well (97 %)', for each other axis; what is improbable there speaks for nothing."""
+    return " and ".join(
+        f"{channel} {'misses it as well' if p > 0.5 else 'hardly misses it'} ({p:.0%})" for channel, p in scored.also_on
+    )
+
+
+def failed_rules(scored: Scored, measure: Measure, unit: str) -> list[str]:
+    """The rules that a candidate fails, as sentences; none where it is sound."""
+    failed = [rule.fails for rule in rules(scored, measure, unit) if not rule.holds]
+    return [why for why in [scored.candidate.unforetold] if why] + failed
+
+
+def blunt(scored: Scored) -> str | None:
+    """Why a sound candidate is still no cause; None where it may be claimed."""
+    rule = surely(scored)
+    return None if rule.holds else rule.fails
+
+
+def halves(scored: Scored, left: float) -> bool:
+    """Whether it leaves half of the error of left-out tests, each alike. left: that error without it."""
+    return bool(len(scored.rows)) and scored.error_of_all <= HALVES * left
+
+
+def contradicts(scored: Scored, alone: Scored, left: float) -> bool:
+    """Whether nothing can't be said to be missing beside it. alone: as it was chosen. left: the error of left-out tests
+    without it, where that is more than noise."""
+    return probability(scored) >= PLAUSIBLE or halves(alone, left)
+
+
+def is_plain(scored: Scored) -> bool:
+    """Whether its evidence alone says that something is missing, though a rule forbids that it be named."""
+    own = scored.candidate.kin not in ("same", "heat") and not scored.candidate.within
+    return own and sharpness(scored) >= PLAIN
+
+
+def may_be_claimed(scored: Scored, measure: Measure, unit: str) -> bool:
+    """Whether it is sound, and likely; what it refines is another question."""
+    return not failed_rules(scored, measure, unit) and may_be_confirmed(scored)
+
+
+def _steadies(scored: Scored) -> bool:
+    """Whether it may follow anything slow: a casting, or a difference of any two temperatures."""
+    return scored.candidate.passive or scored.candidate.family == CONTROL
+
+
+def explained(scored: Scored) -> float:
+    """RMS of what it takes away in tests in which it acts, its size from the others."""
+    return float(np.sqrt(max(0.0, scored.error_before**2 - scored.error_after**2)))
+
+
+def acting_size(scored: Scored) -> float:
+    """RMS of its contribution in the tests in which it acts."""
+    acts = scored.acts
+    return float(np.sqrt(np.mean(scored.size[acts] ** 2))) if acts.any() else 0.0

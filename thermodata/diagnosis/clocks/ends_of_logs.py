@@ -1,0 +1,151 @@
+"""How two logs of a test begin and end beside each other, as ingest knows it.
+
+Logs that stand elsewhere in some tests than in most were dated by a clock that was not right, or were switched on late
+and last as long as ever: by how much is exact, and where heat bears it out the one that the response is not in is
+moved. Logs that begin and end together have clocks that agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
+from thermodata.schema.diagnosis import Artefact, ClockMoved
+
+if TYPE_CHECKING:
+    from thermodata.modelling.run import Loaded
+    from thermodata.store import Store
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class OddEnds:
+    """In a test the source `late` stands shift_s (> 0) later beside `early` than in most. said: of all such tests."""
+
+    campaign: str
+    test: str
+    late: str
+    early: str
+    shift_s: float
+    said: str
+
+    @property
+    def key(self) -> Key:
+        return self.campaign, self.test
+
+    def move(self, home: str | None) -> ClockMoved | None:
+        """What makes the two agree; None where the response is in neither, and nobody can tell which is off.
+        home: the source of the response."""
+        if home == self.early:
+            return self._moved(self.late, -self.shift_s)
+        return self._moved(self.early, self.shift_s) if home == self.late else None
+
+    def _moved(self, source: str, by_s: float) -> ClockMoved:
+        return ClockMoved(source=source, campaign=self.campaign, test=self.test, moved_s=by_s)
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """odd: by campaign and test. together: test -> sources whose clocks agree there with all others."""
+
+    odd: tuple[OddEnds, ...] = ()
+    together: Mapping[Key, frozenset[str]] = field(default_factory=dict)
+
+    def agree(self, tests: Iterable[Key], sources: Collection[str]) -> bool:
+        """Whether the clocks of some sources agree in one of the tests, so that no heat can say that they don't."""
+        return any(self.together.get(key, frozenset()).issuperset(sources) for key in tests)
+
+    def is_met(self, clocks: Sequence[ClockMoved]) -> bool:
+        """Whether clocks were moved in single tests nearly as some ends say, and not by them."""
+        said = [one for home in {s for o in self.odd for s in (o.late, o.early)} for one in self.moves(home)]
+        return any(meets(some, clocks) and not any(m in some for m in clocks) for some in said)
+
+    def moves(self, home: str | None) -> list[list[ClockMoved]]:
+        """What makes logs agree with that of the response: in some tests one source, by one shift, and so on."""
+        found: dict[tuple[str, str], list[ClockMoved]] = {}
+        for odd in self.odd:
+            if (one := odd.move(home)) is not None:
+                found.setdefault((one.source, odd.said), []).append(one)
+        return list(found.values())
+
+    def artefacts(self, home: str | None, moved: Sequence[ClockMoved]) -> list[Artefact]:
+        """moved: what was. A pair of logs that agrees once another one is moved is not told beside it."""
+        by_s = {(m.campaign, m.test, m.source): m.moved_s for m in moved}
+        found = []
+        for odd in self.odd:
+            move = odd.move(home)
+            late, early = (by_s.get((*odd.key, source), 0.0) for source in (odd.late, odd.early))
+            if move is None and abs(odd.shift_s + late - early) < abs(odd.shift_s) / 2:
+                continue
+            then = "Nothing was moved for it here"
+            if move is not None and move in moved:
+                then = f"The choice is made with '{move.source}' moved by {move.moved_s / 60:+.3g} min there"
+            found.append(
+                Artefact(
+                    kind="clock_offset",
+                    campaign=odd.campaign,
+                    test=odd.test,
+                    at_s=None,
+                    size_um=None,
+                    why=f"{odd.said}. {then}",
+                )
+            )
+        return found
+
+
+UNKNOWN = Ends()
+
+
+def meets(some: Sequence[ClockMoved], clocks: Sequence[ClockMoved]) -> bool:
+    """Whether one of the clocks was moved in one of these tests as these say, to within what heat tells a shift by."""
+    return any(
+        (a.source, a.campaign, a.test) == (b.source, b.campaign, b.test) and abs(a.moved_s - b.moved_s) <= UNMOVED_S
+        for a in some
+        for b in clocks
+    )
+
+
+def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
+    """Whether two logs stand elsewhere in the same tests by the same: then it is the response's own that does."""
+    tests = [{(m.campaign, m.test) for m in each} for each in (some, others)]
+    return tests[0] == tests[1] and abs(some[0].moved_s - others[0].moved_s) <= UNMOVED_S
+
+
+def ends_of_logs(store: Store, model: Loaded) -> Ends:
+    """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared."""
+    from thermodata.store.ingest.beside_each_other import odd_clocks, together
+
+    here = {(t.campaign, t.test) for t in model.data.tests}
+    declared = {
+        (t.campaign, t.test, c.source) for t in model.data.tests for c in t.channels.values() if c.clock_declared
+    }
+    odd: list[OddEnds] = []
+    agree: dict[Key, frozenset[str]] = {}
+    for campaign in sorted({c for c, _ in here}):
+        rows = _sources(store, campaign)
+        agree |= {(campaign, test): sources for test, sources in together(rows).items()}
+        odd += [
+            OddEnds(campaign, test, one.late, one.early, one.shift_s, str(one))
+            for one in odd_clocks(rows)
+            for test in one.tests
+            if (campaign, test) in here
+            and declared.isdisjoint((campaign, test, source) for source in (one.late, one.early))
+        ]
+    return Ends(tuple(odd), agree)
+
+
+def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:
+    """Test -> its rows of the table `source`."""
+    found: dict[str, list[dict[str, object]]] = {}
+    with store.reader() as con:
+        rows = con.execute(
+            "select test, source, start_ns, step_s, rows, clock from source where campaign = ? order by rowid",
+            [campaign],
+        ).fetchall()
+    names = ("source", "start_ns", "step_s", "rows", "clock")
+    for test, *of_source in rows:
+        found.setdefault(test, []).append(dict(zip(names, of_source, strict=True)))
+    return found

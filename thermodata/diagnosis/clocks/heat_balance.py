@@ -1,0 +1,285 @@
+"""A heat balance of what one source's temperatures do with another's commands, moved in time.
+
+Over ten minutes a temperature rises by what works, less what it is warm already. How much of its rises the commands
+foretell, in tests left out, is asked of each shift of the commands. What goes with the air around is taken out of
+both before: a hall that warms in the morning is no drive that worked an hour ago.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from thermodata.diagnosis.question.known import FloatND
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+from thermodata.view.dataset import TestData
+
+EVERY_S = 120.0  # between the shifts that are asked: up to these either way,
+MOST_S = 3900.0
+TWO_HOURS_S, ABOUT_S = 7200.0, 360.0  # and about two hours, as where a zone and daylight saving are wrong
+OVER_S = 600.0  # that a temperature rises over
+RIDGE = 0.02  # of a column's squares
+ALIKE = 1e-3  # of the largest: sensors of the air that differ by less are one
+TELLS = 0.2  # share of the squared rises of a temperature that is foretold at its best shift, else it says nothing,
+LEAST_SHARE = 0.3  # and of all that tell, on average
+LEAST_TELLING = 2  # temperatures: one alone may follow what nobody logged,
+MOST_TELL = 0.25  # and of those that the commands foretell in the other tests so many: a clock moves all of a log alike
+LEAST_LEFT = 0.45  # of a test, where commands are moved by a shift: less of it is another test
+BEATS = 4.0  # times what is foretold unmoved
+# of what a test's own gains leave unmoved, where its log is off: what the others say of a drive that hardly worked in
+# them is wrong at any shift
+MOST_OWN = 0.5
+UNMOVED_S = 240.0  # a body warms so much later than its drive, or is logged so much apart
+LEAST_S = 600.0  # quick bodies are late by up to 4 min, others by more
+LEAST_TESTS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Disagreement:
+    """warmed: the source of the temperatures. by: that of the commands. shift_s: by which commands, moved later,
+    foretell most. share: of the squared rises, mean of the temperatures that tell; unmoved: the most near no shift.
+    telling: how many temperatures tell. campaign, test: the one that is asked of; '' for all of them. own: of one test,
+    what is left with the gains of its own at the shift, in shares of what they leave unmoved. rest: share that would be
+    foretold there if no command worked, by what is warm already. tell: share of those that tell in the other tests
+    which tell here, too."""
+
+    warmed: str
+    by: str
+    shift_s: float
+    share: float
+    unmoved: float
+    telling: int
+    campaign: str = ""
+    test: str = ""
+    own: float = 0.0
+    rest: float = 0.0
+    tell: float = 1.0
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """Campaign and test."""
+        return self.campaign, self.test
+
+    @property
+    def plain(self) -> bool:
+        if self.share - self.rest < TELLS:
+            return False  # a test in which the machine waits: what cools foretells itself
+        much = self.share >= max(LEAST_SHARE, BEATS * self.unmoved) and self.own <= MOST_OWN
+        return much and self.telling >= LEAST_TELLING and self.tell >= MOST_TELL and abs(self.shift_s) >= LEAST_S
+
+
+def pair_of(
+    tests: Sequence[TestData],
+    names: Sequence[str],
+    drives: Sequence[str],
+    step_s: float,
+    *,
+    warmed: str,
+    by: str,
+    air: Sequence[str] = (),
+) -> Pair | None:
+    """names: of the temperatures, or of what else heat moves; drives: of the commands. step_s: of the tests' common
+    grid. air: temperatures of what is around the machine, on the clock of `names`. None where there is too little to
+    tell."""
+    if step_s > UNMOVED_S:
+        return None  # one sample is as much as bodies are late by
+    every = max(1, round(EVERY_S / step_s))
+    over = max(1, round(OVER_S / (every * step_s)))
+    long = [t for t in tests if len(t.t_s) // every > 2 * over]
+    if len(long) < LEAST_TESTS:
+        return None
+    parts = [(_held(t, drives, every), _even(t, names, every), _even(t, air, every)) for t in long]
+    shifts = _shifts(every * step_s)
+    return Pair(
+        warmed, by, tuple(long), np.asarray(shifts * (every * step_s), dtype=np.float64), *_sums(parts, shifts, over)
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A source of temperatures and one of commands: what the heat balance sums in each test. shifts_s: shape (s,).
+    gram: shape (tests, channels, s, k, k). cross: shape (tests, channels, s, k). energy: of the rises, shape (tests,
+    channels, s)."""
+
+    warmed: str
+    by: str
+    tests: tuple[TestData, ...]
+    shifts_s: Float1D
+    gram: FloatND
+    cross: FloatND
+    energy: FloatND
+
+    def in_all(self) -> Disagreement | None:
+        """In tests left out. None where nothing tells."""
+        shares = self._shares()
+        return self._disagreement(shares, shares.max(axis=1) >= TELLS)
+
+    def in_one(self, i: int) -> Disagreement | None:
+        """In one test, with commands that act as they do in the others unmoved. None where nothing tells."""
+        shares, usual = self._shares(i), self._told_elsewhere(i) >= TELLS
+        # what the commands foretell in no other test goes with them by chance here: a hall, at some shift of two hours
+        telling = (shares.max(axis=1) >= TELLS) & usual
+        found = self._disagreement(shares, telling)
+        if found is None:
+            return None
+        left, at = 1 - self.by_its_own(i)[telling].mean(axis=0), self.shifts_s == found.shift_s
+        rest = float(self._at_rest(i)[telling][:, at].mean())
+        own = left[self._near(found.shift_s)].min() / max(float(left[self._near(0.0)].min()), 1e-300)
+        tell = float(telling[usual].mean())
+        return replace(
+            found, campaign=self.tests[i].campaign, test=self.tests[i].test, own=float(own), rest=rest, tell=tell
+        )
+
+    def foretold(self, campaign: str, test: str, about_s: Sequence[float]) -> list[float]:
+        """The largest share that is foretold near each of some shifts, mean of the channels; test '': in all of them.
+        Zeros where a test is not among these."""
+        i = next((i for i, t in enumerate(self.tests) if t.key == (campaign, test)), None)
+        if test and i is None:
+            return [0.0] * len(about_s)
+        mean = self._shares(i).mean(axis=0)
+        return [float(mean[self._near(at_s)].max()) for at_s in about_s]
+
+    def told(self, i: int, gains: FloatND) -> Float2D:
+        """Of a test's squared rises, what gains, shape (channels, 1 or s, k), foretell: shape (channels, s)."""
+        return _share(self._left(i, gains), self.energy[i])
+
+    def _near(self, shift_s: float) -> Bool1D:
+        return np.asarray(np.abs(self.shifts_s - shift_s) <= UNMOVED_S)
+
+    def _shares(self, i: int | None = None) -> Float2D:
+        """Of the squared rises, foretold: shape (channels, s). i: the test that is asked of, by the others unmoved."""
+        if i is not None:
+            return _share(self._left(i, self._gains(_but(self.tests, i))[:, self.shifts_s == 0]), self.energy[i])
+        left = sum(self._left(t, self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
+        return _share(np.asarray(left), self.energy.sum(axis=0))
+
+    def _told_elsewhere(self, i: int) -> Float1D:
+        """The share that is foretold in all tests but one, unmoved, by their own gains: shape (channels,)."""
+        others, unmoved = _but(self.tests, i), self.shifts_s == 0
+        gains = self._gains(others)
+        left = sum(self._left(t, gains) for t in others)
+        return _share(np.asarray(left), self.energy[others].sum(axis=0))[:, unmoved][:, 0]
+
+    def _at_rest(self, i: int) -> Float2D:
+        """The same of a test as if no command worked in it."""
+        gains = self._gains(_but(self.tests, i))[:, self.shifts_s == 0]
+        return _share(self._left(i, gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
+
+    def by_its_own(self, i: int) -> Float2D:
+        """The same of a test with the gains that it gives itself."""
+        return _share(self._left(i, self._gains([i])), self.energy[i])
+
+    def _gains(self, of: Sequence[int]) -> FloatND:
+        """At which commands, and what is warm already, act in some tests: shape (channels, s, k)."""
+        size = np.sqrt(np.einsum("tnskk->nsk", self.gram))
+        size[size == 0] = 1.0
+        gram = self.gram[of].sum(axis=0) / (size[..., :, None] * size[..., None, :])
+        held = RIDGE * np.eye(size.shape[-1])
+        return np.asarray(np.linalg.solve(gram + held, (self.cross[of].sum(axis=0) / size)[..., None])[..., 0] / size)
+
+    def _left(self, i: int, gains: FloatND) -> Float2D:
+        """Squared rises of a test, less what gains foretell of them, shape (channels, s)."""
+        gains = np.broadcast_to(gains, self.cross[i].shape)
+        along = np.einsum("nsk,nsk->ns", gains, self.cross[i])
+        said = np.einsum("nsj,nsjk,nsk->ns", gains, self.gram[i], gains)
+        return np.asarray(self.energy[i] - 2 * along + said)
+
+    def _disagreement(self, shares: Float2D, tell: Bool1D) -> Disagreement | None:
+        """tell: which channels say something, shape (channels,)."""
+        telling = shares[tell]
+        if not len(telling):
+            return None
+        mean = telling.mean(axis=0)
+        best = int(np.argmax(mean))
+        unmoved = float(mean[self._near(0.0)].max())
+        return Disagreement(self.warmed, self.by, float(self.shifts_s[best]), float(mean[best]), unmoved, len(telling))
+
+
+def _share(left: Float2D, energy: Float2D) -> Float2D:
+    return np.where(energy > 0, 1 - left / np.maximum(energy, 1e-300), 0.0)
+
+
+def _but(tests: Sequence[TestData], i: int) -> list[int]:
+    return [t for t in range(len(tests)) if t != i]
+
+
+def _shifts(step_s: float) -> Int1D:
+    """In samples, in order."""
+    most, about = int(MOST_S / step_s), np.arange(-int(ABOUT_S / step_s), int(ABOUT_S / step_s) + 1)
+    two_hours = [sign * round(TWO_HOURS_S / step_s) + about for sign in (-1, 1)]
+    return np.unique(np.concatenate([np.arange(-most, most + 1), *two_hours])).astype(np.int64)
+
+
+def _held(test: TestData, names: Sequence[str], every: int) -> Float2D:
+    """Sizes of commands, each value held until the next; 0 where a command was not logged. Shape (n, commands)."""
+    columns = np.zeros((len(test.t_s), len(names)))
+    for column, name in zip(columns.T, names, strict=True):
+        known = np.flatnonzero(np.isfinite(test.values[name])) if name in test.values else np.empty(0, np.int64)
+        if len(known):
+            last = np.searchsorted(known, np.arange(len(column)), side="right") - 1
+            column[:] = np.abs(test.values[name][known[np.clip(last, 0, None)]])
+    return _means(columns, every)
+
+
+def _even(test: TestData, names: Sequence[str], every: int) -> Float2D:
+    """Channels at even times, drawn straight over holes; zeros where one was not measured. Shape (n, channels)."""
+    columns = np.zeros((len(test.t_s), len(names)))
+    for column, name in zip(columns.T, names, strict=True):
+        if name in test.values:
+            seen = np.flatnonzero(np.isfinite(test.values[name]) & test.valid[name])
+            if len(seen) > 1:
+                column[:] = np.interp(test.t_s, test.t_s[seen], test.values[name][seen])
+    return _means(columns, every)
+
+
+def _means(columns: Float2D, every: int) -> Float2D:
+    whole = len(columns) // every
+    return np.asarray(columns[: whole * every].reshape(whole, every, columns.shape[1]).mean(axis=1))
+
+
+def _sums(
+    parts: Sequence[tuple[Float2D, Float2D, Float2D]], shifts: Int1D, over: int
+) -> tuple[FloatND, FloatND, FloatND]:
+    """(gram, cross, energy) of a `Pair`. parts: commands, channels, and the air of each test.
+
+    Where commands are moved beyond the log's end nobody knows what worked: these rows are left out.
+    """
+    drives, channels = parts[0][0].shape[1], parts[0][1].shape[1]
+    gram = np.zeros((len(parts), channels, len(shifts), drives + 1, drives + 1))
+    cross = np.zeros((len(parts), channels, len(shifts), drives + 1))
+    energy = np.zeros((len(parts), channels, len(shifts)))
+    for i, (held, value, air) in enumerate(parts):
+        n = len(value)
+        for k, shift in enumerate(map(int, shifts)):
+            if n - abs(shift) <= 2 * over or n - abs(shift) < LEAST_LEFT * n:
+                continue
+            worked = _mean_over(held[max(0, -shift) : n - max(0, shift)], over)
+            rows = slice(max(0, shift), n - max(0, -shift))
+            here = value[rows]
+            both = [worked, here[over:] - here[:-over], here[:-over]]
+            worked, rise, warm = _beside(both, _mean_over(air[rows], over))
+            energy[i, :, k] = np.sum(rise**2, axis=0)
+            seen = (energy[i, :, k] > 0).astype(np.float64)  # what was not measured says nothing of the commands
+            gram[i, :, k, -1, -1] = np.sum(warm**2, axis=0)
+            cross[i, :, k, -1] = np.sum(warm * rise, axis=0)
+            gram[i, :, k, :-1, :-1] = seen[:, None, None] * (worked.T @ worked)
+            gram[i, :, k, :-1, -1] = gram[i, :, k, -1, :-1] = (worked.T @ warm).T
+            cross[i, :, k, :-1] = (worked.T @ rise).T
+    return gram, cross, energy
+
+
+def _beside(columns: Sequence[Float2D], air: Float2D) -> list[Float2D]:
+    """What no air gives, and no constant: each of shape (m, ...) as before. air: shape (m, sensors)."""
+    known = np.column_stack([np.ones(len(air)), air - air.mean(axis=0)])
+    size = np.linalg.norm(known, axis=0)
+    directions, singular, _ = np.linalg.svd(known[:, size > 0] / size[size > 0], full_matrices=False)
+    q = directions[:, singular > ALIKE * singular[0]]
+    return [np.asarray(c - q @ (q.T @ c)) for c in columns]
+
+
+def _mean_over(held: Float2D, over: int) -> Float2D:
+    """Of the commands over each interval, shape (n - over, commands)."""
+    total = np.vstack([np.zeros(held.shape[1]), np.cumsum(held, axis=0)])
+    return np.asarray((total[over:-1] - total[: len(held) - over]) / over)

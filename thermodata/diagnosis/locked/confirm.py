@@ -1,0 +1,250 @@
+"""The last question to a claim: does it hold on the locked tests, which took no part in the choice?"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.problem import freed
+from thermodata.diagnosis.weigh.foretold import Foretold
+from thermodata.diagnosis.weigh.scored import ACTS
+from thermodata.errors import ThermodataError
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.trust.bound_checks import IMPLAUSIBLE
+from thermodata.plugin import Bool1D, Float1D
+from thermodata.schema.model import Model
+from thermodata.schema.result import Check, Parameter
+from thermodata.view.dataset import Dataset, TestData
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """Of one locked test, a free offset: sums of squares of the error before and after, and of what is changed."""
+
+    key: tuple[str, str]
+    rows: int
+    before: float
+    after: float
+    changed: float
+
+
+@dataclass(frozen=True, slots=True)
+class Confirmation:
+    """Errors on the locked tests, None where there are none; parameters of the added effects, by candidate.
+
+    before, after: as scored, from the mean of the first samples on. shape_before, shape_after: with a free offset a
+    test: one unlucky zero must not hide that the shape fits. changed: RMS of what the addition changes there. each:
+    (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
+    decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
+    beside the model as it stands (`ACTS`). implausible: what is said of gains that are larger than anything known, by
+    candidate.
+    """
+
+    before: float | None
+    after: float | None
+    shape_before: float | None
+    shape_after: float | None
+    changed: float
+    parameters: dict[str, dict[str, Parameter]]
+    each: tuple[tuple[tuple[str, str], float, float], ...] = ()
+    shapes: tuple[Shape, ...] = ()
+    asked: frozenset[tuple[str, str]] | None = None
+    acts: frozenset[tuple[str, str]] = frozenset()
+    implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
+        """By shape, on some of the locked tests; None where none of them can be predicted."""
+        if tests is None:
+            return self.foretold
+        return _foretold([s for s in self.shapes if s.key in tests], tests)
+
+    @property
+    def foretold(self) -> Foretold | None:
+        """By shape; None where there are no locked tests."""
+        before, after = self.shape_before, self.shape_after
+        return None if before is None or after is None else Foretold(before, after, self.changed)
+
+    @property
+    def where_it_acts(self) -> Foretold | None:
+        """By shape, on the locked tests in which the candidates act; None where they rest in all of them."""
+        return self.on(self.acts)
+
+
+def extended(spec: Model, candidates: Sequence[CandidateEffect]) -> Model:
+    """The model with candidates: as further effects, or as further gains of those that it has."""
+    for one in candidates:
+        spec = one.added_to(spec)
+    return spec
+
+
+def on_all_open(spec: Model, tests: Sequence[TestData], locked: Sequence[TestData]) -> Model:
+    """The model calibrated on every test that took part in the choice; the locked ones stay locked."""
+
+    def names(some: Sequence[TestData]) -> list[str]:
+        return [f"{t.campaign}/{t.test}" for t in some]
+
+    return spec.model_copy(update={"calibrate_on": names(tests), "verify_on": [], "locked": names(locked)})
+
+
+def confirm(
+    spec: Model,
+    index: int,
+    data: Dataset,
+    candidates: Sequence[CandidateEffect],
+    tests: Sequence[TestData],
+    locked: Sequence[TestData],
+    base: FittedModel | None = None,
+) -> Confirmation:
+    """Fit without and with the candidates, all together, on all open tests, and score both on the locked ones.
+
+    index: of the response among the model's responses. base: the fit without, where it is made.
+    """
+    spec = on_all_open(spec, tests, locked)
+    base = fit_model(spec, data, uncertainty=False) if base is None else base
+    more = fit_model(extended(spec, candidates), data)
+    ours, theirs = base.responses[index], more.responses[index]
+    usable = [t for t in locked if ours.can_predict(t) and theirs.can_predict(t)]
+    found, terms = more.parameters(), _terms(more, base, candidates)
+    return Confirmation(
+        rmse(ours, usable),
+        rmse(theirs, usable),
+        rmse(ours, usable, free=True),
+        rmse(theirs, usable, free=True),
+        _changed(ours, theirs, usable),
+        {c: {n: p for n, p in found.items() if set(some) & set(n.split("."))} for c, some in terms.items()},
+        tuple(
+            (t.key, a, b) for t in usable if (a := rmse(ours, [t])) is not None and (b := rmse(theirs, [t])) is not None
+        ),
+        tuple(_shape(ours, theirs, t) for t in usable),
+        acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
+        implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
+    )
+
+
+class Fits:
+    """Of a model with candidates, to all open tests, each made once; and what they leave on the locked tests."""
+
+    def __init__(
+        self,
+        spec: Model,
+        index: int,
+        data: Dataset,
+        tests: Sequence[TestData],
+        locked: Sequence[TestData],
+        base: FittedModel,
+    ) -> None:
+        """index: of the response among the model's responses. base: the fit without any candidate."""
+        self.spec, self.index, self.data = on_all_open(spec, tests, locked), index, data
+        self.locked = locked
+        self._kept = {frozenset[str](): base.responses[index]}
+
+    def foretold(
+        self, others: Sequence[CandidateEffect], one: CandidateEffect, tests: frozenset[tuple[str, str]] | None
+    ) -> Foretold | None:
+        """What one adds to the model with others, by shape on some of the locked tests (None: all); alone where the
+        others were not logged there. None where none of them can be predicted."""
+        asked = [t for t in self.locked if tests is None or t.key in tests]
+        for beside in (others, ()):
+            try:
+                ours, theirs = self.of(beside), self.of([*beside, one])
+            except ThermodataError:
+                continue  # no open test has all of their channels
+            usable = [t for t in asked if ours.can_predict(t) and theirs.can_predict(t)]
+            if usable:
+                return _foretold([_shape(ours, theirs, t) for t in usable], tests)
+        return None
+
+    def of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
+        """Of the model with candidates; ThermodataError where no open test has all of their channels."""
+        key = frozenset(c.id for c in candidates)
+        if key not in self._kept:
+            fitted = fit_model(extended(self.spec, candidates), self.data, uncertainty=False)
+            self._kept[key] = fitted.responses[self.index]
+        return self._kept[key]
+
+
+def _foretold(shapes: Sequence[Shape], tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
+    rows = sum(s.rows for s in shapes)
+    if not rows:
+        return None
+    before, after, changed = (
+        float(np.sqrt(sum(getattr(s, name) for s in shapes) / rows)) for name in ("before", "after", "changed")
+    )
+    return Foretold(before, after, changed, tests=tests)
+
+
+def _acting(
+    ours: FittedResponse,
+    theirs: FittedResponse,
+    changed: Collection[str],
+    tests: Sequence[TestData],
+    locked: Sequence[TestData],
+) -> frozenset[tuple[str, str]]:
+    """The keys of the locked tests in which what is added does enough of what it does in the open test in which it does
+    most. Other effects move as well when one is added: they say nothing of it. changed: ids of effects that become
+    others, which act where they do anything at all."""
+    had = {t.id for t in ours.terms} - set(changed)
+    new = [t for t in theirs.terms if t.id not in had]
+
+    def size(test: TestData) -> float:
+        if not new or not (ours.can_predict(test) and theirs.can_predict(test)):
+            return 0.0
+        values = np.sum([t.contribution(test) for t in new], axis=0)[theirs.mask(test)]
+        return float(values.std()) if len(values) else 0.0
+
+    most = max(map(size, tests), default=0.0)
+    return frozenset(t.key for t in locked if most > 0 and size(t) >= ACTS * most)
+
+
+def _shape(ours: FittedResponse, theirs: FittedResponse, test: TestData) -> Shape:
+    left, more = ours.residual(test), theirs.residual(test)
+    before, after, changed = (
+        shape_of(x, test, mask)
+        for x, mask in ((left, ours.mask(test)), (more, theirs.mask(test)), (more - left, theirs.mask(test)))
+    )
+    return Shape(test.key, len(before), *(float(x @ x) for x in (before, after, changed)))
+
+
+def shape_of(values: Float1D, test: TestData, mask: Bool1D) -> Float1D:
+    """Where it counts, with the best offset, and the best start of a test that began warm."""
+    some = values[mask][:, None]
+    return freed(some, test, test.t_s[mask], np.zeros(len(some), dtype=np.int64))[:, 0] if len(some) else some[:, 0]
+
+
+def _changed(ours: FittedResponse, theirs: FittedResponse, tests: Sequence[TestData]) -> float:
+    parts = [shape_of(theirs.residual(t) - ours.residual(t), t, theirs.mask(t)) for t in tests]
+    whole = np.concatenate([p for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))
+
+
+def _terms(more: FittedModel, base: FittedModel, candidates: Sequence[CandidateEffect]) -> dict[str, tuple[str, ...]]:
+    """The effects that each candidate changed, or that were added in its order, by its id."""
+    had = set(term_ids(base.spec.effects)).union(*(c.becomes for c in candidates))
+    added = iter(name for name in term_ids(more.spec.effects) if name not in had)
+    return {c.id: c.becomes or (next(added),) for c in candidates}
+
+
+def _implausible(checks: Sequence[Check], terms: Sequence[str]) -> tuple[str, ...]:
+    """What the checks of a response say of the gains of some effects."""
+    begins = tuple(f"{IMPLAUSIBLE}{name}." for name in terms)
+    return tuple(c.advice for c in checks if c.name.startswith(begins))
+
+
+def rmse(fitted: FittedResponse, tests: Sequence[TestData], *, free: bool = False) -> float | None:
+    """Free-run error over all samples that count, in the response's unit; None where there are none.
+
+    free: with the best offset for each test, instead of the one from its first samples, and the best start of one that
+    began warm.
+    """
+    masks = [fitted.mask(t) for t in tests]
+    parts = [fitted.residual(t)[m] for t, m in zip(tests, masks, strict=True)]
+    if free:
+        parts = [shape_of(fitted.residual(t), t, m) for t, m in zip(tests, masks, strict=True)]
+    whole = np.concatenate(parts) if parts else np.empty(0)
+    return float(np.sqrt(np.mean(whole**2))) if len(whole) else None

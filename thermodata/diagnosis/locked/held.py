@@ -1,0 +1,48 @@
+"""Whether a choice of the user's own holds on the locked tests: by its shape, and as they are scored."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.weigh.foretold import LEAST
+from thermodata.schema.diagnosis import Confirmed, TestConfirmed
+
+RESTS = "it hardly acts in the locked tests, so they say nothing of it"
+HOLDS = "the error falls by what a cause of its size takes away"
+FALLS_SHORT = "about each test's mean the error falls by less than a cause of its size takes away"
+RISES = "the error rises"
+RISES_ELSEWHERE = "; over all locked tests the error rises, in those in which it rests: they say nothing of it"
+IN_SHAPE_ONLY = (
+    "in shape only: about each test's mean the error falls by what a cause of its size takes away, but counted from "
+    "its first samples, as tests are scored, it rises. The course fits and its start does not: a test that began warm, "
+    "or noise where its zero is taken"
+)
+
+
+def held(result: Confirmed, by_shape: bool | None) -> Confirmed:
+    """With `holds`, `holds_by_shape` and `why`. by_shape: of the locked tests in which it acts, a free offset for each;
+    None where it rests in all of them."""
+    rises = _rises([t for t in result.tests if t.acts])
+    before, after = result.locked_shape_um_before, result.locked_shape_um_after
+    if by_shape is None:
+        holds, why = None, RESTS
+    elif by_shape:
+        elsewhere = RISES_ELSEWHERE if _rises(result.tests) else ""
+        holds, why = not rises, IN_SHAPE_ONLY if rises else HOLDS + elsewhere
+    else:
+        falls = before is None or after is None or after < before
+        holds, why = False, FALLS_SHORT if falls else RISES
+    return result.model_copy(update={"holds": holds, "holds_by_shape": by_shape, "why": why})
+
+
+def as_held(known: Confirmed) -> Confirmed:
+    """An answer that the store holds; older ones went by the shape alone."""
+    return held(known, known.holds if known.why is None else known.holds_by_shape)
+
+
+def _rises(tests: Sequence[TestConfirmed]) -> bool:
+    """Whether the error as scored rises by as much as counts for a fall. Tests weigh by their samples, alike where
+    an older answer does not say how many."""
+    before = sum(t.rmse_um_before**2 * (t.n or 1) for t in tests)
+    after = sum(t.rmse_um_after**2 * (t.n or 1) for t in tests)
+    return after > (1 + LEAST) ** 2 * before

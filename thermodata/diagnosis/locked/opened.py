@@ -1,0 +1,129 @@
+"""What is claimed once the lock is open: what the open tests would claim, and what they leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.rules import blunt
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
+from thermodata.diagnosis.weigh.foretold import Looked
+from thermodata.diagnosis.weigh.scored import Scored
+
+TWINS_TRIED = 4
+
+# of some members, what the locked tests say of the one at a place beside the others; None where there are none
+Look = Callable[[Sequence[Judged], int], Looked | None]
+
+
+def kept_where_they_hold(
+    judgement: Judgement,
+    look: Look,
+    may_be: Callable[[Scored], bool],
+    conclude: Callable[[tuple[Judged, ...]], Judgement],
+    unit: str,
+) -> Judgement:
+    """The claims, and what is likely, that are probable once the lock is open, each beside the others. The least
+    probable of those that fall short goes first, what was only likely before any claim; it gives way to a twin that
+    does not fall short. What refines the model by the open tests is a claim where nothing of the model can do what it
+    does there (`Looked.of_its_own`). Claims that go are kept as refused, and the verdict is "unknown" where nothing
+    else stands; where nothing was claimed before, it is concluded again. may_be: whether a twin keeps the rules itself,
+    and is likely. conclude: judges members anew. unit: of the response."""
+    asked, claims = [*judgement.claims, *judgement.likely], len(judgement.claims)
+    unsound = {_key(j) for j in judgement.likely} - {_key(j) for j in judgement.judged}
+    told = {_key(j): j for j in judgement.judged}  # as it was looked at last, no twin in its place
+    untried = set(map(_key, asked))
+    refused: list[int] = []
+    while asked:
+        said = [look(asked, place) for place in range(len(asked))]
+        asked = [_with(j, one) for j, one in zip(asked, said, strict=True)]
+        if any(one is None for one in said):
+            return replace(judgement, likely=())
+        told.update({_key(j): j for j in asked if not j.twin})
+        short = [place for place, j in enumerate(asked) if _falls_short(j, unsound)]
+        if not short:
+            break
+        worst = min([place for place in short if place >= claims] or short, key=lambda place: _standing(asked[place]))
+        key = _key(asked[worst])
+        if key in untried and asked[worst].refines is None:
+            untried.discard(key)
+            if (twin := _best_twin(asked, worst, look, may_be)) is not None:
+                asked[worst] = twin
+                continue
+        if worst < claims:
+            refused.append(key)
+            claims -= 1
+        asked.pop(worst)
+    standing = causes(asked)
+    told.update({_key(j): j for j in standing})
+    judged = tuple(told.values())
+    gone = tuple(told[_key(c)] for c in judgement.claims if _key(c) in refused)
+    found = replace(judgement, judged=judged, likely=(), refused=gone)
+    if standing:
+        told_now = {_key(j) for j in standing}
+        kept = tuple(j for j in judgement.refinements if _key(j) not in told_now)
+        return replace(found, verdict="effect", claims=standing, refinements=kept, reason="")
+    if gone:
+        return replace(found, verdict="unknown", claims=(), reason=_why(gone, unit))
+    anew = conclude(tuple(told[_key(j)] for j in judgement.judged))
+    return replace(anew, judged=judged, likely=())
+
+
+def _key(j: Judged) -> int:
+    """A member stays the same when a twin takes its place."""
+    return id(j.alone.columns)
+
+
+def _with(j: Judged, said: Looked | None) -> Judged:
+    return replace(j, scored=replace(j.scored, looked=said))
+
+
+def _falls_short(j: Judged, unsound: set[int]) -> bool:
+    """unsound: keys of what breaks a rule on the open tests: the locked ones must speak for it."""
+    looked = j.scored.looked
+    silent = looked is None or not looked.saying or not looked.bears_out
+    if j.refines is not None and (looked is None or not looked.of_its_own):
+        return True
+    return _is_refuted(j) or blunt(j.scored) is not None or (_key(j) in unsound and silent)
+
+
+def _is_refuted(j: Judged) -> bool:
+    return j.scored.looked is not None and j.scored.looked.refuted
+
+
+def _standing(j: Judged) -> tuple[bool, float]:
+    """The least first."""
+    return not _is_refuted(j), probability(j.scored)
+
+
+def _best_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged | None:
+    """What can't be told apart is one claim, and one member that falls short is no reason against the others."""
+    names = {j.scored.candidate.id for j in asked}
+    found = []
+    for twin in _twins(asked[place], may_be, names):
+        told = _with(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
+        if not _falls_short(told, set()):
+            found.append(told)
+    return max(found, key=_standing, default=None)
+
+
+def _twins(claim: Judged, may_be: Callable[[Scored], bool], names: set[str]) -> list[Judged]:
+    """names: what is asked already."""
+    own = claim.scored
+    # a twin of the model's own effects refines them: it is no cause, however it does on the locked tests
+    kin = (None, own.candidate.kin)
+    alike = [t for t in equivalents(own, claim.beside) if t.candidate.kin in kin and t.candidate.id not in names]
+    # in its place, the same sharper cause stands beside the twin, and other axes say the same
+    placed = [replace(t, beaten=own.beaten, also_on=own.also_on) for t in alike]
+    return [replace(claim, scored=twin, twin=True) for twin in placed if may_be(twin)][:TWINS_TRIED]
+
+
+def _why(refused: Sequence[Judged], unit: str) -> str:
+    """With the errors of the look in which it falls least."""
+    names = [j.scored.candidate.id for j in refused]
+    explain, them = ("explains", "it") if len(names) == 1 else ("explain", "them")
+    said = [f for j in refused if j.scored.looked is not None for f in j.scored.looked.saying]
+    least = min(said, key=lambda f: f.fall, default=None)
+    there = "" if least is None else f" (error there {least.before:.2f} -> {least.after:.2f} {unit})"
+    return f"{' with '.join(names)} {explain} the open tests, but the locked ones do not bear {them} out{there}"

@@ -1,0 +1,110 @@
+"""The lock is opened for what the open tests claim: what the locked tests bear out of it, and what is asked again.
+
+Twice the answer is asked anew: without locked tests in which a probe is turned, and, where all that was claimed is
+refused, without what was, which may have stood in the place of what is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from thermodata.diagnosis.claims.rules import may_be_claimed
+from thermodata.diagnosis.locked.confirm import Fits
+from thermodata.diagnosis.locked.opened import kept_where_they_hold
+from thermodata.diagnosis.locked.turned_locked import as_artefacts, turned_locked
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.weigh.foretold import Looked
+from thermodata.errors import ThermodataError
+from thermodata.schema.diagnosis import Artefact
+from thermodata.view.dataset import TestData
+
+
+class Asks(Protocol):
+    """Investigates the open tests beside some locked ones."""
+
+    def __call__(
+        self, locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
+    ) -> Investigation: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """tests: that were opened. asked: the ids of what they were opened for."""
+
+    tests: tuple[TestData, ...]
+    asked: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unlocked:
+    """judgement: once the lock is open. locked: the tests that were asked, in none of which a probe is turned; turned:
+    the keys of those. looks: each time that the lock was opened; none where it stayed shut."""
+
+    investigation: Investigation
+    judgement: Judgement
+    locked: tuple[TestData, ...]
+    turned: tuple[tuple[str, str], ...]
+    looks: tuple[Look, ...]
+
+
+def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: Sequence[TestData]) -> Unlocked:
+    """fits_of: models fitted to the open tests, for some locked ones."""
+    faults: list[Artefact] = []
+    looks: list[Look] = []
+
+    def opened(refused: frozenset[str] = frozenset()) -> tuple[Investigation, Fits, Judgement]:
+        fits, found = fits_of(locked), asks(locked, faults, refused)
+        asked = dict.fromkeys(found.looked_for)
+        judgement = _opened(found, fits, locked, asked)
+        if asked:
+            looks.append(Look(tuple(locked), tuple(asked)))
+        return found, fits, judgement
+
+    found, fits, judgement = opened()
+    turned = _turned(judgement, found, fits, locked)
+    if turned:
+        locked = [t for t in locked if t.key not in turned]
+        faults = as_artefacts(turned, found.problem.response)
+        found, fits, judgement = opened()
+    if judgement.refused and not judgement.claims:
+        second, _, anew = opened(frozenset(c for j in judgement.refused for c in j.scored.candidate.channels))
+        if anew.claims and all(j.scored.looked is not None and j.scored.looked.at_second_look for j in anew.claims):
+            found, judgement = second, replace(anew, refused=(*judgement.refused, *anew.refused))
+    return Unlocked(found, judgement, tuple(locked), tuple(sorted(turned)), tuple(looks))
+
+
+def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]) -> Judgement:
+    """Where something is claimed or likely. looked_for: takes the ids of what the lock was opened for."""
+    judgement, unit = found.judgement, found.problem.unit
+    if not judgement.claims and not (locked and judgement.likely):
+        return judgement
+
+    def look(some: Sequence[Judged], place: int) -> Looked | None:
+        one, others = some[place], [*some[:place], *some[place + 1 :]]
+        foretold = found.borne_out(one, others)
+        if foretold is None:
+            return None
+        looked_for.setdefault(one.scored.candidate.id)
+        added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
+        return Looked(foretold, added, found.measure.floor)
+
+    return kept_where_they_hold(
+        judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit
+    )
+
+
+def _turned(
+    judgement: Judgement, found: Investigation, fits: Fits, locked: Sequence[TestData]
+) -> dict[tuple[str, str], float]:
+    """The locked tests that do not bear out what the open ones claim because a probe is turned in them."""
+    asked = (*judgement.claims, *judgement.refused)
+    if all(j.scored.looked is None or j.scored.looked.bears_out for j in asked):
+        return {}
+    try:
+        claimed = fits.of([j.scored.candidate for j in asked])
+    except ThermodataError:  # no open test has all of their channels
+        return {}
+    return turned_locked(claimed, locked, found.measure.floor)

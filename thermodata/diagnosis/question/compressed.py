@@ -1,0 +1,31 @@
+"""A fitted response as the problem that a diagnosis asks of, in so many rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.question.known_effects import otherwise, remembered
+from thermodata.diagnosis.question.problem import Base, Problem, build_problem
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.view.dataset import Dataset, TestData
+
+# rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
+WEIGHED_ROWS = 2400
+
+
+def compressed(
+    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], rows: int, base: Base | None = None
+) -> Problem:
+    """rows: of all tests together, at most. base: the model's columns, where they are made."""
+    return build_problem(
+        data,
+        tests,
+        fitted.name,
+        data.channels[fitted.name].unit,
+        measured=fitted.measured,
+        residual=fitted.residual,
+        mask=fitted.mask,
+        base=remembered(fitted) if base is None else base,
+        slack=lambda test: otherwise(fitted, test),
+        rows=rows,
+    )

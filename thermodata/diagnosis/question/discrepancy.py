@@ -1,0 +1,215 @@
+"""What a response does that no column explains: white noise and slow noise a test, and free offsets.
+
+    y = X b + offset + s(t) + e,    cov s = ou^2 exp(-|dt| / tau),    var e = white^2
+
+Slow noise is an Ornstein-Uhlenbeck process: what drifts, and what a sum of lags leaves of a distributed machine. It is
+what makes a long test worth its effective number of samples, not its rows. Sources: [uhlenbeck1930]; a discrepancy
+beside a model: [kennedy2001]. Offsets have a flat prior, so all products are taken after they are projected out
+(restricted likelihood [patterson1971]).
+
+The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B'
+has three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening passes a test's
+rows once ([rue2005], ch. 2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
+
+from thermodata.diagnosis.question.problem import Block, Problem, start_directions
+from thermodata.plugin import Float1D, Float2D
+
+# a model is never better than this share of what it leaves: without it, a misfit of 0.05 um that repeats outweighs all
+LEAST_WHITE = 0.1
+# bounds of the search, as multiples of what the model leaves; of tau in seconds
+WHITE = (1e-3, 1.0)
+SLOW = (1e-2, 4.0)
+TAU_S = (600.0, 96 * 3600.0)
+SHARE = (0.03, 3.0)
+START_TAU_S = 7200.0
+
+
+KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
+SPACES = 2  # noises whose columns are kept: what is chosen is asked in two by turns
+
+
+@dataclass(frozen=True, slots=True)
+class Noise:
+    """white, slow: standard deviations in the response's unit. tau_s: memory of the slow noise. share: how much of a
+    known effect may act otherwise than by its fitted lag (prior standard deviation)."""
+
+    white: float
+    slow: float
+    tau_s: float
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Factor L = B^-1 C of the covariance of a test. carried: what is left of the slow noise from one sample to the
+    next, shape (m - 1,). factor: C, its diagonal and the one below, shape (2, m)."""
+
+    carried: Float1D
+    factor: Float2D
+
+    @property
+    def logdet(self) -> float:
+        """Of the covariance: B has the determinant 1."""
+        return 2 * float(np.log(self.factor[0]).sum())
+
+    def halved(self, columns: Float2D) -> Float2D:
+        """L^-1 times columns, shape (m, k)."""
+        if not columns.size:
+            return columns
+        steps = np.array(columns, dtype=np.float64, order="F")
+        steps[1:] -= self.carried[:, None] * columns[:-1]
+        return _sound(*dtbtrs(self.factor, steps, uplo="L", overwrite_b=1))
+
+
+def chain_of(t_s: Float1D, noise: Noise) -> Chain:
+    """t_s: of a test's samples, rising, shape (m,)."""
+    apart = np.diff(t_s) / noise.tau_s
+    carried = np.exp(-apart)
+    band = np.zeros((2, len(t_s)))  # B cov B': the diagonal, and the one below
+    band[0] = noise.white**2
+    band[0, 0] += noise.slow**2
+    band[0, 1:] += (noise.white * carried) ** 2 - noise.slow**2 * np.expm1(-2 * apart)
+    band[1, :-1] = -carried * noise.white**2
+    return Chain(carried, _sound(*dpbtrf(band, lower=1)))
+
+
+def _sound(solution: Float2D, info: int) -> Float2D:
+    if info:
+        raise np.linalg.LinAlgError("a covariance is singular")
+    return np.asarray(solution, dtype=np.float64)
+
+
+class Whitened:
+    """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
+    covariance, offsets included. kept: what was whitened already and is asked again beside other effects, by who asks,
+    `KEPT_BYTES` at most."""
+
+    def __init__(self, problem: Problem, noise: Noise) -> None:
+        self.noise = noise
+        self.kept: dict[int, tuple[object, tuple[Float2D, ...]]] = {}
+        self._room = KEPT_BYTES
+        self._chains: list[Chain] = []
+        self._offsets: list[Float2D] = []
+        self.rows, self.logdet = 0, 0.0
+        for block in problem.blocks:
+            chain = chain_of(block.t_s, noise)
+            members = free_of(block)
+            q, sizes = _orthogonal(chain.halved(members))
+            self._chains.append(chain)
+            self._offsets.append(q)
+            self.logdet += chain.logdet + 2 * float(np.log(sizes).sum())
+            self.rows += len(block.t_s) - members.shape[1]
+
+    def of(self, test: int, columns: Float2D) -> Float2D:
+        """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
+        return self.projected(test, self._chains[test].halved(columns))
+
+    def all_of(self, who: object, columns: Sequence[Float2D]) -> tuple[Float2D, ...]:
+        """The columns of one asker, shape (m, k) a test, in units of the noise. who: lives as long as this."""
+        found = self.kept.get(id(who))
+        if found is not None and found[0] is who:
+            return found[1]
+        white = tuple(self.of(i, c) if c.any() else np.zeros_like(c) for i, c in enumerate(columns))
+        self._room -= sum(w.nbytes for w in white)
+        if self._room >= 0:
+            self.kept[id(who)] = who, white
+        return white
+
+    def projected(self, test: int, white: Float2D) -> Float2D:
+        """Columns in units of the noise, shape (m, k), without what an offset explains."""
+        free = self._offsets[test]
+        result: Float2D = white - free @ (free.T @ white)
+        return result
+
+
+def whitened(problem: Problem, noise: Noise) -> Whitened:
+    """Kept with the problem: the same samples are asked again beside other effects."""
+    spaces: dict[Noise, Whitened] = problem.kept.setdefault("spaces", {})
+    found = spaces.pop(noise, None) or Whitened(problem, noise)
+    spaces[noise] = found
+    while len(spaces) > SPACES:
+        del spaces[next(iter(spaces))]
+    return found
+
+
+def _orthogonal(columns: Float2D) -> tuple[Float2D, Float1D]:
+    """(orthonormal columns of the same span, the product of whose sizes is the root of their Gram determinant)."""
+    if columns.shape[1] == 1:
+        size = np.linalg.norm(columns, axis=0)
+        return columns / size, size
+    q, r = np.linalg.qr(columns)
+    return q, np.abs(np.diag(r))
+
+
+def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Float2D:
+    """L^-1 times the right side, or L'^-1, for a lower Cholesky factor L. Thousands of small ones: LAPACK itself, for
+    what stands around it costs more than it does."""
+    if not right.size:
+        return right
+    return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
+
+
+def free_of(block: Block) -> Float2D:
+    """A column for each free offset of a test, 1 where it counts, and what fades from a warm start, (m, columns)."""
+    offsets = np.asarray(block.segment[:, None] == np.unique(block.segment)[None], dtype=np.float64)
+    start = start_directions(block.test, block.t_s, block.segment)
+    return np.hstack([offsets, start]) if start.size else offsets
+
+
+def distances(problem: Problem, test: int) -> Float2D:
+    """Between the samples of a test in time [s], shape (m, m)."""
+    kept = problem.kept.setdefault("distances", {})
+    if test not in kept:
+        t = problem.blocks[test].t_s
+        kept[test] = np.abs(t[:, None] - t[None])
+    found: Float2D = kept[test]
+    return found
+
+
+def bounds_of(problem: Problem) -> tuple[Noise, Float2D]:
+    """Where a search begins, and the bounds of the logarithms of its four numbers, shape (4, 2)."""
+    rms = left_over(problem)
+    white = max(problem.noise if np.isfinite(problem.noise) else 0.0, 0.02 * rms)
+    longest = max(float(b.t_s[-1] - b.t_s[0]) for b in problem.blocks)
+    least = min(TAU_S[0], longest / 20)  # a test of minutes has a slow noise of its own scale
+    ends = [(WHITE[0] * rms, max(WHITE[1] * rms, 2 * white)), (SLOW[0] * rms, SLOW[1] * rms), (least, TAU_S[1]), SHARE]
+    return Noise(white, rms, min(START_TAU_S, longest / 4), 0.5), np.log(ends)
+
+
+def left_over(problem: Problem) -> float:
+    """RMS of what the fitted model leaves, in the response's unit."""
+    return float(np.sqrt(np.mean(np.concatenate([b.residual for b in problem.blocks]) ** 2))) + 1e-9
+
+
+def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:
+    x = np.clip(x, bounds[:, 0], bounds[:, 1])
+    best, step, asked = goal(x), 0.8, 1
+    while step > 0.12 and asked < most:
+        moved = False
+        for way in _ways(len(x)):
+            z = np.clip(x + step * way, bounds[:, 0], bounds[:, 1])
+            if np.array_equal(z, x):
+                continue
+            value = goal(z)
+            asked += 1
+            if value > best + 1e-3:
+                best, x, moved = value, z, True
+        step = step if moved else step / 2
+    return x
+
+
+def _ways(count: int) -> Sequence[Float1D]:
+    """Along each axis, and along size and memory of the slow noise together: short records know their ratio only."""
+    axes = [sign * axis for axis in np.eye(count) for sign in (1.0, -1.0)]
+    both = np.zeros(count)
+    both[1], both[2] = 0.5, 1.0
+    return [*axes, both, -both]

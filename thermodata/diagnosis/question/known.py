@@ -1,0 +1,168 @@
+"""What the model can do already, as a Gaussian prior: its gains freely, other time constants at a price."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from thermodata.diagnosis.question.directions import Products, Weighted, log_evidence
+from thermodata.diagnosis.question.discrepancy import (
+    LEAST_WHITE,
+    Noise,
+    Whitened,
+    ascend,
+    bounds_of,
+    halved,
+    left_over,
+    whitened,
+)
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.plugin import Float1D, Float2D, Int1D
+
+FloatND = NDArray[np.float64]
+
+GAIN = 2.0  # prior standard deviation of a known effect's gain, as a multiple of its fit,
+SEARCHED = 700  # rows that the noise is estimated from
+FREE = 1.0  # or of what would make it as large as the response: an effect that another one hides has a small fit
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """The known effects under a noise, test by test. both: columns and, last, the response, (m, k + 1). gram: shape
+    (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior."""
+
+    problem: Problem
+    space: Whitened
+    both: tuple[Float2D, ...]
+    gram: FloatND
+    cross: Float2D
+    energy: Float1D
+    precision: Float1D
+
+    def factor(self, tests: Int1D) -> Float2D:
+        """Cholesky factor of the posterior precision, from some tests."""
+        return np.asarray(np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision)))
+
+    def mean(self, tests: Int1D) -> Float1D:
+        """Coefficients that some tests and the prior give, shape (k,)."""
+        return np.asarray(solved(self.factor(tests), self.cross[tests].sum(axis=0)[:, None])[:, 0])
+
+    @property
+    def every(self) -> Int1D:
+        return np.arange(len(self.both))
+
+    @property
+    def white(self) -> tuple[Float2D, ...]:
+        """The columns alone, (m, k)."""
+        return tuple(b[:, :-1] for b in self.both)
+
+    @property
+    def response(self) -> tuple[Float1D, ...]:
+        return tuple(b[:, -1] for b in self.both)
+
+    @property
+    def left_out(self) -> float:
+        """RMS error of tests that are left out in turn, each alike, in the response's unit."""
+        squares = []
+        for i, block in enumerate(self.problem.blocks):
+            theta = self.mean(np.delete(self.every, i))
+            squares.append(np.mean((block.response - np.hstack([block.base, block.slack]) @ theta) ** 2))
+        return float(np.sqrt(np.mean(squares)))
+
+    def log_probability(self, tests: Int1D) -> float:
+        """Of some tests, but for terms of the noise and the prior: for differences between sets of known effects that
+        share the noise, or between tests."""
+        factor = self.factor(tests)
+        half = halved(factor, self.cross[tests].sum(axis=0)[:, None])[:, 0]
+        return float(0.5 * half @ half - np.log(np.diag(factor)).sum() - 0.5 * self.energy[tests].sum())
+
+    @property
+    def log_evidence(self) -> float:
+        """Of the response, offsets integrated out."""
+        of_all = self.gram.sum(axis=0), self.cross.sum(axis=0), float(self.energy.sum())
+        return log_evidence(*of_all, self.space.logdet, self.space.rows, self.precision)
+
+
+def known(problem: Problem, noise: Noise) -> Known:
+    space = whitened(problem, noise)
+    both = tuple(space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks))
+    products = np.stack([b.T @ b for b in both])
+    return Known(
+        problem,
+        space,
+        both,
+        products[:, :-1, :-1],
+        products[:, :-1, -1],
+        products[:, -1, -1],
+        _precision(_gains(problem), problem.blocks[0].slack.shape[1], noise.share),
+    )
+
+
+def likeliest(problem: Problem, start: Noise | None = None) -> Noise:
+    """The noise of the largest evidence, by a search along each of its numbers in turn; of some `SEARCHED` rows."""
+    every = np.arange(problem.blocks[0].base.shape[1] + problem.blocks[0].slack.shape[1])
+    return likeliest_of(problem, [every], start)[0]
+
+
+def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None = None) -> list[Noise]:
+    """The same beside each of some parts of what is known: indices of its columns, of base and slack together. The
+    searches pass through the same noises, and each is whitened once."""
+    every = max(1, round(problem.rows / SEARCHED))
+    thin = _thinned(problem, every) if every > 1 else problem
+    first, bounds = bounds_of(problem)
+    tests = Weighted(thin)
+    gains, slack = _gains(thin), thin.blocks[0].slack.shape[1]
+    made: dict[bytes, Products] = {}
+
+    def products(x: Float1D) -> Products:
+        # the price of other time constants changes no covariance
+        key = np.round(x[:3], 9).tobytes()
+        if key not in made:
+            made[key] = tests.products(_of(x))
+        return made[key]
+
+    def evidence(x: Float1D, part: Int1D) -> float:
+        gram, cross, energy, logdet, rows = products(x)
+        precision = _precision(gains, slack, _of(x).share)[part]
+        return log_evidence(gram[np.ix_(part, part)], cross[part], energy, logdet, rows, precision)
+
+    begin = np.log(astuple(first if start is None else start))
+    found = [_of(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
+    least = LEAST_WHITE * left_over(problem)
+    return [replace(noise, white=max(noise.white, least)) for noise in found]
+
+
+def _of(x: Float1D) -> Noise:
+    return Noise(*(float(v) for v in np.exp(x)))
+
+
+def _thinned(problem: Problem, every: int) -> Problem:
+    """What its samples alone say is kept with the whole problem, for the next search."""
+    kept = problem.kept.setdefault("thinned", {}).setdefault(every, {})
+    return replace(problem.thinned(every), kept=kept)
+
+
+def solved(factor: Float2D, right: Float2D) -> Float2D:
+    """(L L')^-1 times the right side."""
+    return halved(factor, halved(factor, right), transposed=True)
+
+
+def _gains(problem: Problem) -> Float1D:
+    """Prior standard deviation of each known gain, as a multiple of its fit."""
+    large = rms(problem.response_blocks)
+    own = np.sqrt(np.mean(np.vstack([b.base for b in problem.blocks]) ** 2, axis=0))
+    return np.asarray(np.maximum(GAIN, FREE * large / np.maximum(own, 1e-9 * large + 1e-300)))
+
+
+def _precision(gains: Float1D, slack: int, share: float) -> Float1D:
+    """Of the prior. slack: how many columns are other time constants. share: their prior standard deviation."""
+    return np.concatenate([gains**-2.0, np.full(slack, share**-2.0)])
+
+
+def rms(parts: Sequence[Float1D]) -> float:
+    """Of all samples of some series together."""
+    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))

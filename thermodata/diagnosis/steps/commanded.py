@@ -1,0 +1,170 @@
+"""Steps of the residual that a command makes: speed, feed, power, a switch. Decided by what it does elsewhere.
+
+A centrifugal shift looks like a slip of the probe, but it comes with every change of the speed. A pump that cycles is
+never far from a slip, but its other changes make no step. So a change explains a step only where the other changes of
+the same channel, at the same distance in time, foretell it: by a straight line through zero, jump of the residual over
+change of the command, or of its square (centrifugal force), or over how far it changes, whichever way (what speeds up
+heats as much as what slows down). So does a temperature, where a body is changed for another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.steps.sudden import BESIDE, HOLE_STEPS, over_three, suddenly
+from thermodata.plugin import Bool1D, Float1D, Int1D
+from thermodata.schema.places import is_around
+from thermodata.view.dataset import ChannelInfo
+
+COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
+# a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
+JUMPING = (*COMMANDS, "temperature")
+POWERS = (1, 2)
+EITHER_WAY = 0  # no power: how far it changes, up or down
+WAYS = (*POWERS, EITHER_WAY)
+COMMAND_S = 600.0  # between a change and its step, for clocks differ
+MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
+ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
+FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
+ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    """A command in one block. change: way -> shape (m,), over three intervals; rows: way -> where that is a change of
+    its own. hole: shape (m,), whether the interval before a sample is one in which nobody logged the command."""
+
+    change: Mapping[int, Float1D]
+    rows: Mapping[int, Int1D]
+    hole: Bool1D
+
+
+def is_command(channel: ChannelInfo) -> bool:
+    """Whether the machine is told to do something by it: who opens the door of the hall tells the machine nothing."""
+    return channel.quantity in COMMANDS and not is_around(channel.at)
+
+
+class Commands:
+    """The commands of a problem, and what the residual does where they change."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._step_s = problem.step_s
+        self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
+        self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
+        found = {n: c.quantity for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING}
+        self._names = sorted(found)
+        self._told = [found[n] in COMMANDS for n in self._names]
+        self._commands = [_courses(problem.blocks, n, told=t) for n, t in zip(self._names, self._told, strict=True)]
+
+    def explain(self, block: int, i: int) -> bool:
+        """Whether a command makes the step before sample i of a block."""
+        return any(self._explains(command, block, i) for command in self._commands)
+
+    def change_at(self, block: int, i: int) -> tuple[str, ...]:
+        """The commands that change in the interval before sample i of a block, or in one beside it, whatever they do
+        elsewhere."""
+        return tuple(
+            name
+            for name, told, command in zip(self._names, self._told, self._commands, strict=True)
+            if told
+            and (own := command[block]) is not None
+            and any(i - 1 in r or i in r or i + 1 in r for r in own.rows.values())
+        )
+
+    def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
+        own, jump = command[block], float(self._jumps[block][i])
+        if own is None or not np.isfinite(jump):
+            return False
+        for way in WAYS:
+            near = own.rows[way][np.abs(own.rows[way] - i) <= int(COMMAND_S / self._step_s) + 1]
+            for row in near.tolist():
+                x, y = self._elsewhere(command, self._jumps, block, i, i - row, way)
+                if tells(jump, float(own.change[way][row]), x, y, at_once=abs(i - row) <= 1):
+                    return True
+        # what a command did while nobody logged it, neither the model knows nor we: at most its largest change; what
+        # it does whichever way it goes cannot stay, or the machine would walk off
+        return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
+
+    def _might(self, command: Sequence[_Course | None], block: int, i: int, power: int) -> bool:
+        x, y = self._elsewhere(command, self._moves, block, i, 0, power)
+        if not len(x):
+            return False
+        slope, alike = through_zero(x, y)
+        most = abs(slope) * float(np.abs(x).max())
+        return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
+
+    def _elsewhere(
+        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
+    ) -> tuple[Float1D, Float1D]:
+        """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
+        x, y = [np.empty(0)], [np.empty(0)]
+        for k, course in enumerate(command):
+            if course is None:
+                continue
+            rows = course.rows[way]
+            rows = rows[(rows + lag >= 0) & (rows + lag < len(jumps[k]))]
+            if k == block:
+                rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
+            there = jumps[k][rows + lag]
+            x.append(course.change[way][rows][np.isfinite(there)])
+            y.append(there[np.isfinite(there)])
+        return np.concatenate(x), np.concatenate(y)
+
+
+def tells(jump: float, change: float, x: Float1D, y: Float1D, *, at_once: bool) -> bool:
+    """Whether a change of a command makes a jump, by its changes elsewhere, x, and the jumps there, y: shape (k,).
+
+    Where it changes nowhere else nobody can tell a slip from its doing, unless the clock does: at_once.
+    """
+    if not len(x):
+        return at_once
+    slope, alike = through_zero(x, y)
+    return alike >= ALIKE and FORETOLD <= slope * change / jump <= 1 / FORETOLD
+
+
+def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
+    """(slope of the line through zero, share of the squares of y that it takes away)."""
+    slope = float(x @ y) / max(float(x @ x), 1e-300)
+    return slope, 1 - float(np.sum((y - slope * x) ** 2)) / max(float(y @ y), 1e-300)
+
+
+def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course | None]:
+    """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
+    temperature: it changes where that is sudden, and does nothing while nobody logs it."""
+    held = [_held(b, name) for b in blocks]
+    values = [v for v, _ in held if len(v)]
+    every = np.concatenate(values) if values else np.zeros(1)
+    # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
+    span = {p: float(np.ptp(every**p)) for p in POWERS}
+    return [
+        _course(b, v, hole & told, span, told) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)
+    ]
+
+
+def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
+    """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
+    test = block.test
+    known = np.flatnonzero(np.isfinite(test.values[name])) if name in test.values else np.empty(0, np.int64)
+    if not len(known):
+        return np.empty(0), np.empty(0, dtype=np.bool_)
+    last = known[np.clip(np.searchsorted(test.t_s[known], block.t_s, side="right") - 1, 0, None)]
+    step = float(np.median(np.diff(test.t_s)))
+    return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
+
+
+def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float], told: bool) -> _Course:
+    change = {p: over_three(value**p, block.t_s) for p in POWERS}
+    # a motor that cools once its axis rests is no other body; and a body expands by its temperature, not by the square
+    moved = change if told else {1: suddenly(value, block.t_s, BESIDE + 2), 2: np.zeros(len(value))}
+    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * span[p]) for p in POWERS}
+    change[EITHER_WAY] = np.abs(change[1])
+    rows[EITHER_WAY] = rows[1] if told else np.empty(0, np.int64)
+    # a hole begins after the last logged sample and ends before the next one
+    hole = old.copy()
+    hole[1:] |= old[:-1]
+    hole[:-1] |= old[1:]
+    return _Course(change, rows, hole)

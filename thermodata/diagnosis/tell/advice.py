@@ -1,0 +1,73 @@
+"""Which of the pieces of advice (`next_test`) an answer ends with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
+from thermodata.diagnosis.claims.rules import rules
+from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.view.dataset import Dataset
+
+
+def advice(
+    investigation: Investigation,
+    judgement: Judgement,
+    confirmation: Confirmation | None,
+    first: Scored | None,
+    data: Dataset,
+    terms: Sequence[str],
+) -> str | None:
+    """first: the head of the list. terms: ids of the model's effects."""
+    claims, refused = ([j.scored.candidate for j in some] for some in (judgement.claims, judgement.refused))
+    if claims:
+        claim = judgement.claims[0]
+        apart = next_test.to_separate(claim.scored, equivalents(claim.scored, claim.beside), data.channels)
+        if apart is not None:
+            return apart
+        for other in judgement.claims:
+            if (log := next_test.to_log(other.scored, data.channels)) is not None:
+                return log
+        for each in judgement.claims:
+            twins = [s.candidate for s in equivalents(each.scored, each.beside)]
+            if (parts := next_test.to_tell_parts(each.scored.candidate, twins, data.channels)) is not None:
+                return parts
+    if refused:
+        return next_test.to_decide(refused, data.channels)
+    if claims and confirmation is not None and confirmation.asked == frozenset():
+        return next_test.to_bear_out(claims, data.channels)
+    if judgement.verdict in ("none", "refine"):
+        large = LARGE * investigation.measure.spread
+        for one in of_each_effect(investigation.limits):
+            if one.least > large and one.hides and one.like is not None:
+                return next_test.to_exclude(one.candidate, terms[one.like], data.channels)
+        return None
+    if judgement.verdict not in ("unknown", "not_testable"):
+        return None
+    if resting := [j.scored.candidate for j in judgement.judged if _rests(j)]:
+        return next_test.to_bear_out(resting, data.channels)
+    if first is not None and (only := _only_test(first, investigation)) is not None:
+        return next_test.to_repeat(first.candidate, only, data.channels)
+    tests = len({b.test.key for b in investigation.problem.blocks})
+    return next_test.to_find(tests, investigation.spots, data.channels, first)
+
+
+def _rests(j: Judged) -> bool:
+    """Whether the lock was opened for it, as it is likely, and it acts in none of the locked tests."""
+    looked = j.scored.looked
+    return j.refines is None and looked is not None and looked.foretold.tests == frozenset()
+
+
+def _only_test(s: Scored, investigation: Investigation) -> str | None:
+    """The name of the test that a candidate acts in, where that is one and no claim for it: another such test would
+    tell. None where chance does as well."""
+    broken = {r.name for r in rules(s, investigation.measure, investigation.problem.unit) if not r.holds}
+    if not len(s.rows) or "others" not in broken or "chance" in broken:
+        return None
+    return str(investigation.problem.blocks[int(np.argmax(s.size))].test.test)

@@ -1,0 +1,88 @@
+"""The evidence of one candidate rung by rung, for who doubts it: each rule of a claim with its value and its limit,
+each left-out test before and after, and the residual with the contribution over it. What decides stands in `rules`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.rules import rules, surely
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.plugin import Float1D
+from thermodata.schema.candidate import CandidateCourse, LeftOut, Rung
+
+_QUANTILES = 41
+
+
+def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
+    """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold."""
+    return [
+        Rung(
+            name=rule.name,
+            asks=rule.asks,
+            value=float(rule.value) if np.isfinite(rule.value) else None,
+            limit=float(rule.limit),
+            unit=rule.unit,
+            at=rule.at,
+            holds=bool(rule.holds),
+            asked=bool(rule.asked),
+        )
+        for rule in (*rules(scored, measure, unit), surely(scored))
+    ]
+
+
+def left_out(scored: Scored, problem: Problem) -> list[LeftOut]:
+    """Each test, or part of one, as the others foretell it without and with the candidate."""
+    if not _of_these(scored, problem):
+        return []
+    before, after = np.sqrt(scored.sse_before / scored.rows), np.sqrt(scored.sse_after / scored.rows)
+    return [
+        LeftOut(
+            campaign=block.test.campaign,
+            test=block.test.test,
+            from_s=float(block.t_s[0]) if len(block.t_s) else 0.0,
+            to_s=float(block.t_s[-1]) if len(block.t_s) else 0.0,
+            acts=bool(acts),
+            rmse_um_before=float(b),
+            rmse_um_after=float(a),
+        )
+        for block, acts, b, a in zip(problem.blocks, scored.acts, before, after, strict=True)
+    ]
+
+
+def courses(scored: Scored, problem: Problem) -> list[CandidateCourse]:
+    """In each test in which it acts: what the model leaves over, and what the candidate would take of it."""
+    if not _of_these(scored, problem):
+        return []
+    point, _ = scored.weighed.best
+    found = []
+    for block, columns, acts in zip(problem.blocks, scored.columns.blocks, scored.acts, strict=True):
+        if acts and len(block.t_s):
+            contribution = columns[:, point, :] @ scored.weighed.coefficients
+            found.append(
+                CandidateCourse(
+                    campaign=block.test.campaign,
+                    test=block.test.test,
+                    t_s=_short(block.t_s),
+                    residual_um=_short(block.residual),
+                    contribution_um=_short(contribution),
+                )
+            )
+    return found
+
+
+def _of_these(scored: Scored, problem: Problem) -> bool:
+    """Whether it was scored on the problem's own blocks, and on any at all."""
+    return len(scored.rows) == len(problem.blocks) == len(scored.columns.blocks) > 0
+
+
+def chance(measure: Measure) -> list[float]:
+    """Quantiles, 0 to 1 in even steps, of the log evidence that the best of all candidates has by chance."""
+    if not len(measure.chance):
+        return []
+    return _short(np.quantile(measure.chance, np.linspace(0, 1, _QUANTILES)))
+
+
+def _short(values: Float1D) -> list[float]:
+    return [float(f"{v:.5g}") for v in values]

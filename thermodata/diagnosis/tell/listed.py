@@ -1,0 +1,157 @@
+"""The candidates of an answer: which are listed, in what order, and what is said of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.unread import reads
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import elsewhere, probability
+from thermodata.diagnosis.claims.rules import explained, failed_rules
+from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.tell import ladder
+from thermodata.diagnosis.tell.why import among, judged_beside, why
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.weigh.null import p_value
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.candidate import Candidate
+from thermodata.view.dataset import Dataset
+
+SHOWN = 15
+
+
+def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
+    return None if tests is None else len(tests)
+
+
+def listed(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
+    """Claims, what the locked tests refused, refinements, then all others by what they would give; what was dropped as
+    it was judged last. Where nothing is claimed the likeliest of the others comes before them."""
+    first = [*judgement.claims, *judgement.refused, *judgement.refinements]
+    order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
+    rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
+    others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
+    if investigation.selection is not None:
+        found = [*investigation.selection.dropped, *investigation.selection.first.ranked]
+        for s in found:
+            if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
+                others.append((s, None))
+    others.sort(key=lambda item: -explained(item[0]))
+    head = _likeliest(others, investigation.measure, investigation.problem.unit)
+    if head is not None and not judgement.claims and not judgement.refused:
+        others.sort(key=lambda item: item[0] is not head)
+    return [*order, *others][:SHOWN]
+
+
+def _likeliest(others: Sequence[tuple[Scored, Judged | None]], measure: Measure, unit: str) -> Scored | None:
+    """Of what would give most, and of the sound members; what refines the model is no cause."""
+    causes = [(s, m) for s, m in others if not s.candidate.within and (m is None or m.refines is None)]
+    sound = [s for s, m in causes if m is not None and not failed_rules(s, measure, unit)]
+    return max([*(s for s, _ in causes[:1]), *sound], key=probability, default=None)
+
+
+def candidate(
+    rank: int,
+    s: Scored,
+    member: Judged | None,
+    heads: bool,
+    investigation: Investigation,
+    judgement: Judgement,
+    confirmation: Confirmation | None,
+    data: Dataset,
+) -> Candidate:
+    problem, measure = investigation.problem, investigation.measure
+    claimed = among(member, judgement.claims)
+    heads = heads or claimed or among(member, judgement.refused)
+    refining = among(member, judgement.refinements)
+    beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
+    held = confirmation if claimed else None
+    shape = held.on(held.asked) if held else None
+    told, of_model = _beside_the_model(s, investigation)
+    twins = [t.candidate for t in equivalents(s, beside)]
+    return Candidate(
+        rank=rank,
+        id=s.candidate.id,
+        effect=s.candidate.effect.name,
+        family=s.candidate.family,
+        drivers=list(s.candidate.channels),
+        gain_by=s.candidate.gain_by,
+        phases=list(s.candidate.phases),
+        claimed=claimed,
+        refinement=refining,
+        # measured for what heads the list, and for what was claimed; nothing is known of the share of the others
+        probability=probability(s) if heads else None,
+        p_value=p_value(s.evidence, measure.chance),
+        rmse_um_before=_rmse(told.sse_before, told),
+        rmse_um_after=_rmse(told.sse_after, told),
+        fit_before=_fit(told.sse_before, told, measure.spread),
+        fit_after=_fit(told.sse_after, told, measure.spread),
+        locked_rmse_um_before=held.before if held else None,
+        locked_rmse_um_after=held.after if held else None,
+        locked_shape_um_before=shape.before if shape else None,
+        locked_shape_um_after=shape.after if shape else None,
+        locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
+        parameters=held.parameters.get(s.candidate.id, {}) if held else {},
+        beside=[] if of_model else judged_beside(s, member, investigation, judgement),
+        equivalent=[t.id for t in twins],
+        unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
+        also_on=dict(s.also_on),
+        why=why(s, member, investigation, judgement, held, told if of_model else None),
+        evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
+        rungs=ladder.rungs(s, measure, problem.unit),
+        left_out=ladder.left_out(told, problem),
+        courses=ladder.courses(s, problem) if heads or refining else [],
+    )
+
+
+def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[str]:
+    """Places of other parts that it may be; not those that a temperature reads which the answer names beside it."""
+    others = {n for one in named for n in one.channels if n not in s.candidate.channels}
+    beside = {n: channel for n, channel in data.channels.items() if n in others}
+    return [place for place in elsewhere(s) if not reads(beside, place)]
+
+
+def _beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
+    """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
+    whether it is the former."""
+    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
+    alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), None)
+    if alone is None:
+        return s, False
+    if not len(s.rows):
+        return alone, True
+    # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
+    # are pulled further towards what is missing, and foretell other tests worse than the model does
+    judged = investigation.judgement.judged
+    if len(judged) == 1 and judged[0].scored.columns is s.columns:
+        s = replace(s, sse_before=alone.sse_before)
+    return (alone, True) if fall(alone) >= fall(s) else (s, False)
+
+
+def explainable(shown: Sequence[Scored], investigation: Investigation) -> float | None:
+    """What one candidate alone takes off the squared error, as a share: the most of those listed, and of all others
+    beside the model. Beside others a candidate takes away what they leave; of one alone that says nothing."""
+    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
+    told = [_beside_the_model(s, investigation)[0] for s in shown]
+    alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
+    return max((float(np.clip(fall(s), 0.0, 1.0)) for s in alone), default=None)
+
+
+def _rmse(sse: np.ndarray, s: Scored) -> float | None:
+    return float(np.sqrt(np.mean(sse / s.rows))) if len(s.rows) else None
+
+
+def fall(s: Scored) -> float:
+    """Of the squared error on left-out tests, each test alike, as a share."""
+    before = float(np.mean(s.sse_before / s.rows))
+    return 1 - float(np.mean(s.sse_after / s.rows)) / before if before > 0 else 0.0
+
+
+def _fit(sse: np.ndarray, s: Scored, spread: float) -> float | None:
+    error = _rmse(sse, s)
+    return None if error is None or spread <= 0 else (1 - error / spread) * 100

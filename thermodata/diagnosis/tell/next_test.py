@@ -1,0 +1,192 @@
+"""Which test to run, or which sensor to add, so that the next diagnosis can say more."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.unread import reads
+from thermodata.diagnosis.claims.probability import elsewhere
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.counted import counted
+from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.places import heat_at, is_around
+from thermodata.view.dataset import ChannelInfo
+
+# machines whose one missing cause was named rightly, by number of open tests (sealed seeds; docs/benchmark.md)
+CLAIMED_BY_TESTS = ((3, "14 of 24"), (8, "15 of 24"), (16, "16 of 24"))
+ENOUGH_TESTS = 8
+# of the squared error, on left-out tests: what a channel must give to be named before a sensor that is not there
+WORTH_A_TEST = 0.3
+
+_PROTOCOL = {
+    "rotational_speed": "short pulses of speed (5 min on, 10 min off) at two speeds",
+    "feed": "one axis moving alone at two feeds, with heating and cooling",
+    "power": "cutting at two loads, and the same path as an air cut",
+    "state": "switching it on and off while all else rests",
+    "temperature": "a test in which the one is heated and the other is not",
+    "flow": "switching it on and off while all else rests",
+}
+
+_MOVED = {
+    "rotational_speed": "speeds in steps up to the highest, each for an hour, then at rest",
+    "feed": "this axis alone for hours, then at rest",
+    "temperature": "heated through by its own source while the others rest, then cooling",
+    "temperature_difference": "one side heated through by its own source while the others rest, then cooling",
+    "state": "on for hours while all else rests, then off",
+    "flow": "on for hours while all else rests, then off",
+}
+# parts that warm together: a motor's heat is of its load, that of all else of the motion
+_BY_LOAD = (
+    "a motor warms by its load, all else by its motion, so run one test at high load and little motion (starts and "
+    "stops, or held against a load), one at a steady high speed, and let each cool to the end"
+)
+_BY_PART = (
+    "they warmed together, so warm one by itself (a heating foil, the machine at rest), or let all cool to the end "
+    "twice, after half an hour of motion and after hours of it"
+)
+_LOADED = "at a high load for hours, then at rest"
+_BY_DAY = "through a day and a night, the machine at rest"
+
+
+def to_separate(chosen: Scored, twins: Sequence[Scored], channels: Mapping[str, ChannelInfo]) -> str | None:
+    """The advice where several candidates explain the same."""
+    mine = chosen.candidate
+    # the same effect by another driver is no other answer, nor are its channels by another name
+    same = [mine, *(t.candidate for t in twins if t.candidate.effect.name == mine.effect.name)]
+    own_channels = [set(one.channels) for one in same]
+    others = [
+        t.candidate
+        for t in twins
+        if t.candidate.effect.name != mine.effect.name and set(t.candidate.channels) not in own_channels
+    ]
+    if not others:
+        return None
+    other = others[0]
+    if other.protocol is not None:
+        return f"to tell {mine.id} from {other.id}: {other.protocol}"
+    if _places(mine, channels) and _places(mine, channels) == _places(other, channels):
+        return (
+            f"{mine.id} and {other.id} have their sensors at the same place: not separable by another test; add a "
+            f"sensor nearer to the source of heat"
+        )
+    own = [c for c in mine.channels if c not in other.channels] or list(mine.channels)
+    quantity = channels[own[0]].quantity if own and own[0] in channels else "temperature"
+    how = _PROTOCOL.get(quantity, _PROTOCOL["temperature"])
+    return f"to tell {mine.id} from {other.id}: {how}"
+
+
+def to_tell_parts(
+    chosen: CandidateEffect, twins: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]
+) -> str | None:
+    """The advice where one effect, or its channels by another name, is said alike by temperatures of several parts;
+    None where all are of one place. What a motion drives is of all parts that move, what reads two temperatures is of
+    their difference, and the air is one cause at all of its places."""
+    parts: dict[str, str] = {}
+    for one in (chosen, *twins):
+        read = [(c, channels[c]) for c in one.channels if c in channels and channels[c].quantity == "temperature"]
+        for name, info in read if len(read) == 1 else []:
+            if info.at is not None and not is_around(info.at):
+                parts.setdefault(info.at, name)
+    if len(parts) < 2:
+        return None
+    named = [f"{name} ({at})" for at, name in parts.items()]
+    of_motor = [at.rpartition(".")[2] in ("motor", "drive") for at in parts]
+    how = _BY_LOAD if any(of_motor) and not all(of_motor) else _BY_PART
+    return f"{chosen.id} may be heat of {', '.join(named[:-1])} or {named[-1]}; to tell them: {how}"
+
+
+def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
+    """The sensor that tells its heat from that of another part; None where each of them has one."""
+    sound = {name: channel for name, channel in channels.items() if channel.faulty is None}
+    bare = [place for place in elsewhere(one) if not reads(sound, place)]
+    if not bare:
+        return None
+    return f"to tell {one.candidate.id} from {heat_at(bare, ' and ')}: log a temperature there"
+
+
+def to_decide(refused: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where the open tests point to causes and the locked ones do not bear them out. refused: at least one,
+    the largest first."""
+    names = " with ".join(one.id for one in refused)
+    them = "it" if len(refused) == 1 else "them"
+    return f"the open tests point to {names}, the locked ones do not bear {them} out: {_with_lock(refused, channels)}"
+
+
+def to_bear_out(claims: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where what is claimed acts in none of the locked tests."""
+    names = " with ".join(one.id for one in claims)
+    them, act = ("it", "acts") if len(claims) == 1 else ("them", "act")
+    return f"{names} hardly {act} in the locked tests; to bear {them} out, {_with_lock(claims, channels)}"
+
+
+def to_exclude(hidden: CandidateEffect, like: str, channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where nothing is missing, but something large could hide. like: the effect of the model behind which
+    it would."""
+    moved = _moved(hidden, channels)
+    return f"to exclude {hidden.id}, which {like} would hide: a test {moved}, while what drives {like} rests"
+
+
+def _with_lock(some: Sequence[CandidateEffect], channels: Mapping[str, ChannelInfo]) -> str:
+    them, they_are = ("it", "it is") if len(some) == 1 else ("them", "they are")
+    moved = "; and one ".join(dict.fromkeys(_moved(one, channels) for one in some))
+    return (
+        f"run a test with the role locked, from a cold start, {moved}. If the error there falls with {them} (diagnose "
+        f"again; thermodata confirm tells each test), {they_are} what is missing; if it does not, something else is"
+    )
+
+
+def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
+    if one.protocol is not None:
+        return f"for {one.id}: {one.protocol}"
+    first = next((channels[c] for c in one.channels if c in channels), None)
+    if first is not None and is_around(first.at):
+        how = _BY_DAY
+    else:
+        how = _MOVED.get(first.quantity if first is not None else "temperature", _LOADED)
+    verb = "moves" if len(one.channels) == 1 else "move"
+    return f"in which {' and '.join(one.channels)} {verb} much ({how})"
+
+
+def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelInfo]) -> str:
+    """The advice where what ranks first acts in one test only. test: its name."""
+    verb = "acts" if len(first.channels) == 1 else "act"
+    return (
+        f"{first.id} ranks first, and {' and '.join(first.channels)} {verb} in {test} only, so no other test foretells "
+        f"it: run another one {_moved(first, channels)}, and diagnose again"
+    )
+
+
+def to_find(
+    tests: int, spots: Sequence[WeakSpot], channels: Mapping[str, ChannelInfo], first: Scored | None = None
+) -> str:
+    """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
+    first: the candidate that ranks first, whose channels are logged and are no advice to log."""
+    if tests < ENOUGH_TESTS:
+        shares = ", ".join(f"{share} with {n} tests" for n, share in CLAIMED_BY_TESTS)
+        return (
+            f"{counted(tests, 'test')} took part; more of the same kind help little (on simulated machines a "
+            "missing cause was "
+            f"named on {shares}): add tests that each heat one source alone (spindle, one axis, table, hall air)"
+        )
+    worst = spots[0].state if spots else "no state in particular"
+    logged = ""
+    log = to_log(first, channels) if first is not None and first.drop >= WORTH_A_TEST else None
+    if log is not None:
+        return f"{counted(tests, 'test')} took part, so more of the same will not tell; {log}"
+    if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
+        logged = f"do {first.candidate.protocol}; if nothing differs, "
+    elif first is not None and first.drop >= WORTH_A_TEST:
+        names = ", ".join(first.candidate.channels)
+        closed = first.looked is None
+        opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
+        logged = f"{names} is logged and ranks first, so run a test that moves it alone{opened}; if it is not that, "
+    return (
+        f"{counted(tests, 'test')} took part, so more of the same will not tell: {logged}log what is not logged "
+        "yet near the "
+        f"parts that work where the model fails most ({worst})"
+    )
+
+
+def _places(candidate: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> set[str | None]:
+    return {channels[c].at for c in candidate.channels if c in channels} - {None}

@@ -1,0 +1,136 @@
+"""What an answer says of one candidate: its figures, and why it is claimed or not, in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import sharpness
+from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
+from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.verdict.investigate import Investigation
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
+from thermodata.diagnosis.weigh.null import in_words as chance_in_words
+from thermodata.diagnosis.weigh.scored import Scored
+
+# what a claim may break where it is evident, by the name of the rule
+_OUTWEIGHED = {
+    "fall": "that the error hardly falls",
+    "gain": "that its gain differs",
+    "others": "that no other test foretells it",
+    "worth": "that it explains so little",
+}
+_OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
+
+
+def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:
+    """Ids of what is in the model too where a candidate is judged, as the answer names them."""
+    if member is None:
+        return list(s.others)
+    others = [j.scored.candidate.id for j in judgement.judged if j.alone is not member.alone]
+    context = () if investigation.selection is None else investigation.selection.context
+    return [*others, *(c.candidate.id for c in context)]
+
+
+def why(
+    s: Scored,
+    member: Judged | None,
+    investigation: Investigation,
+    judgement: Judgement,
+    held: Confirmation | None,
+    alone: Scored | None = None,
+) -> str:
+    """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
+    alone: the same beside the model alone, where the answer's errors are those, and not of what it is judged by."""
+    unit, count = investigation.problem.unit, int(s.acts.sum())
+    others = judged_beside(s, member, investigation, judgement)
+    beside = f", beside {' and '.join(others)}," if others else ""
+    improves = round(s.better * count)
+    tests = investigation.measure.tests
+    way = "falls" if s.error_after < s.error_before else "does not fall"
+    numbers = (
+        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error {way} "
+        # unlike the errors on left-out tests, for which the known effects are left out as well
+        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests} and the known effects "
+        f"fitted to all, and it makes {improves} of {count} more probable; "
+        f"its gain differs between {tests} by {s.spread:.0%}"
+    )
+    if alone is not None and others:
+        left = " -> ".join(f"{np.sqrt(np.mean(sse / alone.rows)):.2f}" for sse in (alone.sse_before, alone.sse_after))
+        numbers = f"alone it takes the error on left-out {tests} {left} {unit}; it is judged beside others: {numbers}"
+    if among(member, judgement.claims):
+        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
+        elsewhere = f"; {also_missing(s)}" if s.also_on else ""
+        of_chance = chance_in_words(s.evidence, investigation.measure.chance)
+        broken = failed_rules(s, investigation.measure, unit)
+        broken += [member.refines] if member is not None and member.refines else []
+        outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
+        gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
+        spite = in_spite_of(s, investigation.measure, unit)
+        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}"
+    if among(member, judgement.refused):
+        return f"{numbers}; not claimed: {_refused(s, judgement)}"
+    if member is not None and member.refines:
+        return f"{numbers}; a refinement, not claimed as missing: {member.refines}"
+    failed = failed_rules(s, investigation.measure, unit)
+    failed += [why for why in [blunt(s)] if why]
+    if failed:
+        asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
+        return f"{numbers}; not claimed: {failed[0]}" + (f"; {on_locked(s.looked)}" if asked and s.looked else "")
+    if judgement.claims:
+        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+    if judgement.refused:
+        first = judgement.refused[0].scored.candidate.id
+        return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
+    return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
+    """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
+    lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
+    said = " and ".join(_OUTWEIGHED[name] for name in lifted if name in _OUTWEIGHED)
+    evident = f"its evidence, {sharpness(s):.2f} a sample, outweighs"
+    return f"; {evident} {said}: the effects of the model take part of what it does for their own" if said else ""
+
+
+def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> str:
+    """The errors as scored; where they do not fall, beside them those that the claim holds by."""
+    if held.before is None or held.after is None:
+        return ""
+    what = " with all that is claimed" if together else ""
+    what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
+    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
+    shape = held.on(held.asked)
+    if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
+        acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
+        figures += (
+            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
+            "offset a test"
+        )
+    return figures + (_in_one_way(s.looked) if s.looked is not None else "")
+
+
+def _in_one_way(looked: Looked) -> str:
+    """How much of it the locked tests bear out, where that is not all."""
+    added = looked.added
+    if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
+        if looked.foretold.falls:
+            return f": added as it stands the error {in_words(added)}, and they bear it out only where {_OTHERWISE}"
+        return f", which bear it out as it stands, and not where {_OTHERWISE}"
+    return "" if looked.bears_out else f"; {on_locked(looked)}, which is less than a cause mostly takes away"
+
+
+def _refused(s: Scored, judgement: Judgement) -> str:
+    """Why what keeps every rule on the open tests is no claim."""
+    if not judgement.claims:
+        return judgement.reason
+    claims = " with ".join(c.scored.candidate.id for c in judgement.claims)
+    said = f": {on_locked(s.looked)}" if s.looked is not None and s.looked.saying else ""
+    return f"it explains the open tests, but beside {claims} the locked ones do not bear it out{said}"
+
+
+def among(member: Judged | None, some: Sequence[Judged]) -> bool:
+    return any(member is one for one in some)

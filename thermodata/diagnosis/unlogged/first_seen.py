@@ -1,0 +1,133 @@
+"""In words: what kind of body misses, when it is heated, and where a sensor would see it first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.unlogged.goes_with import Companion
+from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
+from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.view.dataset import TestData
+
+SURE = 0.8  # of the draws of tests must agree
+NAMED = 4
+# [s]: what a lag of such a length is on a machine tool (docs/model.md, "Bounds of the effects")
+SMALL_S, LARGE_S = 900.0, 5400.0
+
+
+def where(
+    heat: MissingHeat,
+    found: Sequence[Companion],
+    strong: Sequence[TestData],
+    weak: Sequence[TestData],
+    suspect: Suspect | None = None,
+) -> str:
+    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged."""
+    said = [_capital(_body(heat)), _when(found, strong, weak)]
+    if suspect is not None:
+        # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
+        found = [c for c in found if c.info.name not in suspect.channels]
+        said.append(suspect.told)
+    return ". ".join([*said, *_place(found, strong, suspect), *_direction(heat)])
+
+
+def minutes(seconds: float) -> str:
+    """'40 min', '2.7 h'."""
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def _body(heat: MissingHeat) -> str:
+    low, high = heat.tau_range_s
+    size = "small and thin" if high < SMALL_S else "large and thick" if low > LARGE_S else ""
+    if not size:
+        size = (
+            "of the size of a screw, a motor or a housing"
+            if low >= SMALL_S / 2 and high <= 2 * LARGE_S
+            else "of a size that these tests leave open"
+        )
+    least, most = TAUS_S[0], TAUS_S[-1]
+    if low <= least and high >= most:
+        span = "which these tests do not settle"
+    elif low <= least:
+        span = f"at most {minutes(high)}"
+    elif high >= most:
+        span = f"at least {minutes(low)}"
+    else:
+        span = f"{minutes(low)} to {minutes(high)}" if high > low else "in every draw of the tests"
+    text = f"a body with a time constant of {minutes(heat.tau_s)} ({span}), {size}"
+    if not heat.sign:
+        return (
+            f"{text}; it warms and cools from where it starts, as a body does that follows a temperature, or as the "
+            "probes do where they drift"
+        )
+    return f"{text}, that moves the response to {'plus' if heat.sign > 0 else 'minus'} when it is heated"
+
+
+def _when(found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence[TestData]) -> str:
+    close = [c for c in found if c.verdict == "with" and c.on_with is not None]
+    parts = []
+    if close:
+        parts.append("on while " + ", ".join(map(_runs, close[:NAMED])))
+    parts.append("strongest in " + ", ".join(_test(t) for t in strong[:NAMED]))
+    if weak:
+        parts.append("absent in " + ", ".join(_test(t) for t in weak[:NAMED]))
+    return _capital("; ".join(parts))
+
+
+def _runs(one: Companion) -> str:
+    then, other = (one.on_without, one.on_with) if one.is_inverse else (one.on_with, one.on_without)
+    return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
+
+
+def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None) -> list[str]:
+    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is."""
+    near = _places([c for c in found if c.verdict == "with"])
+    # the least alike first
+    far = [p for p in _places([c for c in reversed(found) if c.verdict == "not"]) if p not in near]
+    followed = [c.info.name for c in found if c.verdict == "with" and c.follows is not None]
+    said = []
+    if near:
+        sensor = "If it is not, a" if suspect else "A"
+        said.append(
+            f"{sensor} sensor would see it first near {_or(near)}" + (f" rather than near {_or(far)}" if far else "")
+        )
+    elif suspect is None:
+        said.append(
+            "No logged channel goes with it, so the data can't say where it is"
+            # heat on its way through a machine looks unlike what is logged where it came from
+            + (f"; least like it is what is logged near {_or(far)}" if far else "")
+            + f"; note what runs in {strong[0].test} and is not logged"
+        )
+    elif far:
+        said.append(f"What is logged near {_or(far)} does not go with it")
+    if followed:
+        said.append(
+            f"{', '.join(followed[:NAMED])} {'is' if len(followed) == 1 else 'are'} logged and already "
+            f"{'goes' if len(followed) == 1 else 'go'} with it: try {'it' if len(followed) == 1 else 'them'} as a "
+            "driver before a new sensor"
+        )
+    return said
+
+
+def _direction(heat: MissingHeat) -> list[str]:
+    if not heat.sign or heat.agreed >= SURE:
+        return []
+    return [f"Only {heat.agreed:.0%} of the draws of the tests agree on the direction: more tests are needed"]
+
+
+def _test(test: TestData) -> str:
+    return f"{test.test} ({test.kind.replace('_', ' ')})" if test.kind not in ("", "other") else test.test
+
+
+def _places(found: Sequence[Companion]) -> list[str]:
+    """Each place once, in the order of the channels; a channel without a place stands for itself."""
+    return list(dict.fromkeys(c.info.at or c.info.name for c in found))
+
+
+def _or(names: Sequence[str]) -> str:
+    shown = list(names[:NAMED])
+    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} or {shown[-1]}"
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

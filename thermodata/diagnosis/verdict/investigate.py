@@ -1,0 +1,290 @@
+"""One fitted response, investigated: the problem, what is selected, the steps, the weak spots, the judgement."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.claims.detection import Limit, limits
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.other_axes import OtherAxes
+from thermodata.diagnosis.claims.probability import at_best, limit_of, may_be_borne_out
+from thermodata.diagnosis.claims.refinement import Refinement
+from thermodata.diagnosis.claims.rules import failed_rules
+from thermodata.diagnosis.clocks.by_commands import timings
+from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed
+from thermodata.diagnosis.question.known import Known, known, rms
+from thermodata.diagnosis.question.known_effects import owners, remembered
+from thermodata.diagnosis.question.present import present
+from thermodata.diagnosis.question.problem import TARGET_ROWS, Base, Problem
+from thermodata.diagnosis.question.weak import weak_spots
+from thermodata.diagnosis.sensors.logging_faults import (
+    clock_offsets,
+    faulty_sensors,
+    first_of_each,
+    wrong_gains,
+    wrong_parameters,
+)
+from thermodata.diagnosis.steps import repeating
+from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
+from thermodata.diagnosis.verdict.on_locked import Lock
+from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
+from thermodata.diagnosis.weigh.beside import beside
+from thermodata.diagnosis.weigh.by_phase import heating_and_cooling_apart
+from thermodata.diagnosis.weigh.evidence import Columns, columns
+from thermodata.diagnosis.weigh.foretold import Foretold
+from thermodata.diagnosis.weigh.gain_by import gains_by_condition
+from thermodata.diagnosis.weigh.null import best_of_chance
+from thermodata.diagnosis.weigh.ranking import rank_in
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.plugin import Effect, Int1D
+from thermodata.schema.diagnosis import Artefact, WeakSpot
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+
+# what other axes say of a candidate: (channel, probability there)
+Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
+# what one claim foretells of the locked tests beside the others that are claimed or likely; None where there are none
+BorneOut = Callable[[Judged, Sequence[Judged]], Foretold | None]
+Conclude = Callable[[tuple[Judged, ...]], Judgement]
+
+
+@dataclass(frozen=True, slots=True)
+class Investigation:
+    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
+    conclude: judges members anew. limits: how large what is not named would have to be. looked_for: the ids of what the
+    locked tests were opened for on the way, whatever became of it."""
+
+    problem: Problem
+    selection: Selection | None
+    artefacts: list[Artefact]
+    spots: list[WeakSpot]
+    judgement: Judgement
+    measure: Measure
+    borne_out: BorneOut
+    conclude: Conclude
+    limits: tuple[Limit, ...] = ()
+    looked_for: tuple[str, ...] = ()
+
+
+def investigate(
+    fitted: FittedResponse,
+    data: Dataset,
+    tests: Sequence[TestData],
+    library: Mapping[str, Effect],
+    seed: int = 0,
+    *,
+    as_fitted: FittedResponse | None = None,
+    locked: Sequence[TestData] = (),
+    others: OtherAxes | None = None,
+    known_faults: Sequence[Artefact] = (),
+    refused: frozenset[str] = frozenset(),
+) -> Investigation:
+    """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
+    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
+    that were mended before, or left out. refused: channels; what reads these alone is not asked."""
+    info = data.channels[fitted.name]
+    base = remembered(fitted)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
+    found = find_steps(fine)
+    steps = repeating.single(found)
+    faults = _faults(fitted, data, fine, base)
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
+    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    weighed = {b.test.key for b in problem.blocks}
+    among = [t for t in tests if t.key in weighed]
+    by_condition = gains_by_condition(fitted, among, data.tests)
+    asked += [c for c in by_condition if c.unforetold is None]
+    asked += heating_and_cooling_apart(fitted, among, data.tests)
+    asked = [c for c in asked if not (refused and refused.issuperset(c.channels))]
+
+    def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
+        return causes_of(response, data, among, library, seed)
+
+    witness = None if others is None else partial(others.say, causes=causes)
+
+    @cache
+    def with_locked() -> Problem:
+        blocks = compressed(fitted, data, [*tests, *locked], WEIGHED_ROWS, base).blocks if locked else ()
+        closed = tuple(b for b in blocks if b.test.key in {t.key for t in locked})
+        return replace(problem, blocks=(*problem.blocks, *closed), kept={})
+
+    lock = Lock(with_locked, len(problem.blocks))
+    # thousands of small products: threads of the linear algebra library would wait for each other
+    with threadpool_limits(1):
+        selection, judgement, measure = _judged(fitted, problem, asked, seed, witness, lock)
+        unseen = () if selection is None else _limits(fitted, problem, selection, measure)
+        selection = _with_unforetold(problem, selection, [c for c in by_condition if c.unforetold])
+    asked_about = fitted if as_fitted is None else as_fitted
+    spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
+    at_floor = selection is not None and selection.left <= measure.floor
+    faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
+    if selection is not None:
+        faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
+    artefacts = [
+        *first_of_each(
+            [
+                *known_faults,
+                *as_artefacts(steps, info.unit),
+                *repeating.as_artefacts(repeating.repeating(found), info.unit),
+                *faults,
+            ]
+        ),
+        *faulty_sensors(data, fitted.name),
+    ]
+
+    def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
+        return None if selection is None else lock.foretold(selection, judgement, claim, others)
+
+    def conclude(judged: tuple[Judged, ...]) -> Judgement:
+        return judgement if selection is None else concluded(problem, selection, measure, judged)
+
+    looked_for = tuple(lock.asked)
+    return Investigation(
+        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, looked_for
+    )
+
+
+def causes_of(
+    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], seed: int = 0
+) -> list[Scored]:
+    """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
+    base = remembered(fitted)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
+    steps = repeating.single(find_steps(fine))
+    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
+    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    _, judgement, _ = _judged(fitted, problem, asked, seed)
+    return [j.scored for j in judgement.judged if j.refines is None]
+
+
+def _without_steps(problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
+    """With a free offset after each step, and without the samples around it, for one of them is a mean of both levels.
+    seen_s: between the samples in which steps were looked for."""
+    at: dict[tuple[str, str], list[float]] = {}
+    for step in steps:
+        at.setdefault(step.test.key, []).append(step.at_s)
+    return problem.split(at, parted_s=problem.step_s / 2 + 0.99 * seen_s)
+
+
+def _judged(
+    fitted: FittedResponse,
+    problem: Problem,
+    asked: Sequence[CandidateEffect],
+    seed: int,
+    witness: Witness | None = None,
+    lock: Lock | None = None,
+) -> tuple[Selection | None, Judgement, Measure]:
+    spread = rms(problem.response_blocks) if problem.blocks else 0.0
+    first = first_ranking(problem, asked)
+    if first is None:
+        measure = Measure(spread, problem.noise, np.zeros(0), problem.in_parts)
+        return None, judge(problem, None, measure, lambda scored: None), measure
+    chance = best_of_chance(first.known, [s.columns for s in first.ranked], seed)
+    measure = Measure(spread, problem.noise, chance, problem.in_parts)
+
+    def judged(among: Sequence[Columns]) -> tuple[Selection, Judgement, bool]:
+        good = measure.good(refined=False)
+        found = select(
+            problem, first, lambda scored: not failed_rules(scored, measure, problem.unit), among=among, good=good
+        )
+        refines = Refinement(fitted, problem, found.noise)
+        told = judge(problem, found, measure, refines)
+        if witness is None:
+            return found, told, bool(told.claims)
+        standing = [j for j in told.judged if j.refines is None and may_be_borne_out(j.scored)]
+        # the locked tests are looked at in the end anyway, and each other axis is a diagnosis of its own
+        open_still = [j for j in standing if lock is None or not lock.confirms(found, told, j, measure)]
+        if heard := _heard(open_still, witness):
+            found = replace(found, members=tuple(_seen(m, heard) for m in found.members))
+            told = judge(problem, found, measure, refines)
+        return found, told, bool(told.claims) or len(open_still) < len(standing)
+
+    def may_be(scored: Scored) -> bool:
+        return at_best(scored, problem.rows) >= limit_of(scored)
+
+    everything = [s.columns for s in first.ranked]
+    # what is passive can hardly be claimed, and drives out what it follows: so it is asked where nothing else is, and
+    # only where it might be
+    active, passive = ([c for c in everything if c.candidate.passive is so] for so in (False, True))
+    selection, judgement, named = judged(active)
+    if not named and any_stands_out(problem, first, selection, passive, may_be):
+        selection, judgement, _ = judged(everything)
+    return selection, judgement, measure
+
+
+def _heard(standing: Sequence[Judged], witness: Witness) -> dict[int, tuple[tuple[str, float], ...]]:
+    """What other axes say of members that are no claim without them, by their columns' identity."""
+    said = {id(j.scored.columns): witness(j.scored) for j in standing}
+    return {columns: told for columns, told in said.items() if told}
+
+
+def _seen(member: Member, heard: Mapping[int, tuple[tuple[str, float], ...]]) -> Member:
+    said = heard.get(id(member.scored.columns))
+    return member if said is None else replace(member, scored=replace(member.scored, also_on=said))
+
+
+def _limits(fitted: FittedResponse, problem: Problem, selection: Selection, measure: Measure) -> tuple[Limit, ...]:
+    """Beside what was selected, in the noise that is left."""
+    full = known(beside(problem, selection.together), selection.noise)
+    pool = [s.columns for s in selection.first.ranked]
+    return tuple(limits(full, pool, measure.spread, _owners(fitted, full)))
+
+
+def _owners(fitted: FittedResponse, full: Known) -> Int1D:
+    """Of each known column the number of its effect in the model; -1 for what was selected."""
+    block = full.problem.blocks[0]
+    found = [
+        [*numbers, *[-1] * (columns.shape[1] - len(numbers))]
+        for numbers, columns in zip(owners(fitted), (block.base, block.slack), strict=True)
+    ]
+    return np.array(found[0] + found[1], dtype=np.int64)
+
+
+def _with_unforetold(
+    problem: Problem, selection: Selection | None, asked: Sequence[CandidateEffect]
+) -> Selection | None:
+    """What no test foretells takes no part in the choice, and is told beside what did."""
+    if selection is None or not asked:
+        return selection
+    pool = [c for c in (columns(problem, one) for one in asked) if c is not None]
+    more = rank_in(problem, pool, selection.first.known.space.noise)
+    return replace(selection, first=replace(selection.first, ranked=(*selection.first.ranked, *more.ranked)))
+
+
+def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
+    """RMS residual over what counts, a free offset for each test."""
+    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
+    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))
+
+
+def gains_are_wrong_only_where_nothing_is_missing(
+    faults: list[Artefact], judgement: Judgement, at_floor: bool
+) -> list[Artefact]:
+    """A missing effect also makes one test larger or smaller than the others say, and so does what lags leave.
+    at_floor: whether the model leaves no more than is left alone."""
+    return faults if judgement.verdict == "none" and at_floor else [f for f in faults if f.kind != "gain"]
+
+
+def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], response: str) -> dict[str, str]:
+    """Driver -> source, of the drivers that were logged by another source than the response."""
+    home = channels[response].source
+    return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
+
+
+def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:
+    """Clocks, where nothing acts at once, and gains of probes, where there is a model to hold them against."""
+    if not problem.blocks or not problem.blocks[0].base.shape[1]:
+        return []
+    drivers = {n for one in present(fitted) for n in one.channels}
+    told = timings(problem, data.channels).told
+    sources = {n: s for n, s in clocks_beside(data.channels, drivers, fitted.name).items() if s not in told}
+    warm = {n for n in sources if data.channels[n].quantity == "temperature"}
+    return [*clock_offsets(problem, base, sources, warm), *wrong_gains(problem)]

@@ -1,0 +1,210 @@
+"""From evidence to a verdict: what may be claimed, what only refines what is known, and why the others may not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from thermodata.diagnosis.claims.measure import FLOOR_SHARE, Measure
+from thermodata.diagnosis.claims.probability import may_be_confirmed, probability, sharpness
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, blunt, contradicts, failed_rules, halves, is_plain, rules
+from thermodata.diagnosis.question.present import CONTROL, GENERIC
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.verdict.selection import Selection
+from thermodata.diagnosis.weigh.scored import Scored
+
+# rules of size and likeness, that few open tests break for a cause now and then; locked tests may outweigh one of them
+OUTWEIGHED = ("fall", "gain", "others", "worth")
+Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
+
+MOST_CLAIMS = 3
+ALIKE = 0.9  # cosine of contributions that can't be told apart,
+APART = 2.0  # unless the tests surely speak for one, and the other leaves this many times its error;
+# nor can those that act alike at all and leave nearly the same error, where the tests that one wins are not more than
+# chance would give it: the difference of their log probabilities against its standard error [vehtari2017]
+ALIKE_AT_ALL = 0.5
+NEARLY = 1.2
+SURE = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
+    the model, in words; None for a cause of its own. beside: all candidates, ranked without it. twin: whether `scored`
+    is of one that it can't be told from."""
+
+    scored: Scored
+    alone: Scored
+    refines: str | None
+    beside: tuple[Scored, ...]
+    twin: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """claims: missing causes, in the order of their choice, what the locked tests made one last. refinements: of
+    effects that the model has. judged: all members. likely: what would be claimed if the locked tests spoke for it, the
+    likeliest first. refused: what would be claimed, but for the locked tests (`opened`)."""
+
+    verdict: Verdict
+    claims: tuple[Judged, ...]
+    refinements: tuple[Judged, ...]
+    judged: tuple[Judged, ...]
+    reason: str
+    refused: tuple[Judged, ...] = ()
+    likely: tuple[Judged, ...] = ()
+
+
+def judge(
+    problem: Problem, selection: Selection | None, measure: Measure, refines: Callable[[Scored], str | None]
+) -> Judgement:
+    """refines: says what of the model a candidate refines, None where it is a cause of its own."""
+    if len(problem.blocks) < 2:
+        return _nothing(
+            "not_testable",
+            f"{len(problem.blocks)} test with measured samples; an effect is claimed only where it also "
+            "predicts a test that it was not fitted to, so at least two are needed",
+        )
+    if selection is None:
+        return _nothing("not_testable", "no effect of the library fits the channels that were logged")
+    judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
+    found = concluded(problem, selection, measure, judged)
+    if found.verdict not in ("unknown", "none") or found.likely:
+        return found
+    return replace(found, likely=_nearly(selection, measure, problem.unit, refines))
+
+
+def concluded(problem: Problem, selection: Selection, measure: Measure, judged: tuple[Judged, ...]) -> Judgement:
+    """The same of members that are judged already."""
+    own = [j for j in judged if j.refines is None]
+    maybe = [j for j in judged if _may_be_its_own(j)]
+    sure = [j for j in own if blunt(j.scored) is None and not (j.scored.looked and j.scored.looked.refuted)]
+    claims = causes(sure)[:MOST_CLAIMS]
+    kept = tuple(j for j in judged if j.refines is not None)
+    if claims:
+        return Judgement("effect", claims, kept, judged, "", likely=_likely([*own, *maybe], claims))
+    left = selection.left
+    halved = left > measure.noises and any(halves(j.alone, left) for j in judged)
+    # what a known effect takes for its own leaves no error, and is plain all the same
+    plain = left > measure.noises and any(is_plain(s) for s in selection.dropped)
+    if left <= measure.floor and not halved and not plain:
+        why = (
+            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
+            f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
+        )
+        return Judgement("none", (), (), judged, why, likely=_likely(own, ()))
+    more_than_noise = left if left > measure.noises else 0.0
+    if not plain and not any(contradicts(j.scored, j.alone, more_than_noise) for j in own):
+        rest, limit = min([left, *(j.alone.error_of_all for j in kept)]), measure.good(refined=bool(kept))
+        if rest <= limit:
+            enough = _enough(rest, limit, problem.unit, measure)
+            return Judgement("refine" if kept else "none", (), kept, judged, enough, likely=_likely(maybe, ()))
+    best = selection.first.ranked[0]
+    if own:
+        best = own[0].scored
+    failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
+    because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
+    why = (
+        f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
+        f"logged may be named for them{because}"
+    )
+    return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
+
+
+def _may_be_its_own(j: Judged) -> bool:
+    """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
+    another mode of the same effect, a change of it, or the temperature of a body whose heat the model has, is none."""
+    one = j.scored.candidate
+    another = one.kin != "same" and (one.kin != "heat" or one.of_motion)
+    return j.refines is not None and one.within is None and another and blunt(j.scored) is None
+
+
+def _likely(own: Sequence[Judged], claims: Sequence[Judged]) -> tuple[Judged, ...]:
+    """What the locked tests may make a claim beside the claims, as many as there may be."""
+    among = causes([j for j in own if may_be_confirmed(j.scored)])
+    others = [j for j in among if not any(j is c for c in claims)]
+    return tuple(sorted(others, key=lambda j: -probability(j.scored))[: MOST_CLAIMS - len(claims)])
+
+
+def _nearly(
+    selection: Selection, measure: Measure, unit: str, refines: Callable[[Scored], str | None]
+) -> tuple[Judged, ...]:
+    """The likeliest of what was dropped for one rule alone that other tests may outweigh."""
+    for one in sorted((s for s in selection.dropped if len(s.rows)), key=lambda s: -probability(s)):
+        broken = [rule.name for rule in rules(one, measure, unit) if not rule.holds]
+        # of two tests in which it acts the rule asks for both
+        few = ("tests",) if int(one.acts.sum()) <= LEAST_TESTS else ()
+        alone = len(broken) == 1 and broken[0] in (*OUTWEIGHED, *few) and one.candidate.unforetold is None
+        if alone and may_be_confirmed(one) and not one.candidate.within and refines(one) is None:
+            return (Judged(one, one, None, selection.first.ranked),)
+    return ()
+
+
+def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
+    """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
+    return (
+        f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags "
+        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged may be named "
+        "for it"
+    )
+
+
+def _against(left: float, floor: float) -> str:
+    if left <= floor:
+        return f"no more than the floor of {floor:.2g}, but much of them goes with what is logged"
+    return f"above the floor of {floor:.2g}"
+
+
+def _nothing(verdict: Verdict, reason: str) -> Judgement:
+    return Judgement(verdict, (), (), (), reason)
+
+
+def _beside_each_other(members: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Which causes a sharper one stands beside: what is dull may be what that one leaves."""
+    causes = [j.scored for j in members if j.refines is None and not j.scored.candidate.passive]
+    sharpest = max(map(sharpness, causes), default=0.0)
+
+    def told(j: Judged) -> Judged:
+        beaten = j.refines is None and sharpness(j.scored) < sharpest
+        return replace(j, scored=replace(j.scored, beaten=True)) if beaten else j
+
+    return tuple(told(j) for j in members)
+
+
+def causes(claims: Sequence[Judged]) -> tuple[Judged, ...]:
+    """Without what a sharper one of the same family says of the same channels: it is one cause, in two modes; nor the
+    same twice, where two members gave way to it."""
+
+    def again(j: Judged, other: Judged) -> bool:
+        mine, theirs = j.scored.candidate, other.scored.candidate
+        named = mine.family == theirs.family and mine.family not in (GENERIC, CONTROL)
+        shared = not set(mine.channels).isdisjoint(theirs.channels)
+        return named and shared and sharpness(j.scored) < sharpness(other.scored)
+
+    sharpest_first = sorted(claims, key=lambda j: -sharpness(j.scored))
+    once = {j.scored.candidate.id: j for j in reversed(sharpest_first)}
+    return tuple(j for j in claims if once[j.scored.candidate.id] is j and not any(again(j, o) for o in claims))
+
+
+def equivalents(chosen: Scored, ranked: Sequence[Scored]) -> list[Scored]:
+    """The candidates that the data can't tell from the chosen one."""
+    return [s for s in ranked if s.columns is not chosen.columns and len(s.shape) and _alike(chosen, s)]
+
+
+def _alike(a: Scored, b: Scored) -> bool:
+    """Whether they act alike, or tests would have to be drawn again to tell which predicts left-out ones better."""
+    cosine = abs(float(a.shape @ b.shape))
+    if cosine <= ALIKE_AT_ALL:
+        return False
+    difference = a.gained - b.gained
+    sure = abs(difference.sum()) > SURE * np.sqrt(len(difference)) * difference.std(ddof=1)
+    if cosine > ALIKE:
+        return bool(not sure or _error(b) <= APART * _error(a))
+    return bool(not sure and _error(b) <= NEARLY * _error(a))
+
+
+def _error(scored: Scored) -> float:
+    return float(np.sqrt(np.mean(scored.own_after / scored.rows)))

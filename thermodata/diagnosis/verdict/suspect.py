@@ -1,0 +1,48 @@
+"""What is likely the cause though it may not be claimed: the answer points to it, and to nothing against it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import limit_of, probability
+from thermodata.diagnosis.claims.rules import PLAUSIBLE, apart, failed_rules
+from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.weigh.scored import Scored
+
+
+@dataclass(frozen=True, slots=True)
+class Suspect:
+    """causes: one, or those that were to be claimed together. stopped: what alone stood against a claim, in words."""
+
+    causes: tuple[CandidateEffect, ...]
+    stopped: str
+
+    @property
+    def channels(self) -> frozenset[str]:
+        """Every driver of the causes."""
+        return frozenset(channel for one in self.causes for channel in one.channels)
+
+    @property
+    def told(self) -> str:
+        """A sentence without its full stop."""
+        return f"It may be {' with '.join(one.id for one in self.causes)}: {self.stopped}"
+
+
+def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: str) -> Suspect | None:
+    """What keeps the rules of a claim, and only the locked tests, the limit of its probability or the choice stopped;
+    None where nothing is so likely. head: the first of the list that refines nothing. unit: of the response."""
+    if judgement.refused:
+        causes = tuple(j.scored.candidate for j in judgement.refused)
+        return Suspect(causes, "the open tests say so, the locked ones do not bear it out")
+    if head is None or failed_rules(head, measure, unit) or probability(head) < PLAUSIBLE:
+        return None
+    sure, limit = probability(head), limit_of(head)
+    stopped = (
+        f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit "
+        f"{limit:.0%})"
+        if sure < limit
+        else "alone it keeps the rules of a claim, but not beside what else was chosen"
+    )
+    return Suspect((head.candidate,), stopped)

@@ -1,0 +1,86 @@
+"""Candidates that change an effect of the model instead of adding one: other gains, other functions."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.errors import SpecError
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
+
+# what else a gain may be, as a share of the one gain: by machine, wear or preload; soft (`evidence.BEYOND`)
+TIMES = (0.1, 3.0)
+
+
+@dataclass(frozen=True, slots=True)
+class EffectOfModel:
+    """A fitted effect as a candidate sees it: its name and drivers; what is asked of it, a subclass says."""
+
+    fitted: FittedTerm
+
+    @property
+    def name(self) -> str:
+        return self.fitted.effect.name
+
+    @property
+    def family(self) -> str:
+        return self.fitted.family
+
+    @property
+    def meaning(self) -> str:
+        return self.fitted.effect.meaning
+
+    @property
+    def source(self) -> str:
+        return self.fitted.effect.source
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        return self.fitted.effect.needs
+
+    @property
+    def params(self) -> tuple[Param, ...]:
+        return ()
+
+    @property
+    def gains(self) -> tuple[Gain, ...]:
+        return ()
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        """Raises SpecError: what it does depends on the test, see `CandidateEffect.in_test`."""
+        raise SpecError(f"{self.name} as a part of the model is asked by tests, not by drivers")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChangedEffect(CandidateEffect, ABC):
+    """An effect of the model, otherwise than it is: always a refinement, never a missing cause."""
+
+    term: FittedTerm
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """That drive the effect, and no expressions of them."""
+        return tuple(dict.fromkeys(n for text in self.binding.values() for n in names_of(text)))
+
+    @property
+    def within(self) -> str:
+        return self.term.id
+
+    @abstractmethod
+    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+        """How it acts otherwise, as found beside all that was chosen."""
+
+
+def is_free(term: FittedTerm) -> bool:
+    """Whether one gain is fitted to all tests. What was identified on tests of its own has no gain for the others, and
+    an ARX function has none."""
+    spec = term.bound.spec
+    free = any(g.name not in spec.fixed for g in term.effect.gains)
+    return spec.gain_by is None and not term.held and free and bool(term.effect.needs) and spec.method != "arx"

@@ -1,0 +1,206 @@
+"""The model's own effects with a gain for each value of a condition: another tool, machine, preload.
+
+One gain for three tools leaves an error that no channel explains, so that no effect of the library can name it. What
+is asked is the term's contribution as it is fitted, a column for each value of a condition of the tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
+from thermodata.diagnosis.question.discrepancy import Noise
+from thermodata.diagnosis.question.known import known
+from thermodata.diagnosis.question.known_effects import owners
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.weigh.beside import beside
+from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
+from thermodata.diagnosis.weigh.scored import ACTS, Scored
+from thermodata.errors import unknown_name
+from thermodata.modelling.model_file.said_conditions import refuse_unsaid
+from thermodata.modelling.terms.bound import OF_TESTS, group_of
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
+from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
+from thermodata.schema.model import Model
+from thermodata.view.dataset import TestData
+
+MOST_VALUES = 8  # of a condition: more are no groups of tests
+
+
+@dataclass(frozen=True, slots=True)
+class GainOfEach(EffectOfModel):
+    """A fitted effect as several: what it does in the tests of each value, in the response's unit."""
+
+    values: tuple[str, ...]
+
+    @property
+    def meaning(self) -> str:
+        return f"{self.fitted.effect.meaning}, with a gain for each of {', '.join(self.values)}"
+
+    @property
+    def gains(self) -> tuple[Gain, ...]:
+        """How much more than the one gain, as a share of it."""
+        return tuple(Gain(v, "1", TIMES, "any", f"more than the one gain, at {v}") for v in self.values)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GainByCondition(ChangedEffect):
+    """An effect of the model with a gain for each value of a condition. by: as `gain_by` of a model file has it. alike:
+    conditions that part the tests in the same way."""
+
+    by: str
+    alike: tuple[str, ...] = ()
+
+    @property
+    def id(self) -> str:
+        return gain_by_id(self.term.id, self.by)
+
+    @property
+    def becomes(self) -> tuple[str, ...]:
+        return (self.term.id,)
+
+    @property
+    def gain_by(self) -> str:
+        return self.by
+
+    @property
+    def protocol(self) -> str:
+        return f"the same work with each value of {self.by}"
+
+    def in_test(self, test: TestData) -> InTest:
+        """Zero but for the value that the test has."""
+        values, value = [g.name for g in self.effect.gains], group_of(test, self.by)
+        columns = np.zeros((len(test.t_s), len(values)))
+        if value in values and self.term.bound.covers(test) and self.term.bound.has(test):
+            gains = np.array([self.term.gains[g.name] for g in self.term.effect.gains])
+            columns[:, values.index(value)] = self.term.columns(test) @ np.where(gains == 0, 1.0, gains)
+        return lambda p: columns
+
+    def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:
+        """None: that the effect may act faster and slower stands among what is known."""
+        return []
+
+    def added_to(self, spec: Model) -> Model:
+        return with_gain_by(spec, self.term.id, self.by)
+
+    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+        """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
+        times = _relative_gains(self, scored, fitted, problem, noise)
+        values = [g.name for g in self.effect.gains]
+        said = ", ".join(f"{value} {share:.2g}" for value, share in zip(values, times, strict=True))
+        alike = f"; {' and '.join(self.alike)} part the tests alike" if self.alike else ""
+        return f"{self.term.id} acts with another gain for each {self.by} ({said} times{alike})"
+
+
+def gains_by_condition(
+    fitted: FittedResponse, tests: Sequence[TestData], every: Sequence[TestData]
+) -> list[GainByCondition]:
+    """Each effect with one gain, by each condition that parts the tests in which it acts: where it rests, any gain is
+    as good. tests: those that are weighed. every: all of the data, which a model with the condition must be able to
+    score; locked ones are read for their conditions only."""
+    found = []
+    for term in fitted.terms:
+        if not is_free(term):
+            continue
+        mine = _where_it_acts(term, [t for t in tests if term.bound.covers(t)])
+        parted: dict[tuple[int, ...], list[str]] = {}
+        for by in _conditions([t for t in every if term.bound.covers(t)]):
+            groups = [str(group_of(t, by)) for t in mine]
+            values = list(dict.fromkeys(groups))
+            if 2 <= len(values) <= MOST_VALUES and len(mine) > len(values):
+                parted.setdefault(tuple(values.index(g) for g in groups), []).append(by)
+        found += [_candidate(term, by[0], tuple(by[1:]), mine, every) for by in parted.values()]
+    return found
+
+
+def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData]) -> GainByCondition:
+    """The one that a user names, whatever its tests say. UsageError: no such effect, or a test without the
+    condition."""
+    terms = {t.id: t for t in fitted.terms}
+    if term not in terms:
+        raise unknown_name("effect", term, list(terms), where=f"candidate '{gain_by_id(term, by)}'")
+    mine = [t for t in tests if terms[term].bound.covers(t)]
+    refuse_unsaid(by, mine, f"candidate '{gain_by_id(term, by)}'")
+    return _candidate(terms[term], by, (), mine, tests)
+
+
+def _where_it_acts(term: FittedTerm, tests: Sequence[TestData]) -> list[TestData]:
+    sizes = [float(np.std(term.contribution(t))) for t in tests]
+    return [t for t, size in zip(tests, sizes, strict=True) if size > 0 and size >= ACTS * max(sizes)]
+
+
+def _conditions(tests: Sequence[TestData]) -> list[str]:
+    """Those that every test has: names before numbers, which may act by more than their value; last what only tells
+    tests apart."""
+    said = {n: isinstance(v, str) for t in tests for n, v in t.conditions.items() if n not in OF_TESTS}
+    names = [f"conditions.{n}" for n in sorted(said, key=lambda n: not said[n])]
+    return [n for n in (*names, "machine", "campaign") if all(group_of(t, n) not in (None, "") for t in tests)]
+
+
+def _candidate(
+    term: FittedTerm, by: str, alike: tuple[str, ...], tests: Sequence[TestData], every: Sequence[TestData]
+) -> GainByCondition:
+    groups: dict[str, list[TestData]] = {}
+    for test in tests:
+        groups.setdefault(str(group_of(test, by)), []).append(test)
+    return GainByCondition(
+        cast(Effect, GainOfEach(term, tuple(groups))),
+        term.binding,
+        term.family,
+        log_prior=UNNAMED,
+        kin="itself",
+        unforetold=_unforetold(by, groups, every),
+        term=term,
+        by=by,
+        alike=alike,
+    )
+
+
+def _unforetold(by: str, groups: Mapping[str, Sequence[TestData]], every: Sequence[TestData]) -> str | None:
+    single = {value: some[0] for value, some in groups.items() if len(some) == 1}
+    if not single:
+        return None
+    listed = ", ".join(f"{value} ({test.test})" for value, test in single.items())
+    locked = [t.test for t in every if t.role == "locked" and group_of(t, by) in single]
+    ask = f", or ask the locked {' and '.join(locked)} (thermodata confirm)" if locked else ""
+    return (
+        f"{by} has values that stand in one test only: {listed}; no other test foretells their gain. Run another test "
+        f"with each{ask}"
+    )
+
+
+def _relative_gains(
+    candidate: GainByCondition, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise
+) -> Float1D:
+    """The gain of each value by the largest, shape (values,): how much of the effect as fitted stands in all that it
+    does in the tests of the value, by least squares. Its own gains and what is added to them can't be told apart."""
+    more = beside(problem, [scored])
+    theta = known(more, noise).mean(np.arange(len(more.blocks)))
+    number = next(i for i, t in enumerate(fitted.terms) if t is candidate.term)
+    base, spare = (np.array(o, dtype=np.int64) for o in owners(fitted))
+    first = more.blocks[0]
+    all_of_it = np.concatenate(
+        [_of_effect(first.base.shape[1], base, number), _of_effect(first.slack.shape[1], spare, number)]
+    )
+    as_fitted = np.flatnonzero(base == number)[: len(candidate.term.effect.gains)]
+    values = [g.name for g in candidate.effect.gains]
+    found = np.zeros((2, len(values)))
+    for block in more.blocks:
+        value = group_of(block.test, candidate.by)
+        if value in values:
+            one = block.base[:, as_fitted].sum(axis=1)
+            does = np.hstack([block.base, block.slack])[:, all_of_it] @ theta[all_of_it]
+            found[:, values.index(value)] += one @ does, one @ one
+    times = found[0] / np.where(found[1] > 0, found[1], 1.0)
+    largest = times[int(np.argmax(np.abs(times)))]
+    return np.asarray(times / largest if largest else times)
+
+
+def _of_effect(columns: int, owned: Int1D, number: int) -> Bool1D:
+    """Which columns belong to an effect: its own, and those behind all known ones, which are added to it."""
+    return np.concatenate([owned == number, np.ones(columns - len(owned), bool)])

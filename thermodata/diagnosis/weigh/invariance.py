@@ -1,0 +1,69 @@
+"""Whether a contribution acts alike in all tests: a cause does, what only goes with it does not.
+
+A contribution gets a factor of its own in each test, f_i ~ N(mean, spread^2), and the spread is integrated over its
+likelihood (a random-effects meta-analysis [dersimonian1986], restricted likelihood). Invariance of a cause under
+changes that do not touch it: [peters2016].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from thermodata.diagnosis.question.known import Known, solved
+from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+
+SPREADS = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
+
+
+def spread_of_gain(known: Known, contribution: Sequence[Float1D], acts: Bool1D) -> float:
+    """Standard deviation of the factor between tests, as a share of 1: the mean over its likelihood, flat over
+    `SPREADS`. contribution: a test each, shape (m,). acts: in which tests it does something, shape (tests,).
+
+    Of all tests, or of those in which it acts, the factors of the others left free, whichever is less: where it rests
+    its gain may speak for it, and not against it, for what else moves there it hardly moves.
+    """
+    white = [known.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
+    size = np.array([w @ w for w in white])
+    moves = size > 1e-6 * size.max()
+    if moves.sum() < 2:
+        return 1.0
+    cross = np.stack([x.T @ w for x, w in zip(known.white, white, strict=True)])
+    factor = known.factor(known.every)
+    precision = np.diag(size) - cross @ solved(factor, cross.T)
+    right = np.array([w @ y for w, y in zip(white, known.response, strict=True)])
+    right = right - cross @ known.mean(known.every)
+    precision[np.diag_indices_from(precision)] += 1e-9 * size.max()
+    asked = {tuple(np.flatnonzero(some)) for some in (moves, moves & acts) if some.sum() > 1}
+    return min(_spread(*_of_some(precision, right, np.array(some), moves)) for some in asked)
+
+
+def _spread(precision: Float2D, right: Float1D) -> float:
+    weight = np.array([_log_likelihood(precision, right, s) for s in SPREADS])
+    weight = np.exp(weight - weight.max())
+    return float(weight @ SPREADS / weight.sum())
+
+
+def _of_some(precision: Float2D, right: Float1D, some: Int1D, moves: Bool1D) -> tuple[Float2D, Float1D]:
+    """What the data say of some factors; those of the other tests in which it moves are free."""
+    free = np.setdiff1d(np.flatnonzero(moves), some)
+    own, across = precision[np.ix_(some, some)], precision[np.ix_(some, free)]
+    if not len(free):
+        return own, right[some]
+    held = np.linalg.solve(precision[np.ix_(free, free)], np.column_stack([across.T, right[free]]))
+    return own - across @ held[:, :-1], right[some] - across @ held[:, -1]
+
+
+def _log_likelihood(precision: np.ndarray, right: Float1D, spread: float) -> float:
+    """Of the factors' estimates, their common mean integrated out; relative to free factors."""
+    count = len(right)
+    # (P^-1 + s^2)^-1 without inverting P: (1 + s^2 P)^-1 P
+    inner = np.eye(count) + spread**2 * precision
+    both = np.linalg.solve(inner, np.column_stack([precision, right]))
+    shared, pulled = both[:, :count], both[:, count]
+    one = np.ones(count)
+    weight, toward = one @ shared @ one, one @ pulled
+    # quad of the estimates f = P^-1 r under the shared model, less that under P alone, which all spreads share
+    quad = spread**2 * right @ pulled
+    return float(0.5 * (quad + toward**2 / weight - np.linalg.slogdet(inner)[1] - np.log(weight)))

@@ -1,0 +1,113 @@
+"""The error of a model on tests that its fit had not seen: each open test is left out in turn, locked ones never."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.fit.orders import leaves_open
+from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.view.dataset import Dataset, TestData
+
+FOLDS = 6  # more tests than that are left out in groups
+Place = tuple[str, Key]
+"""A response, and a test of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """Of each response in each left-out test: samples that count, and the mean square of what is left about the test's
+    own mean (nobody knows where zero was), in the response's unit squared."""
+
+    samples: Mapping[Place, int]
+    squares: Mapping[Place, float]
+
+    def rmse(self, response: str) -> float:
+        """Over all samples of a response, in its unit; NaN where none counts."""
+        own = [place for place in self.samples if place[0] == response]
+        total = sum(self.samples[p] for p in own)
+        return float(np.sqrt(sum(self.samples[p] * self.squares[p] for p in own) / total)) if total else float("nan")
+
+    def over(self, before: Errors) -> float:
+        """The error as a share of another model's on the same tests; of several responses the root mean square."""
+        names = dict.fromkeys(name for name, _ in self.samples)
+        shares = [self.rmse(n) / before.rmse(n) for n in names if before.rmse(n) > 0]
+        return float(np.sqrt(np.mean(np.square(shares)))) if shares else 1.0
+
+    def typical(self, before: Errors) -> float:
+        """The same of the typical left-out test (geometric mean), where a large one counts as any other."""
+        pairs = [(square, before.squares[place]) for place, square in self.squares.items()]
+        logs = [np.log(after / was) / 2 for after, was in pairs if after > 0 and was > 0]
+        return float(np.exp(np.mean(logs))) if logs else 1.0
+
+    def better(self, before: Errors) -> int:
+        """In how many left-out tests (of each response) the error is smaller than another model's."""
+        return sum(square < before.squares[place] for place, square in self.squares.items())
+
+
+class LeftOut:
+    """The open tests of a model (calibration and verification), in folds."""
+
+    def __init__(self, spec: Model, data: Dataset) -> None:
+        self.data = data
+        roles = resolve_roles(spec, data)
+        self._locked = roles.locked
+        opened = (*roles.calibrate, *roles.verify)
+        self.whole = self._fit(spec, opened, ())
+        usable = [t.key for t in data.tests if t.key in opened and any(counts(r, t) for r in self.whole.responses)]
+        self.tests = len(usable)
+        self.longest_s = max((float(t.t_s[-1]) for t in data.tests if t.key in usable), default=0.0)
+        # interleaved: neighbours in time are alike, and a group of them would take one kind of test away
+        groups = [usable[k :: min(FOLDS, len(usable))] for k in range(min(FOLDS, len(usable)))]
+        self._folds = [([k for k in usable if k not in group], group) for group in groups]
+
+    def fitted(self, spec: Model) -> FittedModel:
+        """A model of the same data, fitted to all open tests."""
+        return self._fit(spec, [k for _, group in self._folds for k in group], ())
+
+    def errors(self, spec: Model) -> Errors:
+        """UsageError where a fold can't be fitted, as where an effect is identified on the very test."""
+        samples, squares = dict[Place, int](), dict[Place, float]()
+        for train, group in self._folds:
+            for response in self._fit(self._with_orders(spec), train, group).responses:
+                for test in (self.data.test(*key) for key in group):
+                    if counts(response, test):
+                        left = response.residual(test)[response.mask(test)]
+                        samples[response.name, test.key] = len(left)
+                        squares[response.name, test.key] = float(np.var(left))
+        return Errors(samples, squares)
+
+    def _fit(self, spec: Model, train: Sequence[Key], left_out: Sequence[Key]) -> FittedModel:
+        roles = {"calibrate_on": names(train), "verify_on": names(left_out), "locked": names(self._locked)}
+        return fit_model(spec.model_copy(update={**roles, "in_sample": False}), self.data, uncertainty=False)
+
+    def _with_orders(self, spec: Model) -> Model:
+        """Orders and delays that the file leaves open as all tests chose them: chosen anew they cost up to sixteen fits
+        a fold."""
+        chosen = {
+            t.id: {"orders": t.bound.spec.orders, "delay": t.bound.spec.delay}
+            for response in reversed(self.whole.responses)
+            for t in response.terms
+        }
+        effects: list[EffectSpec] = []
+        for name, effect in zip(term_ids(spec.effects), spec.effects, strict=True):
+            found = chosen.get(name) if leaves_open(effect) else None
+            effects.append(effect.model_copy(update=found) if found else effect)
+        return spec.model_copy(update={"effects": effects})
+
+
+def counts(response: FittedResponse, test: TestData) -> bool:
+    """Whether a test says something of a fitted response."""
+    return response.can_predict(test) and bool(response.mask(test).any())
+
+
+def names(keys: Sequence[Key]) -> list[str]:
+    """Tests as a model file names them, whatever its campaigns."""
+    return ["/".join(key) for key in keys]

@@ -1,0 +1,177 @@
+"""Fitting: all calibration tests together, each with its own offset; effects with tests of their own come first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from thermodata.errors import UsageError
+from thermodata.modelling.fit.arx import identify_arx, placeholder
+from thermodata.modelling.fit.joint import fit_jointly
+from thermodata.modelling.fit.orders import Near, Tried, choose_orders, open_orders
+from thermodata.modelling.fit.places import fit_together, together
+from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
+from thermodata.modelling.inputs.counted_samples import refuse_unknown_phases
+from thermodata.modelling.model_file.resolve import resolve
+from thermodata.modelling.terms.bound import BoundResponse
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
+from thermodata.modelling.terms.usable import usable_tests
+from thermodata.modelling.trust.checks import checks
+from thermodata.schema.model import Model
+from thermodata.store.base.counting import counted
+from thermodata.view.dataset import Dataset, TestData
+
+
+def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+    """Fit every response of a model. base: the folder that `file` of an effect is relative to (default: here).
+
+    Tests that lack the response or a driver are skipped and named in `.skipped`. Raises SpecError where the spec does
+    not fit the data, UsageError where no calibration test is left.
+    """
+    inside = _fitter_of_models_inside(data, base)
+    roles, bound = resolve(spec, data, base, inside)
+    wanted = None if spec.phases is None else tuple(spec.phases)
+    for names in (wanted, *(effect.phases for effect in spec.effects)):
+        refuse_unknown_phases(names, data.tests)
+    skipped = list[str]()
+    keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
+    open_tests: list[list[TestData]] = []
+    for response in bound:
+        usable, why = usable_tests(response, [data.test(*key) for key in keys])
+        open_tests.append(usable)
+        skipped += why
+    if together(bound):
+        fitted = fit_together(bound, open_tests, wanted, data, fit_response)
+        if uncertainty:
+            # a place without a calibration test has its parameters from the others
+            said = [
+                checks(r, t) if t else {"checks": (), "noise": None} for r, t in zip(fitted, open_tests, strict=True)
+            ]
+            fitted = [replace(r, **own) for r, own in zip(fitted, said, strict=True)]
+    else:
+        fitted = [
+            fit_response(response, usable, wanted, data, uncertainty=uncertainty)
+            for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
+        ]
+    responses = tuple(replace(response, calibrate=frozenset(roles.calibrate)) for response in fitted)
+    return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)))
+
+
+def _fitter_of_models_inside(data: Dataset, base: Path | None) -> Callable[[Model], FittedModel]:
+    """A model that several responses hold is fitted once."""
+    kept: dict[str, FittedModel] = {}
+
+    def fit(inside: Model) -> FittedModel:
+        key = inside.model_dump_json(by_alias=True)
+        if key not in kept:
+            kept[key] = fit_model(inside, data, base=base, uncertainty=False)
+        return kept[key]
+
+    return fit
+
+
+def fit_response(
+    bound: BoundResponse,
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    data: Dataset | None = None,
+    *,
+    uncertainty: bool = True,
+) -> FittedResponse:
+    """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
+    find their own tests (default: among `tests`)."""
+    tried: list[Tried] = []
+    held: dict[int, FittedTerm] = {}
+    stages = stages_of(bound, tests, data)
+    for stage in stages:
+        part = replace(stage.bound, terms=tuple(bound.terms[i] for i in stage.members))
+        first, why = usable_tests(part, stage.tests)
+        if not first:
+            raise UsageError(
+                "no usable test for an effect that is identified first",
+                where=", ".join(bound.terms[i].id for i in stage.members),
+                expected=f"'{stage.bound.name}' and the drivers in "
+                + (", ".join("/".join(t.key) for t in stage.tests) or "a test"),
+                got="; ".join(why[:8]) or None,
+            )
+        known, found = _identify(stage.bound, stage.members, {}, first, None, uncertainty, tried)
+        bound = replace(bound, terms=known.terms)
+        held |= {i: replace(found[i], held=True) for i in stage.members}
+    rest = [i for i in range(len(bound.terms)) if i not in held]
+    bound, found = _identify(bound, rest, held, tests, wanted, uncertainty, tried)
+    fitted = refined(bound, {**held, **found}, tests, stages, wanted, uncertainty)
+    terms = tuple(fitted[i] for i in range(len(bound.terms)))
+    response = FittedResponse(bound, terms, wanted, frozenset(t.key for t in tests))
+    response = replace(response, tried=tuple(tried))
+    if not uncertainty:
+        return response
+    said = checks(response, tests)
+    return replace(response, checks=(*said["checks"], *moved_as_well(response, stages)), noise=said["noise"])
+
+
+def _identify(
+    bound: BoundResponse,
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    uncertainty: bool,
+    tried: list[Tried],
+) -> tuple[BoundResponse, dict[int, FittedTerm]]:
+    """Some terms together, with others held; the response with the orders that were open."""
+    near: Near = None
+    for i in (i for i in open_orders(bound) if i in members):
+        choice = choose_orders(bound, i, tests, wanted, partial(_with_given_orders, members, held, wanted))
+        bound, near = choice.bound, choice.near
+        tried += choice.table
+    return _given_orders(bound, members, held, tests, wanted, uncertainty, near)
+
+
+def _with_given_orders(
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    wanted: tuple[str, ...] | None,
+    bound: BoundResponse,
+    tests: Sequence[TestData],
+    near: Near,
+    uncertainty: bool,
+) -> FittedResponse:
+    """The response of these terms alone, while orders are tried."""
+    bound, found = _given_orders(
+        bound, members, held, tests, wanted, uncertainty, near, loose=not uncertainty, last=False
+    )
+    terms = {**held, **found}
+    part = replace(bound, terms=tuple(t for i, t in enumerate(bound.terms) if i in terms))
+    return FittedResponse(part, tuple(terms[i] for i in sorted(terms)), wanted, frozenset(t.key for t in tests))
+
+
+def _given_orders(
+    bound: BoundResponse,
+    members: Sequence[int],
+    held: Mapping[int, FittedTerm],
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    uncertainty: bool,
+    near: Near,
+    *,
+    loose: bool = False,
+    last: bool = True,
+) -> tuple[BoundResponse, dict[int, FittedTerm]]:
+    bound, arx = _with_placeholders(bound, members)
+    found = fit_jointly(
+        bound, members, held, tests, wanted, uncertainty and not arx, None if arx else near, loose, last
+    )
+    for i in arx:
+        bound = identify_arx(bound, i, {**held, **found}, tests, wanted)
+    if arx:
+        found = fit_jointly(bound, members, held, tests, wanted, uncertainty, loose=loose, profiled=last)
+    return bound, found
+
+
+def _with_placeholders(bound: BoundResponse, members: Sequence[int]) -> tuple[BoundResponse, list[int]]:
+    arx = [i for i, t in enumerate(bound.terms) if i in members and t.spec.method == "arx" and t.effect.params]
+    terms = tuple(placeholder(t) if i in arx else t for i, t in enumerate(bound.terms))
+    return replace(bound, terms=terms), arx

@@ -1,0 +1,232 @@
+"""Orders of a transfer function that the model file leaves open: by FIT on left-out tests, the fewest that do as well.
+
+FIT on the tests that were fitted rises with every coefficient, and says nothing of an unseen test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from itertools import pairwise
+from typing import Any, cast
+
+import numpy as np
+
+from thermodata.errors import SpecError, UsageError
+from thermodata.modelling.least_squares.coarse import coarse_tests
+from thermodata.modelling.model_file.transfer import MOST, NAME, FreeFunction
+from thermodata.modelling.predictions.left_out import folds, left_out_fit
+from thermodata.modelling.predictions.score import fit_percent
+from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, fit_mask
+from thermodata.plugin import Effect
+from thermodata.schema.model import EffectSpec
+from thermodata.view.dataset import TestData
+
+AS_GOOD = 0.5  # points of FIT
+DELAY = 2  # steps of an ARX: what a grid shifts; a longer one is a part's own, and `also: [dead_time]` searches it
+APART = 1.5  # ratio of two time constants
+SURE = 0.7  # standard deviation of log(tau)
+Near = Mapping[int, FittedTerm] | None
+Identify = Callable[[BoundResponse, Sequence[TestData], Near, bool], FittedResponse]
+
+
+@dataclass(frozen=True)
+class Tried:
+    """Orders that were tried. fit_left_out, fit_worst: FIT [%] on tests (or parts of the one test) left out, all
+    together and the worst; fit_calibration: on those that were fitted. why: what speaks against them, or None. delay:
+    of an ARX's driver, in steps."""
+
+    response: str
+    effect: str
+    method: str
+    numerator: int
+    denominator: int
+    fit_left_out: float | None
+    fit_worst: float | None
+    fit_calibration: float | None
+    chosen: bool = False
+    why: str | None = None
+    delay: int = 0
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """bound: with the orders set; near: where a search may start; table: every order that was tried."""
+
+    bound: BoundResponse
+    near: Near
+    table: tuple[Tried, ...]
+
+
+def open_orders(bound: BoundResponse) -> list[int]:
+    """Places of the terms whose orders, or whose delay, the file leaves open."""
+    return [i for i, t in enumerate(bound.terms) if isinstance(t.effect, FreeFunction) and leaves_open(t.spec)]
+
+
+def leaves_open(spec: EffectSpec) -> bool:
+    """Whether an effect is a transfer function of which the file does not say all orders, or the delay of an ARX."""
+    return spec.effect == NAME and (spec.orders is None or (spec.method == "arx" and spec.delay is None))
+
+
+def choose_orders(
+    bound: BoundResponse,
+    i: int,
+    tests: Sequence[TestData],
+    wanted: tuple[str, ...] | None,
+    identify: Identify,
+) -> Choice:
+    """Set the orders of term i. identify: fits a response to some tests (near a point, with uncertainty or without).
+
+    varpro: 1 to 4 lags, alone and with a direct term, as long as all are apart, inside their bounds and known (a third
+    lag that the data can't identify is refused). oe and arx: 1-4 x 1-4, unstable functions left out; for the chosen
+    orders of an arx the driver is tried a step or two late as well. Lags need no sample after sample, so that oe and
+    varpro are tried on means of neighbours where there are many samples.
+    """
+    term = bound.terms[i]
+    method = term.spec.method or "varpro"
+    some = list(tests) if method == "arx" else coarse_tests(tests, wanted)
+    channel_of = bound.channel_of
+    found = folds(some, channel_of, lambda t: fit_mask(bound, list(bound.terms), wanted, t))
+    rows: list[_Trial] = []
+    reasons: list[UsageError] = []
+    found_at: dict[tuple[int, int], FittedResponse] = {}
+
+    def tried(orders: tuple[int, int], delay: int | None) -> _Trial:
+        # a delay of none is chosen as well: what chose it does not ask again
+        trial = with_orders(bound, i, orders, delay or 0 if method == "arx" else None)
+        row = Tried(bound.name, term.id, method, *orders, None, None, None, delay=delay or 0)
+        try:
+            full = identify(
+                trial, some, _start(bound, i, orders, found_at) if method == "oe" else None, method == "varpro"
+            )
+            found_at[orders] = full
+            start = None if method == "arx" else _near(trial, full)
+            total, worst = left_out_fit(found, lambda train: identify(trial, train, start, False))
+        except (UsageError, SpecError) as error:
+            reasons.append(error if isinstance(error, UsageError) else UsageError(error.what, where=term.id))
+            return _Trial(replace(row, why=error.what), trial, None)
+        row = replace(
+            row,
+            fit_left_out=_finite(total),
+            fit_worst=_finite(worst),
+            fit_calibration=_finite(free_run_fit(full, some)),
+            why=_unidentified(full, term.id) if method == "varpro" and orders != (1, 1) else None,
+        )
+        return _Trial(row, trial, full)
+
+    for orders in _pairs(method) if term.spec.orders is None else [term.spec.orders]:
+        rows.append(tried(orders, term.spec.delay))
+        if method == "varpro" and orders[0] > orders[1] and rows[-1].row.why and rows[-2].row.why:
+            break
+    good = [r for r in rows if r.row.why is None]
+    if not good and term.spec.orders is None:
+        raise reasons[0]
+    best = _fewest(good) if good else rows[0]
+    if method == "arx" and term.spec.delay is None:
+        late = [tried((best.row.numerator, best.row.denominator), delay) for delay in range(1, DELAY + 1)]
+        rows += late
+        # a delay costs no coefficient
+        best = max([best, *(r for r in late if r.row.why is None)], key=lambda r: _number(r.row.fit_left_out))
+    if best.full is None:  # too little to leave any out: orders that are given need no choice
+        return Choice(best.bound, None, tuple(r.row for r in rows))
+    table = tuple(replace(r.row, chosen=r is best) for r in rows)
+    return Choice(best.bound, None if method == "arx" else _near(best.bound, best.full), table)
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """full: fitted to all tests; None where it could not be."""
+
+    row: Tried
+    bound: BoundResponse
+    full: FittedResponse | None
+
+
+def _fewest(good: Sequence[_Trial]) -> _Trial:
+    """The fewest coefficients of those that do as well as the best."""
+    scored = [r for r in good if r.row.fit_left_out is not None] or list(good[:1])
+    top = max(_number(r.row.fit_left_out) for r in scored)
+    return min(
+        (r for r in scored if _number(r.row.fit_left_out) >= top - AS_GOOD),
+        key=lambda r: (r.row.numerator + r.row.denominator, -_number(r.row.fit_left_out)),
+    )
+
+
+def with_orders(bound: BoundResponse, i: int, orders: tuple[int, int], delay: int | None = None) -> BoundResponse:
+    term = bound.terms[i]
+    spec = term.spec.model_copy(update={"orders": orders, "delay": delay})
+    effect = cast(Effect, FreeFunction(term.spec.method or "varpro", orders))
+    made: BoundTerm = replace(term, spec=spec, effect=effect)
+    return replace(bound, terms=tuple(made if k == i else t for k, t in enumerate(bound.terms)))
+
+
+def free_run_fit(response: FittedResponse, tests: Sequence[TestData]) -> float:
+    """FIT [%] over some tests together, each with its own free offset."""
+    measured, residual = [], []
+    for test in tests:
+        mask = response.mask(test)
+        y, r = response.measured(test)[mask], (response.measured(test) - response.predict(test))[mask]
+        if len(y):
+            measured.append(y - y.mean())
+            residual.append(r - r.mean())
+    if not measured:
+        return -np.inf
+    fit = fit_percent(np.concatenate(measured), np.concatenate(residual))
+    return -np.inf if fit is None else fit
+
+
+def _pairs(method: str) -> Iterator[tuple[int, int]]:
+    for denominator in range(1, MOST + 1):
+        for numerator in range(1, MOST + 1) if method != "varpro" else (denominator, denominator + 1):
+            yield numerator, denominator
+
+
+def _start(
+    bound: BoundResponse, i: int, orders: tuple[int, int], found_at: Mapping[tuple[int, int], FittedResponse]
+) -> Near:
+    """The lags that one coefficient less was found with; or those of one lag less, and one more that is looked for over
+    its whole range. One coefficient over a lag is a lag, two are a lag with a direct term: their time constants lie
+    apart, so that none starts from the other."""
+    numerator, denominator = orders
+    if numerator > 2:
+        return _near(bound, found_at.get((numerator - 1, denominator)))
+    fewer = found_at.get((numerator, denominator - 1))
+    near = _near(bound, fewer)
+    if near is None or denominator != 2:
+        return near
+    # the only lag has no number
+    groups = {g: replace(v, params={"tau_1": v.params["tau"]}) for g, v in near[i].groups.items()}
+    return {**near, i: replace(near[i], groups=groups)}
+
+
+def _near(bound: BoundResponse, full: FittedResponse | None) -> Near:
+    """Terms by their place in the response; None where there is nothing to start from."""
+    if full is None:
+        return None
+    places = {term.id: i for i, term in enumerate(bound.terms)}
+    return {places[term.id]: term for term in full.terms}
+
+
+def _unidentified(response: FittedResponse, identity: str) -> str | None:
+    term = next(t for t in response.terms if t.id == identity)
+    taus = sorted((term.params[p.name], p.name) for p in term.effect.params)
+    if any(b[0] <= APART * a[0] for a, b in pairwise(taus)):
+        return "two lags are one"
+    # a time constant at its bound has no deviation
+    if any(term.sd.get(name, np.inf) >= SURE for _, name in taus):
+        return "a time constant that these tests do not tell"
+    if any(abs(term.gains[g.name]) <= 2 * term.sd.get(g.name, np.inf) for g in term.effect.gains):
+        return "a lag without a gain"
+    return None
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _number(value: float | None) -> float:
+    return -np.inf if value is None else value

@@ -1,0 +1,181 @@
+"""A second lag of an effect, where tests that were left out of the fit want it.
+
+A part of a machine is distributed: it answers heat by a quick share and a slow one, which no single first-order lag
+does. A second lag is the same effect once more in the model file (same drivers, an id of its own), so that all that
+reads a model knows what it is. It is asked of the effect that was added, and of each lag that the model had.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from thermodata.effect import effect as find_effect
+from thermodata.errors import UsageError
+from thermodata.modelling.compare.left_out_error import Errors, LeftOut
+from thermodata.modelling.fit.orders import APART
+from thermodata.modelling.model_file.nested import NAME as NESTED
+from thermodata.modelling.model_file.prediction import NAME as PREDICTION
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.model_file.transfer import NAME as TRANSFER
+from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.terms.fitted_response import FittedTerm
+from thermodata.plugin import Param
+from thermodata.schema.counted import counted as in_words
+from thermodata.schema.model import EffectSpec, Model
+from thermodata.store.base.counting import counted
+from thermodata.view.dataset import Dataset
+
+LEAST_TESTS = 3  # open tests; what holds in one of two may be chance
+FALL = 0.2  # share of the error on left-out tests that it takes off at least: of all samples, and of the typical test
+BETTER = 0.6  # of the left-out tests get better at least
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+@dataclass(frozen=True, slots=True)
+class SecondLag:
+    """of, id: of the effect, and of its second lag. tau: time constants of both, in `tau_unit`. before, after: error
+    on left-out tests without and with it, in `unit`; of the first response. better: left-out tests that get better, of
+    how many (of each response)."""
+
+    of: str
+    id: str
+    tau: tuple[float, float]
+    tau_unit: str
+    before: float
+    after: float
+    unit: str
+    better: int
+    tests: int
+
+    def __str__(self) -> str:
+        first, second = self.tau
+        return (
+            f"{self.id} is a second lag of {self.of}, of {second:.3g} beside {first:.3g} {self.tau_unit}: error on "
+            f"left-out tests {self.before:.3g} -> {self.after:.3g} {self.unit}, smaller in {self.better} of "
+            f"{self.tests}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Refined:
+    """spec: the model with its second lags last. lags: what they are, in the order of their use. notes: the same in
+    sentences, or why there is none."""
+
+    spec: Model
+    lags: tuple[SecondLag, ...]
+    notes: list[str]
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    place: int
+    spec: Model
+    errors: Errors
+    share: float
+    lag: SecondLag
+
+
+def with_second_lags(spec: Model, data: Dataset) -> Refined:
+    """The model with a second lag of each effect that is worth one, the most useful first.
+
+    Locked tests take no part. A model with fewer than `LEAST_TESTS` open tests, or whose fit can't do without one of
+    them, stays as it is.
+    """
+    waiting = [i for i, effect in enumerate(spec.effects) if is_single_lag(effect, spec.effects)]
+    if not waiting:
+        return Refined(
+            spec, (), ["no second lag: the model has no effect with one lag that a second could stand beside"]
+        )
+    left_out = LeftOut(spec, data)
+    if left_out.tests < LEAST_TESTS:
+        few = (
+            f"no second lag: {in_words(left_out.tests, 'open test')}, and from {LEAST_TESTS} on they can be "
+            "left out in turn"
+        )
+        return Refined(spec, (), [few])
+    try:
+        now, whole = left_out.errors(spec), left_out.whole
+    except UsageError as error:
+        return Refined(spec, (), [f"no second lag: the model can't be fitted without one of its tests ({error})"])
+    found: list[SecondLag] = []
+    while waiting:
+        tried = [_tried(left_out, spec, whole, i, now) for i in counted(waiting, "second lags")]
+        useful = [t for t in tried if t is not None]
+        if not useful:
+            break
+        best = min(useful, key=lambda t: t.share)
+        found.append(best.lag)
+        spec, now, whole = best.spec, best.errors, left_out.fitted(best.spec)
+        # what did not help before is not asked again: each question costs a fit for every fold
+        waiting = [t.place for t in useful if t is not best]
+    none = f"no second lag: none takes {100 * FALL:.0f} % off the error on left-out tests"
+    return Refined(spec, tuple(found), [str(lag) for lag in found] or [none])
+
+
+def _tried(left_out: LeftOut, spec: Model, whole: FittedModel, place: int, now: Errors) -> _Trial | None:
+    """None where a second lag of the effect at a place is not worth it."""
+    ids = term_ids(spec.effects)
+    response = next(r for r in whole.responses if any(t.id == ids[place] for t in r.terms))
+    second = second_of(spec.effects[place], whole.term(ids[place]), ids, (spec.step, left_out.longest_s))
+    more = spec.model_copy(update={"effects": [*spec.effects, second]})
+    try:
+        errors = left_out.errors(more)
+    except UsageError:
+        return None
+    share, better = max(errors.over(now), errors.typical(now)), errors.better(now)
+    if share > 1 - FALL or better < BETTER * len(errors.squares):
+        return None
+    param, fitted = time_constant(spec.effects[place]), left_out.fitted(more)
+    assert param is not None
+    tau = fitted.term(ids[place]).params[param.name], fitted.term(str(second.id)).params[param.name]
+    if max(tau) < APART * min(tau):
+        return None  # a lag and its derivative: two huge gains that take each other away
+    figures = now.rmse(response.name), errors.rmse(response.name), response.unit, better, len(errors.squares)
+    return _Trial(place, more, errors, share, SecondLag(ids[place], str(second.id), tau, param.unit, *figures))
+
+
+def is_lag_of(identity: str, of: str) -> bool:
+    """Whether an id is that of a further lag of an effect, as `with_second_lags` names it."""
+    return identity.startswith(f"{of}_lag") and identity.removeprefix(f"{of}_lag").isdigit()
+
+
+def is_single_lag(spec: EffectSpec, among: Sequence[EffectSpec]) -> bool:
+    """Whether an effect is one lag that a second could stand beside: not where the file holds its values or identifies
+    it on tests of its own, nor where it stands twice already (a third lag is nothing that tests can tell)."""
+
+    def same(other: EffectSpec) -> bool:
+        keys = ("effect", "drivers", "tests", "gain_by", "phases")
+        return all(getattr(spec, key) == getattr(other, key) for key in keys)
+
+    held = bool(spec.fixed) or spec.calibrate_on is not None
+    return not held and time_constant(spec) is not None and sum(same(other) for other in among) == 1
+
+
+def time_constant(spec: EffectSpec) -> Param | None:
+    """The one time constant of an effect; None where it has none, or several, or no driver to lag."""
+    if spec.effect in (TRANSFER, PREDICTION, NESTED):
+        return None
+    effect = find_effect(spec.effect)
+    times = [p for p in effect.params if p.unit in SECONDS]
+    return times[0] if effect.needs and len(times) == 1 else None
+
+
+def second_of(spec: EffectSpec, fitted: FittedTerm, ids: Sequence[str], span_s: tuple[float, float]) -> EffectSpec:
+    """The same effect once more, with a time constant anywhere between the grid's step and the longest test (span_s).
+
+    The library's bounds are those of an effect as a whole; its quick share and its slow one lie beside them. An
+    exponent is the friction's, not the lag's, and is held as fitted where it is one for all. ids: that are taken.
+    """
+    param = time_constant(spec)
+    assert param is not None
+    groups = list(fitted.groups.values())
+    held = {
+        name: value
+        for name, value in fitted.params.items()
+        if name != param.name and name not in groups[0].silent and all(g.params[name] == value for g in groups)
+    }
+    shortest, longest = (s / SECONDS[param.unit] for s in span_s)
+    bounds = {**spec.bounds, param.name: (min(param.lower, shortest), max(param.upper, longest))}
+    number = next(k for k in range(2, len(ids) + 3) if f"{fitted.id}_lag{k}" not in ids)
+    return spec.model_copy(update={"id": f"{fitted.id}_lag{number}", "fixed": held, "bounds": bounds})

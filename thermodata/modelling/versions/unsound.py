@@ -1,0 +1,45 @@
+"""What a diagnosis found wrong with the logs, heeded by the next version of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.schema.diagnosis import PutRight
+from thermodata.schema.model import Model
+from thermodata.view.dataset import Dataset
+
+
+def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, list[str]]:
+    """(the model without the tests whose log is wrong, what was done and what is left to do).
+
+    A test in which a probe is turned, or a clock is off by itself, would be fitted as it was logged. Where no other
+    test is left to calibrate on, the model stays as it is.
+    """
+    if found is None:
+        return spec, []
+    notes = [_of_all(c.source, c.moved_s) for c in found.clocks if not c.test]
+    turned = dict.fromkeys(found.left_out, "its probe is turned")
+    late = {(c.campaign, c.test): f"the clock of {c.source} is off in it" for c in found.clocks if c.test}
+    wrong = {**late, **turned}
+    roles = resolve_roles(spec, data)
+    kept = [key for key in roles.calibrate if key not in wrong]
+    gone = [key for key in (*roles.calibrate, *roles.verify) if key in wrong]
+    if not gone or not kept:
+        return spec, notes
+    verify = [key for key in roles.verify if key not in wrong]
+    notes += [
+        f"made without {key[1]}: {wrong[key]}; mend it in the campaign file, ingest, and fit again" for key in gone
+    ]
+    return spec.model_copy(update={"calibrate_on": _names(kept), "verify_on": _names(verify)}), notes
+
+
+def _names(keys: Iterable[Key]) -> list[str]:
+    return ["/".join(key) for key in keys]
+
+
+def _of_all(source: str, moved_s: float) -> str:
+    return (
+        f"the clock of {source} is off by {moved_s / 60:+.0f} min, and this is fitted to its log as it is: declare "
+        "clock: {offset: ...} in the campaign file, ingest, and fit again"
+    )
