@@ -299,7 +299,7 @@ def test_units_version_and_parameters_stand_in_the_comments() -> None:
 def test_another_models_output_runs_in_a_control_and_phases_are_refused(tmp_path: Path) -> None:
     """Model A of [mares2017]: a frame's output times a gain is its own effects, each times that gain."""
     from thermodata.modelling.model_file.nested import ModelOutput
-    from thermodata.modelling.seen.as_system import laws as room
+    from thermodata.modelling.seen import laws as room
     from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
     from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Values
     from thermodata.schema.model import EffectSpec
