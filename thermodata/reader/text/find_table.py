@@ -22,7 +22,7 @@ from thermodata.reader.text.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.lines import WHOLE, Sample, sample
 from thermodata.reader.text.long_rows import refuse_long
 from thermodata.reader.text.number import clean
-from thermodata.reader.text.quality_columns import quality_pairs, worded
+from thermodata.reader.text.quality_columns import quality_pairs, shared, worded
 from thermodata.reader.text.row_series import with_series
 from thermodata.reader.text.sampled_cells import sampled_cells, still_going
 from thermodata.reader.text.standing_columns import standing_columns
@@ -188,6 +188,7 @@ def find_table(
         *_notes(layout, kinds, groups),
         *midnights,
         *units_noted,
+        *shared(quality),
         standing_note,
         doubt,
         open_zone,

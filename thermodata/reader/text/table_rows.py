@@ -21,7 +21,7 @@ from thermodata.reader.text.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.local_clock import DayCount, LocalClock
 from thermodata.reader.text.losses import Losses
 from thermodata.reader.text.number import clean, to_float, why_none
-from thermodata.reader.text.quality_columns import bad_rows
+from thermodata.reader.text.quality_columns import bad_rows, values_of
 from thermodata.reader.text.rows import parse
 from thermodata.reader.text.table import Table, TimedGroup
 from thermodata.reader.time_units import EPOCHS, to_ns
@@ -48,7 +48,7 @@ class RowReader:
 
     def __init__(self, table: Table, source: Source, size: int) -> None:
         self.table = table
-        qualities = {quality: name for name, (quality, _) in table.quality.items()}
+        qualities = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
         self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
