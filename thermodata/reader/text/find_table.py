@@ -30,7 +30,7 @@ from thermodata.reader.text.status import declared_zero
 from thermodata.reader.text.table import Table, TimedGroup, bare_line
 from thermodata.reader.text.time_formats import find_formats
 from thermodata.reader.text.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.unit_column import unit_column
+from thermodata.reader.text.unit_column import machine_note, unit_column
 from thermodata.reader.text.zone_named import zones_said
 from thermodata.reader.text.zone_words import stated_zone
 
@@ -190,6 +190,7 @@ def find_table(
         *units_noted,
         *shared(quality),
         standing_note,
+        machine_note(bare, cells_of),
         doubt,
         open_zone,
     ]
