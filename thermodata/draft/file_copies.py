@@ -1,5 +1,5 @@
 """Files that somebody copied in their folder: 'day 2 - Kopie.csv' beside 'day 2.csv', equal to the last byte;
-and what else is another state of a file: half-written, or corrected."""
+and what else is another state of a file: its beginning, half-written, or corrected."""
 
 from __future__ import annotations
 
@@ -30,8 +30,33 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
         together.sort(key=lambda p: (len(p.stem), p.stem))
         for i, copy in enumerate(together):
             of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
-            if of is not None and _equal(folder / copy, folder / of):
+            if of is not None and _equal(folder / copy, folder / of, (folder / of).stat().st_size):
                 found[copy] = of
+    return found
+
+
+def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+    """File -> the longest one that goes on behind its last byte: 'R1_backup.csv' of a morning beside 'R1.csv', or
+    'R1.csv' beside a later 'R1 (1).csv'. Only where one is called as the other with a word or a number in brackets
+    more."""
+    sizes: dict[PurePosixPath, int] = {}
+    together: dict[tuple[PurePosixPath, str], list[PurePosixPath]] = {}
+    for path in paths:
+        try:
+            sizes[path] = (folder / path).stat().st_size
+        except OSError:
+            continue
+        if sizes[path]:
+            together.setdefault((path.parent, path.suffix.lower()), []).append(path)
+    found: dict[PurePosixPath, PurePosixPath] = {}
+    for alike in together.values():
+        alike.sort(key=lambda p: -sizes[p])
+        for i, short in enumerate(alike):
+            longer = (p for p in alike[:i] if sizes[p] > sizes[short] and p not in found)
+            named = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
+            of = next((p for p in named if _equal(folder / short, folder / p, sizes[short])), None)
+            if of is not None:
+                found[short] = of
     return found
 
 
@@ -65,15 +90,16 @@ def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
     return bool(named) and bool(re.search(r"[^\W\d_]{2}|\(\d+\)", more)) and not re.match(r"\d", after)
 
 
-def _equal(one: Path, other: Path) -> bool:
-    size = one.stat().st_size
+def _equal(one: Path, other: Path, size: int) -> bool:
+    """Whether so many bytes at their start are equal."""
     try:
         with one.open("rb") as a, other.open("rb") as b:
             starts = range(0, size, _PART) if size <= _WHOLE else (0, size - _PART)
             for start in starts:
                 a.seek(start)
                 b.seek(start)
-                if a.read(_PART) != b.read(_PART):
+                part = min(_PART, size - start)
+                if a.read(part) != b.read(part):
                     return False
     except OSError:
         return False
