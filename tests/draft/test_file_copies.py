@@ -29,6 +29,9 @@ LOG = "time [s];T_front [degC]\n" + "".join(f"{i};{20 + i / 10:.1f}\n" for i in 
         ("run1.csv", "run1 copy.txt", False),
         ("a/run1.csv", "b/run1 copy.csv", False),
         ("run1.csv", "run1.1.csv", False),
+        ("run1.csv", "backup/run1.csv", True),
+        ("run1.csv", "run1.csv.bak", True),
+        ("run1.csv", "day2/run1.csv", False),
     ],
 )
 def test_a_copy_is_told_by_its_name_and_its_bytes(tmp_path: Path, original: str, copy: str, is_one: bool) -> None:
@@ -61,6 +64,8 @@ def test_a_draft_keeps_the_original_and_names_the_copy(tmp_path: Path, say: Call
         ("R1.csv", "R2.csv", False),
         ("R1.csv", "R12.csv", False),
         ("a/R1_backup.csv", "R1.csv", False),
+        ("old/R1.csv", "R1.csv", True),
+        ("R1.csv.bak", "R1.csv", True),
     ],
 )
 def test_a_file_that_another_one_goes_on_is_its_beginning(tmp_path: Path, short: str, long: str, is_one: bool) -> None:

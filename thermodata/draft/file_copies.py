@@ -10,6 +10,10 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.raw_file import RawFile
 
 _UNFINISHED = (".part", ".partial", ".filepart", ".crdownload", ".download", ".tmp")
+_ASIDE = re.compile(
+    r"(?i)[\W_]*(?:bak|backups?|sicherung(?:en)?|kopien?|cop(?:y|ies)|old|alte?|archive?|záloha|sauvegarde)[\W_\d]*"
+)
+_BAK = (".bak", ".old", ".orig")
 _PART = 1 << 20
 _WHOLE = 64 << 20  # larger ones are compared at both ends
 
@@ -24,10 +28,11 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
         except OSError:
             continue
         if size:
-            alike.setdefault((path.parent, path.suffix.lower(), size), []).append(path)
+            named = _beside(path)
+            alike.setdefault((named.parent, named.suffix.lower(), size), []).append(path)
     found: dict[PurePosixPath, PurePosixPath] = {}
     for together in alike.values():
-        together.sort(key=lambda p: (len(p.stem), p.stem))
+        together.sort(key=lambda p: (len(_beside(p).stem), _beside(p).stem))
         for i, copy in enumerate(together):
             of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
             if of is not None and _equal(folder / copy, folder / of, (folder / of).stat().st_size):
@@ -47,14 +52,15 @@ def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         except OSError:
             continue
         if sizes[path]:
-            together.setdefault((path.parent, path.suffix.lower()), []).append(path)
+            named = _beside(path)
+            together.setdefault((named.parent, named.suffix.lower()), []).append(path)
     found: dict[PurePosixPath, PurePosixPath] = {}
     for alike in together.values():
         alike.sort(key=lambda p: -sizes[p])
         for i, short in enumerate(alike):
             longer = (p for p in alike[:i] if sizes[p] > sizes[short] and p not in found)
-            named = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
-            of = next((p for p in named if _equal(folder / short, folder / p, sizes[short])), None)
+            called = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
+            of = next((p for p in called if _equal(folder / short, folder / p, sizes[short])), None)
             if of is not None:
                 found[short] = of
     return found
@@ -83,7 +89,19 @@ def other_versions(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, RawFile]
     }
 
 
+def _beside(path: PurePosixPath) -> PurePosixPath:
+    """A file that was put aside as it would be called beside the one that it is of: 'backup/R1.csv' and 'R1.csv.bak' as
+    'R1 backup.csv' and 'R1 bak.csv'."""
+    if path.suffix.lower() in _BAK and path.with_suffix("").suffix:
+        bare = path.with_suffix("")
+        path = bare.with_name(f"{bare.stem} {path.suffix[1:]}{bare.suffix}")
+    if _ASIDE.fullmatch(path.parent.name):
+        path = path.parent.parent / f"{path.stem} {path.parent.name}{path.suffix}"
+    return path
+
+
 def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
+    copy, original = _beside(copy), _beside(original)
     before, named, after = copy.stem.partition(original.stem)
     more = f"{before}{after}".strip(" -_.")
     # 'run 12' is no copy of 'run 1'
