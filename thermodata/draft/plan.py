@@ -31,6 +31,7 @@ from thermodata.draft.named_days import over_midnight
 from thermodata.draft.one_or_many import one_or_many
 from thermodata.draft.one_signal import joined_over_units
 from thermodata.draft.orientation import why_idle
+from thermodata.draft.packed_pieces import packed_pieces
 from thermodata.draft.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.raw_file import RawFile
 from thermodata.draft.roles import said_by_list
@@ -92,6 +93,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
                     *_of_clocks(g, groups, aligned),
                     *g.questions,
                     *one_or_many(g, groups, table.rows if table else ()),
+                    *packed_pieces(g, found.ignored),
                 )
                 if q
             ),

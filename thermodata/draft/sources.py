@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.draft.filenames import unrotated
 from thermodata.draft.naming import parts_of, plain, words
 from thermodata.draft.raw_file import Asked, RawFile, merged
 from thermodata.plugin import Signal
+from thermodata.reader.rotated import unrotated
 from thermodata.reader.text import split_unit
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}
