@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.asked_once import asked_once
 from thermodata.draft.by_hand import asked_whether_held
 from thermodata.draft.channels import channels_of
 from thermodata.draft.clocks import (
@@ -81,7 +82,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         }
     keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    sources = tuple(
+    sources: tuple[DraftSource, ...] = tuple(
         DraftSource(
             g.source,
             g.reader,
@@ -104,6 +105,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
         for g in groups
     )
+    sources = asked_once(sources, groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
