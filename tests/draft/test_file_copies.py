@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 import pytest
 
-from thermodata.draft.folder.file_copies import copies_in
+from thermodata.draft.folder.file_copies import beginnings_in, copies_in
 from thermodata.draft.make import draft_files
 
 from .conftest import Said
@@ -29,6 +29,9 @@ LOG = "time [s];T_front [degC]\n" + "".join(f"{i};{20 + i / 10:.1f}\n" for i in 
         ("run1.csv", "run1 copy.txt", False),
         ("a/run1.csv", "b/run1 copy.csv", False),
         ("run1.csv", "run1.1.csv", False),
+        ("run1.csv", "backup/run1.csv", True),
+        ("run1.csv", "run1.csv.bak", True),
+        ("run1.csv", "day2/run1.csv", False),
     ],
 )
 def test_a_copy_is_told_by_its_name_and_its_bytes(tmp_path: Path, original: str, copy: str, is_one: bool) -> None:
@@ -49,6 +52,40 @@ def test_a_draft_keeps_the_original_and_names_the_copy(tmp_path: Path, say: Call
     text = (tmp_path / "campaign.yaml").read_text()
     assert text.count("  - {id:") == 3
     assert "# not used: day 2 - Kopie.csv: a copy of day 2.csv: their bytes are equal" in text
+
+
+@pytest.mark.parametrize(
+    ("short", "long", "is_one"),
+    [
+        ("R1_backup.csv", "R1.csv", True),
+        ("R1.csv", "R1 (1).csv", True),  # the later of two downloads
+        ("copy of R1.csv", "R1.csv", True),
+        ("R1 - Kopie.csv", "R1.csv", True),
+        ("R1.csv", "R2.csv", False),
+        ("R1.csv", "R12.csv", False),
+        ("a/R1_backup.csv", "R1.csv", False),
+        ("old/R1.csv", "R1.csv", True),
+        ("R1.csv.bak", "R1.csv", True),
+    ],
+)
+def test_a_file_that_another_one_goes_on_is_its_beginning(tmp_path: Path, short: str, long: str, is_one: bool) -> None:
+    paths = [PurePosixPath(p) for p in (short, long)]
+    for path, text in zip(paths, (LOG[: len(LOG) // 2], LOG), strict=True):
+        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).write_text(text)
+    assert beginnings_in(tmp_path, paths) == ({paths[0]: paths[1]} if is_one else {})
+    (tmp_path / short).write_text(LOG[: len(LOG) // 2].replace("20.3", "20.4"))
+    assert beginnings_in(tmp_path, paths) == {}
+
+
+def test_a_draft_takes_no_beginning_of_a_log_for_a_test_and_names_it(tmp_path: Path, say: Callable[..., Said]) -> None:
+    for i in (1, 2):
+        (tmp_path / f"R{i}.csv").write_text(LOG.replace("20.0", f"2{i}.0"))
+    (tmp_path / "R1_backup.csv").write_text(LOG.replace("20.0", "21.0")[:400])
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert text.count("  - {id:") == 2
+    assert "# not used: R1_backup.csv: the beginning of R1.csv, byte by byte" in text
 
 
 def dated(first: str = "2026-03-02T08:00:00", n: int = 60, rise: float = 0.1) -> str:

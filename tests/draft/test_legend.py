@@ -62,6 +62,45 @@ def test_numbers_one_word_and_other_names_are_none(tmp_path: Path, say: Say, row
     assert "says what signals are" not in text
 
 
+TOLD = {"T01": ("spindle.bearing.front", "°F", None), "T02": ("bed", "°F", None), "T03": ("tcp", "mm", "X")}
+
+
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [
+        (
+            "legende.csv",
+            ["Kanal;Was;Einheit;Achse", "T01;Spindellager vorn;°F;", "T02;Bett;°F;-", "T03;Verlagerung TCP;mm;X"],
+        ),
+        ("legende.csv", ["Kanal;Was", "T01;Spindellager vorn [°F]", "T02;Bett [°F]", "T03;Verlagerung TCP [mm], X"]),
+        ("legend.txt", ["T01 -> spindle bearing front [°F]", "T02 -> bed [°F]", "T03 -> displacement TCP [mm], X"]),
+        (
+            "legend.txt",
+            ["Sensors", "T01 = spindle bearing front [°F]", "T02: bed [°F]", "T03 = displacement TCP X [mm]"],
+        ),
+    ],
+)
+def test_a_legend_tells_units_and_axes_too(tmp_path: Path, say: Say, name: str, lines: Sequence[str]) -> None:
+    _logs(tmp_path)
+    (tmp_path / name).write_text("\n".join([*lines, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    channels = yaml.safe_load(text)["channels"].values()
+    assert {c["signal"]: (c.get("at"), c.get("unit"), c.get("axis")) for c in channels} == TOLD
+    assert "in °F" in text
+    assert "sure:" not in text
+
+
+def test_the_unit_that_a_log_says_counts_more(tmp_path: Path, say: Say) -> None:
+    _logs(tmp_path)
+    for path in tmp_path.glob("t*.csv"):
+        path.write_text(path.read_text().replace("T01", "T01 [degC]"))
+    _write(tmp_path, [(n, w, "°F") for n, w, _ in LEGEND])
+    assert say("init", tmp_path).code == 0
+    channels = yaml.safe_load((tmp_path / "campaign.yaml").read_text())["channels"].values()
+    assert {c["signal"]: c["unit"] for c in channels} == {"T01 [degC]": "degC", "T02": "°F", "T03": "°F"}
+
+
 def test_a_sheet_is_one_too(tmp_path: Path, say: Say) -> None:
     times = [f"2026-03-02 08:{k:02d}:00" for k in range(60)]
     data = [("Zeit", "T01", "T02", "T03"), *((t, 21 + k / 20, 20 + k / 50, 20.5) for k, t in enumerate(times))]

@@ -112,3 +112,21 @@ def test_a_column_of_units_gives_the_unit(tmp_path: Path, say: Say, units: str, 
     text = str(_drafted(tmp_path, say)["channels"])
     assert ("'unit': 'C'" in text, "'unit': 'F'" in text) == (drafted == "C", drafted == "F")
     assert ("'Unit': {" in text) == (drafted is None)
+
+
+@pytest.mark.parametrize(
+    ("day", "asked"), [("{d:02d}.04.2026", ["timezone"]), ("04/{d:02d}/2026", ["format of the dates", "timezone"])]
+)
+def test_what_is_open_for_all_sensors_alike_is_written_out_once(
+    tmp_path: Path, say: Callable[..., Said], day: str, asked: list[str]
+) -> None:
+    for test, d in (("T1", 3), ("T2", 4)):
+        (tmp_path / test).mkdir()
+        for sensor in ("bed", "hall", "probe_Z"):
+            rows = [f"{day.format(d=d)} 08:{k // 6:02d}:{k % 6 * 10:02d};{20 + k % 7 / 10:.1f}" for k in range(200)]
+            (tmp_path / test / f"{sensor}.csv").write_text("\n".join(["time;value", *rows, ""]))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    for what in asked:
+        assert text.count(f"{what}? as in 'bed'") == 2
+    assert text.count("; the same in each of hall, probe_Z") == len(asked)

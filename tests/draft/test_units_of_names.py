@@ -70,3 +70,10 @@ def test_temps_of_a_table_or_in_seconds_is_time(name: str, unit: str | None) -> 
 def test_a_long_name_in_capitals_is_read_at_once() -> None:
     assert units.inches("V" + "O" * 60) is None
     assert units.inches("X_ERR(IN)") == "in"
+    assert units.inches("X_AIR (IN)") is None
+
+
+def test_an_in_behind_the_letter_of_an_axis_alone_is_asked() -> None:
+    values = _seen(21.0, 24.0)
+    assert any("inlet" in q for q in guess("Z(IN)", None, "float64", values).questions)
+    assert not any("inlet" in q for q in guess("X_ERR(IN)", None, "float64", values).questions)

@@ -223,15 +223,18 @@ def find_series(
         held[one], streams[one] = some | frozenset(kept), stream
     if len(held) < (2 if declared.columns is None else 1):
         return Found(None, doubts)
-    made = Series(block.stream, tags, held, streams, named, _units(block, names, held))
+    made = Series(block.stream, tags, held, streams, named, _units(block, names, held, tags))
     own = made.note() if declared.columns else f"{made.note()}; {declared.declined()}"
     return Found(made, (own, *doubts))
 
 
-def _units(block: Block, names: Array, held: Mapping[str, frozenset[str]]) -> dict[str, tuple[str, str]]:
-    """The unit that the rows of each series name, of those with one column of numbers. FormatError where one has
-    several."""
-    column = next((k for k, v in block.values.items() if v.dtype.kind == "O" and bare_header(k) in UNIT_WORDS), None)
+def _units(
+    block: Block, names: Array, held: Mapping[str, frozenset[str]], tags: Sequence[str]
+) -> dict[str, tuple[str, str]]:
+    """The unit that the rows of each series name, of those with one column of numbers; what names the series itself is
+    none: machine A is no ampere. FormatError where one has several."""
+    texts = [k for k, v in block.values.items() if v.dtype.kind == "O" and k not in tags]
+    column = next((k for k in texts if bare_header(k) in UNIT_WORDS), None)
     units: dict[str, tuple[str, str]] = {}
     if column is None:
         return units

@@ -111,6 +111,15 @@ def test_a_slower_channel_ends_before_the_others(tmp_path: Path, samples: str) -
         assert loss.reason == "1 line that is no row of 4 numbers"
 
 
+@pytest.mark.parametrize("first", [True, False])
+def test_rows_that_one_of_two_groups_lacks_in_its_middle_are_a_loss(tmp_path: Path, first: bool) -> None:
+    heading = packet(["a", "b"], x="X_Value\ta\tX_Value\tb", gap="\t\t").replace("Samples\t3\t\t3", "Samples\t5\t\t5")
+    whole, torn = [f"{k},0\t{k}" for k in range(5)], ["0,0\t5", "\t", "\t", "3,0\t8", "4,0\t9"]
+    rows = zip(torn, whole, strict=True) if first else zip(whole, torn, strict=True)
+    (loss,) = read(tmp_path, head("Multi") + heading + "\n".join(map("\t".join, rows)) + "\n").losses
+    assert loss.reason == "2 lines that are no rows of 4 numbers"
+
+
 def test_x_values_in_seconds_since_1904_are_absolute(tmp_path: Path) -> None:
     x = START // S + 2_082_844_800
     text = head("One") + packet(["a"], x="X_Value\ta") + f"{x},0\t1\n{x + 1},0\t2\n"

@@ -183,3 +183,14 @@ def test_numbers_with_fractions_are_no_quality_and_a_unit_may_be_spelled_twice(t
     path.write_text("\n".join(["time;Unit;Value", *rows, ""]), encoding="utf-8")
     assert read(path, Source())[2] == 60
     assert delimited.signals(delimited.open_table(path, Source()))[1].unit == "C"
+
+
+def test_a_column_that_is_sparse_behind_a_sound_head_is_proposed() -> None:
+    turned = np.searchsorted([90, 130, 250, 390, 420], np.arange(N), side="right")
+    speed = as_text(np.where(turned % 2, 4000.0, 0.0), 1)
+    late = [*speed[:60], *changes(speed)[60:]]
+    found, note = find_standing({"T": T, "n": late})
+    assert not found
+    assert "'n': most cells are empty" in (note or "")
+    lost = [c if k < 120 or k % 10 == 0 else "" for k, c in enumerate(FINE)]  # at another rate from there on
+    assert find_standing({"T": T, "F": lost}) == (frozenset(), None)

@@ -10,6 +10,7 @@ import pytest
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.text.file.lines import Sample
+from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.tables.find_table import find_table
 from thermodata.reader.text.tables.table import Table
 
@@ -126,6 +127,11 @@ def test_the_way_out_of_the_refusal_names_the_columns() -> None:
     names: Sequence[str] = ["time [s]", "T front [degC]", "Z [um]"]
     said = {"skip_rows": 1, "header_rows": 0, "names": names}
     assert columns(table("Time [s] T front [degC] Z [um]", "{s} {T} 0.0", **said)) == [("T front", "degC"), ("Z", "um")]
+
+
+@pytest.mark.parametrize("head", ["# Elapsed time, T_front, dZ", "#Elapsed time,T_front,dZ", "# time_s, T_front, dZ"])
+def test_the_mark_of_a_comment_before_the_word_for_time_is_none_of_it(head: str) -> None:
+    assert is_time_header(head.split(",")[0])
 
 
 @pytest.mark.parametrize("head", ["Elapsed time T_front dZ", "# Elapsed time T_front dZ"])

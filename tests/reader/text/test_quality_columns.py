@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Block, Source
+from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
 from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, worded
 
@@ -28,10 +32,35 @@ from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs,
         ),
         ({"T1": ["20"], "T2 quality": ["192"]}, {}),
         ({"quality": ["20"], "T1": ["1"]}, {}),
+        ({"quality": ["98", "97"], "T1": ["1"]}, {}),  # per cent
+        ({"T1": ["20"], "T2": ["20"], "Quality": ["192", "0"]}, {"T1": ("Quality", False), "T2": ("Quality", False)}),
+        ({"Value": ["20"], "Quality": ["Good", "Bad"]}, {"Value": ("Quality", False)}),
+        (  # one behind each value
+            {"T1": ["20"], "Quality": ["192"], "T2": ["20"], "Quality#2": ["0", "192"]},
+            {"T1": ("Quality", False), "T2": ("Quality#2", False)},
+        ),
+        (  # one before each value
+            {"Quality": ["192"], "T1": ["20"], "Quality#2": ["0", "192"], "T2": ["20"]},
+            {"T1": ("Quality", False), "T2": ("Quality#2", False)},
+        ),
+        (  # the surest of Wonderware's three
+            {"Value": ["20"], "Quality": ["0", "1"], "QualityDetail": ["192", "24"]},
+            {"Value": ("QualityDetail", False)},
+        ),
     ],
 )
 def test_values_and_their_qualities(columns: dict[str, list[str]], pairs: dict[str, tuple[str, bool]]) -> None:
     assert quality_pairs(columns) == pairs
+
+
+def test_a_quality_of_a_whole_row_flags_every_value_of_it_and_is_told(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{k:02};{20 + k / 10:.1f};{22 - k / 10:.1f};{0 if k == 3 else 192}" for k in range(40)]
+    (tmp_path / "a.csv").write_text("\n".join(["time;T_bed;T_air;Quality", *rows, ""]))
+    table = delimited.open_table(tmp_path / "a.csv", Source(timezone="UTC"))
+    (block,) = delimited.blocks(tmp_path / "a.csv", table, Source(timezone="UTC"))
+    assert isinstance(block, Block)
+    assert {name: np.flatnonzero(f).tolist() for name, f in (block.flags or {}).items()} == {"T_bed": [3], "T_air": [3]}
+    assert any("all 2 values of its row (T_bed, T_air)" in note for note in table.notes)
 
 
 def test_qualities_in_words_or_hexadecimal_are_text() -> None:
@@ -54,6 +83,7 @@ def test_qualities_in_words_or_hexadecimal_are_text() -> None:
         (np.array([192, 0, 24], np.int64), False, [0, 1, 1]),
         (np.array(["Good", None, "Bad", "uncertain", "", "OK"], object), False, [0, 0, 1, 0, 0, 0]),
         (np.array([True, False]), False, [0, 1]),
+        (np.array([0, 1, 16, 133]), True, [0, 1, 0, 0]),  # Wonderware's good, bad, doubtful and initial
     ],
 )
 def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]) -> None:
@@ -71,6 +101,12 @@ def test_rows_that_are_called_bad(values: np.ndarray, zero: bool, bad: list[int]
         (["0", "1"], "Validity", False),
         (["0"], "StatusCode", True),
         (["0"], "Quality", None),
+        (["0", "1"], "Quality", None),  # good and bad in Wonderware, bad and good of others
+        (["0", "1"], "Status", None),
+        (["0", "16"], "Quality", None),  # doubtful in Wonderware, a sensor's failure in OPC
+        (["0", "1", "133"], "Quality", True),
+        (["0", "133", "192"], "QualityDetail", False),
+        (["1"], "Quality", False),
         (["Good"], "Quality", False),
     ],
 )

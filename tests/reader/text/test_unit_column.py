@@ -8,6 +8,7 @@ import numpy as np
 
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import delimited
+from thermodata.reader.text.tables.row_series import with_series
 
 
 def _read(path: Path, units: list[str], head: str = "Date/Time,Unit,Value") -> tuple[str | None, int, list[str]]:
@@ -38,3 +39,12 @@ def test_several_units_or_columns_leave_it_open(tmp_path: Path) -> None:
     assert _read(tmp_path / "a.csv", ["C", "F"] * 25) == (None, 50, [])
     assert _read(tmp_path / "b.csv", ["C"] * 50, "Date/Time,Unit,Value,Other") == (None, 50, [])
     assert _read(tmp_path / "c.csv", ["lathe"] * 50) == (None, 50, [])
+
+
+def test_the_letter_of_a_machine_is_no_unit(tmp_path: Path) -> None:
+    assert _read(tmp_path / "a.csv", ["A"] * 50) == (None, 50, [])
+    assert any("'Unit' says 'A'" in note for note in delimited.open_table(tmp_path / "a.csv", Source()).notes)
+    rows = [f"2026-03-14 00:{k // 60:02d}:{k % 60:02d},{unit},{20 + k / 100:.2f}" for k in range(300) for unit in "AC"]
+    (tmp_path / "b.csv").write_text("\n".join(["Date/Time,Unit,Temperature", *rows, ""]), encoding="utf-8")
+    found = delimited.signals(with_series(delimited.open_table(tmp_path / "b.csv", Source()), Source()))
+    assert {s.name: s.unit for s in found} == {"A/Temperature": None, "C/Temperature": None}

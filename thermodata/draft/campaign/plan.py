@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from thermodata.draft.campaign.asked_once import asked_once
 from thermodata.draft.campaign.by_hand import asked_whether_held
 from thermodata.draft.campaign.channels import channels_of
 from thermodata.draft.campaign.jump_sources import with_their_sources
@@ -24,6 +25,7 @@ from thermodata.draft.folder.group import counted_on, files_of, tests_of
 from thermodata.draft.folder.legend import with_legends
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
+from thermodata.draft.folder.packed_pieces import packed_pieces
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.sensor_files import with_their_sensors
 from thermodata.draft.folder.sources import Group, sources_of
@@ -80,7 +82,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         }
     keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    sources = tuple(
+    sources: tuple[DraftSource, ...] = tuple(
         DraftSource(
             g.source,
             g.reader,
@@ -92,6 +94,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
                     *_of_clocks(g, groups, aligned),
                     *g.questions,
                     *one_or_many(g, groups, table.rows if table else ()),
+                    *packed_pieces(g, found.ignored),
                 )
                 if q
             ),
@@ -102,6 +105,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         )
         for g in groups
     )
+    sources = asked_once(sources, groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     notes += closed_workbooks(found.others)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}

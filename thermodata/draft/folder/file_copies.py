@@ -1,5 +1,5 @@
 """Files that somebody copied in their folder: 'day 2 - Kopie.csv' beside 'day 2.csv', equal to the last byte;
-and what else is another state of a file: half-written, or corrected."""
+and what else is another state of a file: its beginning, half-written, or corrected."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.files.raw_file import RawFile
 
 _UNFINISHED = (".part", ".partial", ".filepart", ".crdownload", ".download", ".tmp")
+_ASIDE = re.compile(
+    r"(?i)[\W_]*(?:bak|backups?|sicherung(?:en)?|kopien?|cop(?:y|ies)|old|alte?|archive?|záloha|sauvegarde)[\W_\d]*"
+)
+_BAK = (".bak", ".old", ".orig")
 _PART = 1 << 20
 _WHOLE = 64 << 20  # larger ones are compared at both ends
 
@@ -24,14 +28,41 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
         except OSError:
             continue
         if size:
-            alike.setdefault((path.parent, path.suffix.lower(), size), []).append(path)
+            named = _beside(path)
+            alike.setdefault((named.parent, named.suffix.lower(), size), []).append(path)
     found: dict[PurePosixPath, PurePosixPath] = {}
     for together in alike.values():
-        together.sort(key=lambda p: (len(p.stem), p.stem))
+        together.sort(key=lambda p: (len(_beside(p).stem), _beside(p).stem))
         for i, copy in enumerate(together):
             of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
-            if of is not None and _equal(folder / copy, folder / of):
+            if of is not None and _equal(folder / copy, folder / of, (folder / of).stat().st_size):
                 found[copy] = of
+    return found
+
+
+def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:
+    """File -> the longest one that goes on behind its last byte: 'R1_backup.csv' of a morning beside 'R1.csv', or
+    'R1.csv' beside a later 'R1 (1).csv'. Only where one is called as the other with a word or a number in brackets
+    more."""
+    sizes: dict[PurePosixPath, int] = {}
+    together: dict[tuple[PurePosixPath, str], list[PurePosixPath]] = {}
+    for path in paths:
+        try:
+            sizes[path] = (folder / path).stat().st_size
+        except OSError:
+            continue
+        if sizes[path]:
+            named = _beside(path)
+            together.setdefault((named.parent, named.suffix.lower()), []).append(path)
+    found: dict[PurePosixPath, PurePosixPath] = {}
+    for alike in together.values():
+        alike.sort(key=lambda p: -sizes[p])
+        for i, short in enumerate(alike):
+            longer = (p for p in alike[:i] if sizes[p] > sizes[short] and p not in found)
+            called = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
+            of = next((p for p in called if _equal(folder / short, folder / p, sizes[short])), None)
+            if of is not None:
+                found[short] = of
     return found
 
 
@@ -58,22 +89,35 @@ def other_versions(tests: Mapping[str, Sequence[RawFile]]) -> dict[str, RawFile]
     }
 
 
+def _beside(path: PurePosixPath) -> PurePosixPath:
+    """A file that was put aside as it would be called beside the one that it is of: 'backup/R1.csv' and 'R1.csv.bak' as
+    'R1 backup.csv' and 'R1 bak.csv'."""
+    if path.suffix.lower() in _BAK and path.with_suffix("").suffix:
+        bare = path.with_suffix("")
+        path = bare.with_name(f"{bare.stem} {path.suffix[1:]}{bare.suffix}")
+    if _ASIDE.fullmatch(path.parent.name):
+        path = path.parent.parent / f"{path.stem} {path.parent.name}{path.suffix}"
+    return path
+
+
 def _is_named_after(copy: PurePosixPath, original: PurePosixPath) -> bool:
+    copy, original = _beside(copy), _beside(original)
     before, named, after = copy.stem.partition(original.stem)
     more = f"{before}{after}".strip(" -_.")
     # 'run 12' is no copy of 'run 1'
     return bool(named) and bool(re.search(r"[^\W\d_]{2}|\(\d+\)", more)) and not re.match(r"\d", after)
 
 
-def _equal(one: Path, other: Path) -> bool:
-    size = one.stat().st_size
+def _equal(one: Path, other: Path, size: int) -> bool:
+    """Whether so many bytes at their start are equal."""
     try:
         with one.open("rb") as a, other.open("rb") as b:
             starts = range(0, size, _PART) if size <= _WHOLE else (0, size - _PART)
             for start in starts:
                 a.seek(start)
                 b.seek(start)
-                if a.read(_PART) != b.read(_PART):
+                part = min(_PART, size - start)
+                if a.read(part) != b.read(part):
                     return False
     except OSError:
         return False

@@ -1,9 +1,10 @@
-"""A table beside the logs, or a sheet among them, that says what their signals are: T01 is a bearing."""
+"""A table or a list beside the logs, or a sheet among them, that says what their signals are: T01 is a bearing, in °C;
+CH3 the tool along X."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,24 +12,47 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of
 from thermodata.draft.words.filenames import normal
+from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
-from thermodata.reader.text import split_unit
+from thermodata.reader.text import decode, split_unit
 from thermodata.schema.quantity import is_unit
 
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
 _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3
 _SHOWN = 4
+_LISTED = re.compile(r"\W*(?P<name>[\w.]+)\s*(?:->|=>|→|=|:)\s*(?P<text>\S.*)")  # a line of 'CH1 -> bearing [degC], X'
+_AXES = frozenset("XYZUVWABC")
+_EITHER = frozenset("ABC")
+_AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)?(?P<axis>[XYZ])$", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said."""
+
+    name: str
+    text: str
+    unit: str | None = None
+    axis: str | None = None
+
+    @property
+    def described(self) -> str:
+        """The words to guess by, the axis among them."""
+        return f"{self.text} {self.axis}" if self.axis and not _names_axis(self.text, self.axis) else self.text
 
 
 @dataclass(frozen=True, slots=True)
 class Legend:
-    """file: its path; says: the last word of a signal's name, in lower case -> (as it stands there, what it says)."""
+    """file: its path; says: the last word of a signal's name, in lower case -> what it says of it."""
 
     file: str
-    says: Mapping[str, tuple[str, str]]
+    says: Mapping[str, Said]
 
     def note(self) -> str:
-        shown = ", ".join(f"{name} is '{text}'" for name, text in list(self.says.values())[:_SHOWN])
+        shown = ", ".join(
+            f"{s.name} is '{s.described}'" + (f" in {s.unit}" if s.unit else "")
+            for s in list(self.says.values())[:_SHOWN]
+        )
         more = f" and {len(self.says) - _SHOWN} more" if len(self.says) > _SHOWN else ""
         return f"{self.file} says what signals are: {shown}{more}"
 
@@ -44,7 +68,8 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
         path = folder / file
         if path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
-        for rows in grids_of(path, _MOST_ROWS):
+        lists = [] if path.suffix.lower() in WORKBOOKS else [listed(path, _MOST_ROWS)]
+        for rows in (*grids_of(path, _MOST_ROWS), *lists):
             if (legend := _legend(file, rows, names, tests)) is not None:
                 logs = tuple(_described(f, legend) for f in found.logs)
                 left = tuple(x for x in found.ignored if x[0] != file)
@@ -71,8 +96,58 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
         for column in range(max(map(len, named))):
             said = {r[key].casefold(): (r[key], r[column]) for r in named if column < len(r) and _is_words(r[column])}
             if column != key and len(said) >= _FEWEST and len({text for _, text in said.values()}) * 2 > len(said):
-                return Legend(file, said)
+                beside = [c for c in range(max(map(len, named))) if c not in (key, column)]
+                units, axes = _column(named, key, beside, _is_unit), _column(named, key, beside, _AXES.__contains__)
+                found = {word: _parted(*of) for word, of in said.items()}
+                return Legend(
+                    file,
+                    {
+                        word: replace(one, unit=one.unit or units.get(word), axis=one.axis or axes.get(word))
+                        for word, one in found.items()
+                    },
+                )
     return None
+
+
+def _column(
+    rows: Sequence[Sequence[str]], key: int, columns: Sequence[int], are: Callable[[str], bool]
+) -> dict[str, str]:
+    """What the first column says whose filled cells all are of a kind, some of them more than a letter that may be of
+    another: a unit A, an axis A."""
+    for column in columns:
+        found = {r[key].casefold(): r[column] for r in rows if column < len(r) and r[column] not in ("", "-")}
+        if found and all(map(are, found.values())) and not set(found.values()) <= _EITHER:
+            return found
+    return {}
+
+
+def _parted(name: str, text: str) -> Said:
+    """'displacement TCP [um], X' in its parts."""
+    bare, unit = split_unit(text)
+    axis = _AXIS.match(bare) if unit is not None else None
+    if unit is None and (found := _AXIS.match(text)) and (inner := split_unit(found["text"].rstrip(", ")))[1]:
+        bare, unit, axis = inner[0], inner[1], found
+    letter = axis["axis"].upper() if axis is not None else None
+    return Said(name, (axis["text"] if axis is not None and bare == axis.string else bare).strip(" ,;"), unit, letter)
+
+
+def _names_axis(text: str, axis: str) -> bool:
+    return re.search(rf"(?<![^\W\d_]){axis}(?![^\W\d_])", text) is not None
+
+
+def listed(path: Path, most: int) -> list[list[str]]:
+    """The lines of a list ('CH1 -> spindle bearing [degC]') as rows of a name and words; none where few are such."""
+    try:
+        text, _, _ = decode(path.read_bytes())
+    except (ThermodataError, OSError):
+        return []
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    rows = [[m["name"], m["text"].strip()] for line in lines if (m := _LISTED.fullmatch(line))]
+    return rows if len(lines) <= most and 2 * len(rows) > len(lines) else []
+
+
+def _is_unit(cell: str) -> bool:
+    return is_unit(cell) and not cell.isdecimal()
 
 
 def _is_words(cell: str) -> bool:
@@ -84,6 +159,8 @@ def _described(file: RawFile, legend: Legend) -> RawFile:
         said = legend.says.get(_word(signal.name))
         if said is None or signal.properties.get("description"):
             return signal
-        return replace(signal, properties={**signal.properties, "description": said[1], IN_LEGEND: legend.file})
+        of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}
+        # words of a switch have none, and what the log says of its numbers counts more
+        return replace(signal, properties=of, unit=signal.unit or (said.unit if signal.dtype != "str" else None))
 
     return replace(file, recording=replace(file.recording, signals=tuple(map(told, file.signals))))

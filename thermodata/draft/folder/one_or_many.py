@@ -4,13 +4,14 @@ parts that each count from 0, look just so."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from thermodata.draft.files.blocks import is_called_test, is_test_number
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import without_part
 from thermodata.draft.words.said_by_names import said_by
+from thermodata.reader.rotated import age, unrotated
 
 _NAMED = 4
 # what programs call a sheet that nobody named, and what anything is called
@@ -45,10 +46,12 @@ def _of_sheets(tests: dict[str, tuple[RawFile, ...]], group: Group) -> list[str]
 
 def _of_files(tests: dict[str, tuple[RawFile, ...]], group: Group) -> list[str]:
     """Files whose names only count them, and that each begin at 0."""
-    alike: dict[str, dict[str, RawFile]] = {}
+    alike = _put_aside(tests)
+    put_aside, pieces = set(alike), {test for own in alike.values() for test in own}
     for test, own in tests.items():
         if (
-            len(own) == 1
+            test not in pieces
+            and len(own) == 1
             and own[0].part is None
             and (base := without_part(test)) != test
             and not is_called_test(re.split(r"[\s_.-]", base)[-1])
@@ -56,11 +59,30 @@ def _of_files(tests: dict[str, tuple[RawFile, ...]], group: Group) -> list[str]:
             alike.setdefault(base, {})[test] = own[0]
     return [
         f"{_shown(own)} each count from 0, and nothing dates them: a test each, or parts of one? then write one test, "
-        f"{base}, with files: {{{group.source}: [{', '.join(str(f.path) for f in list(own.values())[:_NAMED])}"
-        f"{', ...' if len(own) > _NAMED else ''}]}}; they are put end to end in this order"
+        f"{base}, with files: {{{group.source}: {_files(own, base in put_aside)}}}; they are put end to end in this "
+        "order"
         for base, own in alike.items()
         if len(own) > 1 and all(map(_begins_at_0, own.values())) and not _said_apart(list(own), lambda _: False)
     ]
+
+
+def _files(own: Mapping[str, RawFile], put_aside: bool) -> str:
+    """The files of a test as a campaign file lists them; many pieces of one log by a pattern, which takes the oldest
+    first too."""
+    if put_aside and len(own) > _NAMED:
+        return f'"{unrotated(next(iter(own.values())).path)}*"'
+    shown = ", ".join(str(f.path) for f in list(own.values())[:_NAMED])
+    return f"[{shown}{', ...' if len(own) > _NAMED else ''}]"
+
+
+def _put_aside(tests: dict[str, tuple[RawFile, ...]]) -> dict[str, dict[str, RawFile]]:
+    """Log -> the tests that are pieces of it by their names, the oldest first, and the log itself last."""
+    single = {own[0].path: (test, own[0]) for test, own in tests.items() if len(own) == 1 and own[0].part is None}
+    logs = {unrotated(path) for path in single} & {unrotated(path) for path in single if unrotated(path) != path}
+    return {
+        log.stem: dict(single[path] for path in sorted((p for p in single if unrotated(p) == log), key=age))
+        for log in sorted(logs)
+    }
 
 
 def _of_joined(tests: dict[str, tuple[RawFile, ...]]) -> list[str]:

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
 from thermodata.draft.files.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
 from thermodata.draft.files.sample import SMALL, Watch, short
-from thermodata.draft.folder.file_copies import copies_in, unfinished_in
+from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfinished_in
 from thermodata.draft.folder.lent_names import with_lent_names
 from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
 from thermodata.errors import ThermodataError
@@ -54,6 +54,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     shapes: dict[str, RawFile] = {}
     apart: dict[str, tuple[RawFile, list[RawFile]]] = {}
     copies, unfinished = copies_in(folder, paths), unfinished_in(paths)
+    beginnings = beginnings_in(folder, [p for p in paths if p not in copies and p not in unfinished])
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
@@ -62,6 +63,10 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
             continue
         if path in copies:
             ignored.append((str(path), f"a copy of {copies[path]}: their bytes are equal"))
+            continue
+        if path in beginnings:
+            said = f"the beginning of {beginnings[path]}, byte by byte: an earlier state of it, and no test of its own"
+            ignored.append((str(path), said))
             continue
         if path in unfinished:
             ignored.append((str(path), f"by its name a half-written copy of {unfinished[path]}, which is there"))
@@ -133,7 +138,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
         tuple(ignored),
         tuple(damaged),
         tuple(
-            dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in {*copies, *unfinished})
+            dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in {*copies, *unfinished, *beginnings})
         ),  # a log is no list of tests
         tuple(failed),
     )

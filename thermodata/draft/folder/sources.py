@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.draft.files.raw_file import Asked, RawFile, merged
-from thermodata.draft.words.filenames import unrotated
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
+from thermodata.reader.rotated import unrotated
 from thermodata.reader.text import split_unit
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}

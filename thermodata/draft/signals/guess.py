@@ -154,6 +154,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(_place(_unit(found, unit, written, values), own, text), own, values)
+    if not unit and units.may_be_an_inlet(_last(name)):
+        asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
+        found = replace(found, sure=False, questions=(*found.questions, asked))
     if values is None:
         return found
     return implausible(found, values) if known else doubted(found, bare, values)

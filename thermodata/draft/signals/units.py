@@ -73,7 +73,7 @@ _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
 _FURTHEST_M = 0.05  # no tool is displaced by more
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _LABELS = re.compile(r"\s*\{[^{}]*\}$")
-_INCH = re.compile(r"[XYZUVW](?:(?:ERR|POS|ACT|[_ ])[A-Z_ ]*)?\(IN\)$")
+_INCH = re.compile(r"[XYZUVW][_ ]?(?P<said>(?:ERR|POS|ACT|CMD|DEV|DISP|COMP)[A-Z_ ]*)? ?\(IN\)$")
 _F_AT_END = re.compile(r"[_.\s(-]F\)?$")
 
 _RATE_AT_END = re.compile(r"(?<=[^\s_])[_\s]+((?:mm|m|l)/(?:min|s)|U/min)$")  # not 1/min: 'T 1/min' is a smallest value
@@ -121,6 +121,12 @@ def without_labels(name: str) -> str:
 def inches(name: str) -> str | None:
     """The inch of 'X_ERR(IN)', in capitals as controls print; beside an axis alone, for 'COOLANT (IN)' is an inlet."""
     return "in" if _INCH.match(name.strip()) else None
+
+
+def may_be_an_inlet(name: str) -> bool:
+    """Whether an (IN) stands behind the letter of an axis alone: the inch of a control, or where a coolant comes in."""
+    found = _INCH.match(name.strip())
+    return found is not None and not found["said"]
 
 
 def counts_or_range(name: str) -> str | None:

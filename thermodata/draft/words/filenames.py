@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
+from thermodata.reader.rotated import unrotated
+
 _PIECE = re.compile(r"[_\-. ]+")
 _PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
-_ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.\d{1,3}|[.-]\d{8})$")
 _PIECES_COST = 0.1
 _PART_NUMBER = re.compile(r"(?:[_\-. ]\(?|\()\d{1,5}\)?$")
 
@@ -39,13 +40,6 @@ def normal(test: str) -> str:
 def without_part(name: str) -> str:
     """A name without the number of a part behind it: 'run' of 'run_2', 'log' of 'log.part3'."""
     return next((s for strip in (_PART_WORD, _PART_NUMBER) if (s := strip.sub("", name)) and s != name), name)
-
-
-def unrotated(path: PurePosixPath) -> PurePosixPath:
-    """A path without the number, or the day, of a piece that was put aside as logrotate does: `a.log` of `a.log.2`,
-    `a.log-20260403`."""
-    bare = _ROTATED.sub("", path.name)
-    return path.with_name(bare) if bare and PurePosixPath(bare).suffix else path
 
 
 def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:

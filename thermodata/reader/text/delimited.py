@@ -19,7 +19,7 @@ from thermodata.reader.text.cells.number import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.text.rows.footer import footer_notes
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF, values_of
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
@@ -36,7 +36,7 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
-    flagging = {quality: value for value, (quality, _) in table.quality.items()}
+    flagging = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
     stands = table.stands if table.series is None else frozenset[int]()
     found = tuple(
         Signal(

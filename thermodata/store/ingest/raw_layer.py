@@ -17,7 +17,7 @@ from thermodata.store.ingest.inventory import Inventory
 from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
 from thermodata.store.ingest.progress import counted
-from thermodata.store.ingest.resolve import file_inside, natural
+from thermodata.store.ingest.resolve import file_inside
 from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
 from thermodata.store.ingest.worker import Task
 from thermodata.store.raw.raw_stream import RawStream
@@ -108,7 +108,7 @@ class RawIngest:
             before.setdefault(raw.source_path, []).append(raw)
         there = set(files.paths)
         same = twins(files.paths, self.files.hashes_of(files.paths, name, spec))
-        for path in sorted({*there, *(p for p in before if p not in there and files.claims(p))}, key=natural):
+        for path in files.in_order({*there, *(p for p in before if p not in there and files.claims(p))}):
             if path in same:
                 self.notes.append(f"{path}: left out, its content is that of {same[path]}")
                 self.files.done(path)

@@ -6,13 +6,14 @@ import glob
 import os
 import re
 import stat
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
 from thermodata.reader.regular import kind_of
+from thermodata.reader.rotated import age, unrotated
 from thermodata.schema.campaign import Campaign, Test
 from thermodata.schema.lines import is_text
 
@@ -33,6 +34,14 @@ class SourceFiles:
     def isdisjoint(self, paths: Collection[str]) -> bool:
         """Whether it has none of the files."""
         return not any(path in paths for path in self.paths)
+
+    def in_order(self, paths: Iterable[str]) -> list[str]:
+        """Paths, also of files that are no longer there, as the patterns list them, and under each as names count."""
+        many = len(self.patterns) > 1
+        return sorted(paths, key=lambda path: (self._listed(path) if many else 0, *_in_order(path)))
+
+    def _listed(self, path: str) -> int:
+        return next((k for k, p in enumerate(self.patterns) if re.fullmatch(_regex(p), path)), len(self.patterns))
 
     def claims(self, path: str) -> bool:
         """Whether a path that is no longer there would still belong."""
@@ -69,7 +78,7 @@ def resolve(
         # a folder or a pipe that a pattern happens to fit is nobody's log; one that is named is a mistake
         named = not glob.has_magic(pattern)
         fitting = _fitting(root, pattern, named)
-        for name in sorted(fitting, key=natural) if len(fitting) > 1 else fitting:
+        for name in sorted(fitting, key=_in_order) if len(fitting) > 1 else fitting:
             relative = PurePosixPath(Path(name)).as_posix()
             if not is_text(relative):
                 odd[text := os.fsencode(relative).decode("utf-8", "backslashreplace")] = relative
@@ -143,6 +152,12 @@ def file_inside(folder: Path, name: str, where: str) -> Path:
             expected="a file inside the campaign's folder",
         )
     return root / name
+
+
+def _in_order(name: str) -> tuple[list[tuple[int, int, str]], tuple[int, int]]:
+    """Names as they are counted, but the pieces of one log that were put aside from the oldest on."""
+    path = PurePosixPath(name)
+    return natural(unrotated(path).as_posix()), age(path)
 
 
 def natural(text: str) -> list[tuple[int, int, str]]:

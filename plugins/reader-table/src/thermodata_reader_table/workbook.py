@@ -23,9 +23,9 @@ from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
-from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import percent_columns
+from thermodata_reader_table.workbook_related import with_related
 from thermodata_reader_table.workbook_series import taken_apart
 from thermodata_reader_table.workbook_sheet import Stream, Table
 
@@ -145,6 +145,12 @@ def read(path: Path, source: Source) -> Read:
         found[sheet] = [stream for streams, _, _ in apart for stream in streams]
         notes += [note for _, said, _ in apart for note in said]
         losses += [loss for _, _, lost in apart for loss in lost]
+    names = {name for streams in found.values() for s in streams for name in s.values}
+    for sheet, table in read_sheets.items():
+        plain = len(table.layout.groups) == 1 and not table.layout.groups[0].counted
+        for k, stream in enumerate(found[sheet]):
+            found[sheet][k], told = with_related(stream, source.table, table.where, told_by_cells=plain, beyond=names)
+            notes += told.notes
     for sheet in _of_another_clock(found):
         notes.append(f"sheet '{sheet}' is not read: its times are of another kind than those of the other sheets")
         del found[sheet]
@@ -219,6 +225,7 @@ def describe(path: Path, source: Source) -> Recording:
             "str" if v.dtype == object else "float64",
             Scaling("linear", {"gain": 100.0, "offset": 0.0}) if name in s.percent else None,
             s.said[name],
+            held=name in s.held,
         )
         for s in found.streams
         for name, v in s.values.items()
@@ -238,7 +245,7 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         size = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // max(1, len(stream.values)))))
         for first in range(0, t_ns.size, size):
             rows = np.arange(first, min(first + size, t_ns.size))[good[first : first + size]]
-            flags = {name: over[rows] * np.uint16(Flag.SATURATED) for name, over in stream.over.items()}
+            flags = {name: flag[rows] for name, flag in stream.flags.items()}
             values = {name: v[rows] for name, v in stream.values.items()}
             yield Block(stream.name, t_ns[rows], values, flags or None, stream.at[rows])
         if not good.all():

@@ -54,7 +54,8 @@ def taken_apart(
                     for k, new in called.items()
                 },
                 stream.at[rows],
-                {new: stream.over[k][rows] for k, new in called.items() if k in stream.over},
+                {new: stream.flags[k][rows] for k, new in called.items() if k in stream.flags},
+                {new: stream.empty[k][rows] for k, new in called.items() if k in stream.empty},
                 stream.sheet,
                 frozenset(new for k, new in called.items() if k in stream.percent),
                 {new: {**stream.said[k], SERIES: one} for k, new in called.items()},

@@ -35,6 +35,7 @@ from thermodata.reader.text.times.time_formats import (
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
+from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_days import local_times
 from thermodata_reader_table.workbook_start import begun
 
@@ -42,18 +43,21 @@ from thermodata_reader_table.workbook_start import begun
 @dataclass
 class Stream:
     """Columns with one time, in memory. names: as the recording has them; at: the sheet's row of each, shape (n,);
-    over: rows of a column whose cells say overload; sheet: where it stands; percent: columns that hold a fraction and
-    show it in per cent; said: properties of each."""
+    flags: of columns that have any, shape (n,): of cells that say overload; empty: cells that hold nothing, of columns
+    that have any; sheet: where it stands; percent: columns that hold a fraction and show it in per cent; said:
+    properties of each; held: columns whose values stand over empty cells."""
 
     name: str
     times: Stamps
     values: dict[str, Array]
     units: dict[str, str | None]
     at: Int1D
-    over: dict[str, Bool1D]
+    flags: dict[str, Array]
+    empty: dict[str, Bool1D]
     sheet: str
     percent: frozenset[str]
     said: dict[str, dict[str, str]]
+    held: frozenset[str] = frozenset()
 
 
 class Table:
@@ -98,7 +102,8 @@ class Table:
             self.notes += times.notes
             self._say_named_zone(group, times)
             keep = self._rows_of(group, times.t_ns)
-            values, units, over = dict[str, Array](), dict[str, str | None](), dict[str, Bool1D]()
+            values, units, flags = dict[str, Array](), dict[str, str | None](), dict[str, Array]()
+            empty = dict[str, Bool1D]()
             percent: set[str] = set()
             said: dict[str, dict[str, str]] = {}
             for i in group.columns:
@@ -110,10 +115,13 @@ class Table:
                     units[before + self.layout.names[i]] = "%"
                     percent.add(before + self.layout.names[i])
                 if beyond.any():
-                    over[before + self.layout.names[i]] = beyond[keep]
+                    flags[before + self.layout.names[i]] = beyond[keep] * np.uint16(Flag.SATURATED)
+                nothing = np.array([c in ("", None) for c in self.columns[i]], bool)[keep]
+                if nothing.any():
+                    empty[before + self.layout.names[i]] = nothing
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = replace(times, t_ns=times.t_ns[keep], notes=())
-            yield Stream(name, stamps, values, units, at, over, self.sheet, frozenset(percent), said)
+            yield Stream(name, stamps, values, units, at, flags, empty, self.sheet, frozenset(percent), said)
 
     def _say_named_zone(self, group: Group, times: Stamps) -> None:
         """A note on a zone that a header names, where it leaves open what holds in summer or another is declared."""

@@ -31,6 +31,10 @@ _NAMES = tuple(
     )
 )
 _GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true")
+_BAD_WORDS = ("bad", "schlecht", "invalid", "false")
+_INITIAL = 133  # the first value of Wonderware's answer, whose quality is 0 (good), 1 (bad), 16 (doubtful) or this
+_GOOD = frozenset({0, 1, _INITIAL, *range(192, 220), 248, 249, 252})  # somewhere
+_KNOWN = _GOOD | {*range(4, 33, 4), *range(64, 92, 4)}
 
 
 def _code(text: str) -> int | None:
@@ -48,17 +52,31 @@ def tells_quality(name: str) -> int | None:
     return next((k for k, pattern in enumerate(_NAMES) if pattern.fullmatch(name)), None)
 
 
+def are_qualities(statuses: Iterable[str]) -> bool:
+    """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent."""
+    texts = {s.strip().casefold() for s in statuses} - {""}
+    words = {text for text in texts if text.startswith((*_GOOD_WORDS, *_BAD_WORDS))}
+    codes = {_code(text) for text in texts - words}
+    known = all(c is not None and (c in _KNOWN or c > 255) for c in codes)
+    return known and (bool(codes & _GOOD) or any(is_good(word, True) for word in words))
+
+
 def zero_is_good(statuses: Iterable[str], name: str) -> bool | None:
-    """What the code 0 means: OPC UA's Good, or bad in OPC's classic quality (where 192 is good) and where 1 means
-    valid; None where all that is told is 0, under a name that does not say which. statuses: sampled ones; name: the
+    """What the code 0 means: Good in OPC UA and in Wonderware, bad in OPC's classic quality (where 192 is good) and
+    where 1 means valid; None where the codes do not tell which, nor the name. statuses: sampled ones; name: the
     column's."""
     codes = {c for c in (_code(s.strip()) for s in statuses) if c is not None}
     if any(c > 255 for c in codes):
         return True
-    if codes & {1, *range(64, 256)}:
+    if codes & {*range(64, 256)} - {_INITIAL}:
         return False
-    classic = "qual" in name.casefold() or "valid" in name.casefold()
-    return None if classic and codes == {0} else not classic
+    if _INITIAL in codes:
+        return True
+    called_valid = "valid" in name.casefold()
+    if {0, 1} <= codes:
+        return False if called_valid else None
+    classic = called_valid or "qual" in name.casefold()
+    return None if classic and 0 in codes and codes <= {0, 16} else not classic and 1 not in codes
 
 
 def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str, where: str) -> bool:
@@ -73,14 +91,15 @@ def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str
         return found
     if said == UNKNOWN:
         raise unanswered(KEY, "good or bad", where)
-    got = f"'{name}' says 0 of every value that was looked at"
+    got = f"'{name}' says 0 of values that were looked at, and no code that tells"
     raise QuestionError(
         "a quality whose code 0 may mean good or bad",
         where=where,
-        expected="codes that tell: 192 is good in OPC's classic quality, where 0 is bad; in OPC UA 0 is good",
+        expected="codes that tell: 192 is good in OPC's classic quality, where 0 is bad; in OPC UA and Wonderware 0 is "
+        "good",
         got=got,
         hint=f"declare table: {{{KEY}: good}}, or bad",
-        ask=f"{KEY}: good or bad? {got}: good in OPC UA, bad in OPC's classic quality",
+        ask=f"{KEY}: good or bad? {got}: good in OPC UA and Wonderware, bad in classic OPC and where 1 is valid",
         declare={KEY: UNKNOWN},
         meanwhile={KEY: _ANSWERS[0]},
     )
@@ -89,7 +108,7 @@ def declared_zero(table: Mapping[str, Any] | None, found: bool | None, name: str
 @lru_cache(maxsize=4096)
 def is_good(status: str, zero: bool) -> bool:
     """Whether a status keeps its value: Good and Uncertain in words, OPC's 64...255, or UA's codes below bad; no
-    status at all too. zero: what the code 0 means."""
+    status at all too. zero: what the code 0 means; 1 means the other."""
     text = status.strip().casefold()
     if not text or text.startswith(_GOOD_WORDS):
         return True
@@ -99,5 +118,5 @@ def is_good(status: str, zero: bool) -> bool:
     if code == 0:
         return zero
     if zero:
-        return code >> 30 < 2
+        return code != 1 and code >> 30 < 2
     return code == 1 or 64 <= code <= 255 or (code > 255 and code >> 30 < 2)

@@ -20,7 +20,9 @@ def names_of_time(names: Sequence[str], blanks: bool = False) -> list[int] | Non
     many places, 'Date', 'and', 'Time'."""
 
     def words_from(i: int) -> int:
-        """How many places one name of the time takes; 0 where none begins there."""
+        """How many places one name of the time takes; 0 where none begins there, nor at the mark of a comment."""
+        if i < len(names) and not any(map(str.isalnum, names[i])):
+            return 0
         for many in range(min(_WORDS, len(names) - i) if blanks else 1, 1, -1):
             text = names[i : i + many]
             if is_time_header(" ".join(text)) or is_time_header("".join(text)):

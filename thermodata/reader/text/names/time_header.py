@@ -11,6 +11,7 @@ from thermodata.reader.time_units import SECONDS, known_unit
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
 )
+_MARK = re.compile(r"^\s*[#%;]+\s*")  # of a comment that holds the header
 
 
 def unit_of_time(header: str, unit: str | None = None) -> str | None:
@@ -20,7 +21,7 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
     for text in (unit, own):
         if text is not None:
             return known_unit(text)
-    match = _UNIT_BEHIND.match(name.strip())
+    match = _UNIT_BEHIND.match(_MARK.sub("", name).strip())
     if match is None or not TIME_WORD.match(match["word"]):
         return None
     low = match["unit"].lower()
@@ -29,7 +30,7 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
 
 def is_time_header(header: str, unit: str | None = None) -> bool:
     """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
-    name = split_unit(header)[0].strip()
+    name = _MARK.sub("", split_unit(header)[0]).strip()
     if unit is not None and unit_of_time(header, unit) is None:
         return False
     return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)

@@ -13,6 +13,8 @@ from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.cells.number import clean
 from thermodata.schema.quantity import is_unit, normal_unit
 
+_DEGREES = ("C", "F", "K")
+
 
 @dataclass(frozen=True, slots=True)
 class UnitColumn:
@@ -32,7 +34,26 @@ def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[st
         return None
     found = dict.fromkeys(word for cell in cells[called[0]] if (word := clean(cell)))
     unit = next(iter(found)) if len({normal_unit(word) for word in found}) == 1 else None
-    return UnitColumn(called[0], numbers[0], unit) if unit is not None and is_unit(unit) else None
+    if unit is None or not is_unit(unit) or may_be_a_machine(unit):
+        return None
+    return UnitColumn(called[0], numbers[0], unit)
+
+
+def may_be_a_machine(word: str) -> bool:
+    """Whether a word under "Unit" may be the letter or number of a machine as well: the A of ampere. A thermometer's C,
+    F and K are taken for what they say."""
+    return len(word) == 1 and word.isalnum() and word not in _DEGREES
+
+
+def machine_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> str | None:
+    """A note on a column called a unit that holds one letter, which is not taken."""
+    if sum(kind not in (None, "str", "bool") for kind in kinds.values()) != 1:
+        return None
+    for name, kind in kinds.items():
+        found = {word for cell in cells[name] if (word := clean(cell))} if bare_header(name) in UNIT_WORDS else set()
+        if kind == "str" and len(found) == 1 and may_be_a_machine(word := next(iter(found))) and is_unit(word):
+            return f"'{name}' says '{word}', which may be a machine as well as a unit: if it is one, declare it as unit"
+    return None
 
 
 def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> Iterator[Block | Loss]:

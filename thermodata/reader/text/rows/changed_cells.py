@@ -125,7 +125,19 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
         return frozenset(
             names if whole and len(stands) == len(gaps) else stands
         ), f"{note}; else table: {{{KEY}: none}}"
-    return frozenset(), _doubt([names[k] for k in wordless if said[k].is_sparse or said[k].is_first_alone])
+    doubtful = [
+        k
+        for k in wordless
+        if said[k].is_sparse or said[k].is_first_alone or _sparse_later(names[k], columns[names[k]], filled[k], full)
+    ]
+    return frozenset(), _doubt([names[k] for k in doubtful])
+
+
+def _sparse_later(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> bool:
+    """Whether a column has a cell in every row at first, and few that come at no rate from there on."""
+    head = int(np.argmin(filled))
+    later = _written(name, cells[head:], filled[head:], full[head:]) if filled[head:].any() else None
+    return head > 1 and later is not None and later.is_sparse
 
 
 def _doubt(sparse: Sequence[str]) -> str | None:

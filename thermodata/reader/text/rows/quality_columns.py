@@ -8,19 +8,22 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from thermodata.plugin import Array
+from thermodata.reader.interleaved import bare_header
 from thermodata.reader.text.cells.number import clean
-from thermodata.reader.text.cells.status import BAD, is_good, zero_is_good
+from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, tells_quality, zero_is_good
 
-_QUALITY = re.compile(
-    r"^(?P<base>.+?)[ ._:/-]*(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
-    r"|status[ _]?code|opc[ _]?status|validity)$",
-    re.IGNORECASE,
+_WORD = (
+    r"(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
+    r"|status[ _]?code|opc[ _]?status|validity)"
 )
+_QUALITY = re.compile(rf"^(?P<base>.+?)[ ._:/-]*{_WORD}$", re.IGNORECASE)
+_BARE = re.compile(rf"^{_WORD}(?:#\d+)?$", re.IGNORECASE)  # a name that stands again has its number
 _CODE = re.compile(r"^[+-]?\d*$")
 _FRACTION = re.compile(r"^[+-]?\d*[.,]\d*[1-9]\d*$")  # no code: what is called the quality of oil, or of air
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
-QUALITY_OF = "quality_of"  # property of a signal: the one that it flags
+QUALITY_OF = "quality_of"  # property of a signal: the ones that it flags
+_SHOWN = 4
 Pairs = Mapping[str, tuple[str, bool]]
 Told = Callable[[bool | None, str], bool | None]
 
@@ -30,10 +33,10 @@ def quality_pairs(
 ) -> dict[str, tuple[str, bool]]:
     """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells; told: what the
     campaign file adds to what the codes of all columns of one word say (None: nothing)."""
-    found: dict[str, tuple[str, str]] = {}
+    found = _of_bare(columns)
     for name in columns:
         match = _QUALITY.match(name) or _ROUND.match(name)
-        if match is None:
+        if match is None or _BARE.match(name):
             continue
         base = match["base"].casefold()
         value = next((o for o in columns if o != name and _VALUE.sub("", o).casefold() == base), None)
@@ -45,6 +48,44 @@ def quality_pairs(
             own = [name for name, w in found.values() if w == word]
             zeros[word] = bool(told(zero_is_good((c for name in own for c in columns[name]), word), own[0]))
     return {value: (name, zeros[word]) for value, (name, word) in found.items()}
+
+
+def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]:
+    """Value column -> (a column that is called quality and no more, its word): of one such column all values of its
+    row, of several each those that stand before it, or behind it where the first does."""
+    bare = {n: m["word"].casefold() for n in columns if (m := _BARE.match(n)) and are_qualities(map(clean, columns[n]))}
+    if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
+        surest = min(words, key=lambda word: (tells_quality(bare_header(word)) or 0, word))
+        bare = {name: word for name, word in bare.items() if word == surest}
+    order = [name for name in columns if name in bare or not (_BARE.match(name) or _QUALITY.match(name))]
+    if len(bare) > 1 and order[-1] in bare:
+        order.reverse()
+    own = next(iter(bare), None) if len(bare) == 1 else None
+    found: dict[str, tuple[str, str]] = {}
+    for name in order:
+        if name in bare:
+            own = name
+        elif own is not None:
+            found[name] = own, bare[own]
+    return found
+
+
+def values_of(pairs: Pairs) -> dict[str, list[str]]:
+    """The values of each quality column, by it."""
+    values: dict[str, list[str]] = {}
+    for value, (own, _) in pairs.items():
+        values.setdefault(own, []).append(value)
+    return values
+
+
+def shared(pairs: Pairs) -> list[str]:
+    """A note on each quality column that flags the values of several others."""
+    return [
+        f"'{own}' is taken for the quality of all {len(values)} values of its row ({', '.join(values[:_SHOWN])}"
+        f"{', ...' if len(values) > _SHOWN else ''}): where it is bad they do not count"
+        for own, values in values_of(pairs).items()
+        if len(values) > 1
+    ]
 
 
 def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:

@@ -18,11 +18,11 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.names.unit_column import unit_column
+from thermodata.reader.text.names.unit_column import machine_note, unit_column
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.rows.grid import TIME
-from thermodata.reader.text.rows.quality_columns import quality_pairs, worded
+from thermodata.reader.text.rows.quality_columns import quality_pairs, shared, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
@@ -188,7 +188,9 @@ def find_table(
         *_notes(layout, kinds, groups),
         *midnights,
         *units_noted,
+        *shared(quality),
         standing_note,
+        machine_note(bare, cells_of),
         doubt,
         open_zone,
     ]

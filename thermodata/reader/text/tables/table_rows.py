@@ -17,7 +17,7 @@ from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
-from thermodata.reader.text.rows.quality_columns import bad_rows
+from thermodata.reader.text.rows.quality_columns import bad_rows, values_of
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
 from thermodata.reader.text.tables.table import Table, TimedGroup
@@ -48,7 +48,7 @@ class RowReader:
 
     def __init__(self, table: Table, source: Source, size: int) -> None:
         self.table = table
-        qualities = {quality: name for name, (quality, _) in table.quality.items()}
+        qualities = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
         self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))

@@ -36,6 +36,7 @@ class PacketRows:
         self.name, self.packet, self.streams, self.times, self.grid = name, packet, streams, times, grid
         self.block_rows = int(source.options.get("block_rows", 0))
         self.done = 0
+        self._holes: dict[int, list[int]] = {}  # of a group: lines without it behind its last row, or its start
 
     def items(self, rows: Rows) -> Iterator[Block | Loss]:
         """The blocks of all streams, then the losses."""
@@ -48,12 +49,22 @@ class PacketRows:
             if good is not None:
                 said = self._has_value(group, cells, rows.n) | (unheld & goes_on)
                 lost |= set(rows.line[~good & said].tolist())
+            lost |= self._within(group, rows, good, goes_on)
             unheld &= ~goes_on
             size = self.block_rows or max(1, block.t_ns.size)
             for a in range(0, block.t_ns.size, size):
                 yield block.part(a, a + size)
         self.done += rows.n
         yield from self._losses(rows, cells, lost)
+
+    def _within(self, group: list[int], rows: Rows, good: Bool1D | None, goes_on: Bool1D) -> set[int]:
+        """The lines that a group lacks before one that it has: those behind the last one are its end."""
+        has = np.flatnonzero(goes_on if good is None else good & goes_on)
+        lacks = np.zeros(0, np.int64) if good is None else np.flatnonzero(~good & goes_on)
+        last = int(has[-1]) if has.size else -1
+        pending = self._holes.get(group[0], [])
+        self._holes[group[0]] = [*(pending if last < 0 else ()), *rows.line[lacks[lacks > last]].tolist()]
+        return {*(pending if last >= 0 else ()), *rows.line[lacks[lacks < last]].tolist()}
 
     def _cells(self, rows: Rows) -> _Cells:
         packet, over = self.packet, {}

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text import split_unit
+from thermodata.reader.typed_columns import ROWS, Related, Relating, related
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata_reader_table.parquet.columns import values_of
@@ -28,15 +30,20 @@ def describe(path: Path, source: Source) -> Recording:
     apart = series_of(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
+    told = related_columns(table) if apart.series is None else Related()
     signals = tuple(
-        Signal(n, STREAM, split_unit(n)[1], table.dtype(i))
+        Signal(n, STREAM, split_unit(n)[1], table.dtype(i), properties=told.properties(n), held=n in told.stands)
         for i, n in enumerate(table.names)
         if i not in (table.time, *table.beside)
     )
     signals = signals if apart.series is None else apart.series.signals(signals)
     start = (int(good[0]) if good.size else 0) if found.absolute else None
     return Recording(
-        signals, "absolute" if found.absolute else "relative", start, True, (*table.notes, *found.notes, *apart.notes)
+        signals,
+        "absolute" if found.absolute else "relative",
+        start,
+        True,
+        (*table.notes, *found.notes, *apart.notes, *told.notes),
     )
 
 
@@ -47,19 +54,43 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = Table(path, source)
     series = series_of(table).series
     if series is None:
-        yield from _rows(table)
+        yield from _rows(table, related_columns(table))
         return
     apart = TakenApart(series, path.name)
-    for item in _rows(table):
+    for item in _rows(table, Related()):
         yield from apart.split(item)
     yield from apart.rest()
 
 
-def _rows(table: Table) -> Iterator[Block | Loss]:
+def related_columns(table: Table) -> Related:
+    """What the columns of a table, which is of one series, say of each other in its first rows."""
+    columns = table.columns()
+    head = next(table.batches(ROWS), None)
+    if head is None:
+        return Related()
+    with damage_as_format_error(table.path):
+        values = {name: values_of(head.column(i), dtype) for i, name, dtype in columns}
+        empty = _empty(head, columns)
+    t_ns = table.stamps(ROWS).t_ns
+    by_cells = table.time is not None
+    return related(table.source.table, values, empty, t_ns, table.path.name, told_by_cells=by_cells)
+
+
+def _empty(batch: Any, columns: Sequence[tuple[int, str, str]]) -> dict[str, Bool1D]:
+    """The cells that hold nothing, of columns that have any: a NaN that was written is none."""
+    return {
+        name: np.asarray(batch.column(i).is_null().to_numpy(zero_copy_only=False), bool)
+        for i, name, _ in columns
+        if batch.column(i).null_count
+    }
+
+
+def _rows(table: Table, told: Related) -> Iterator[Block | Loss]:
     source, path = table.source, table.path
     times = table.stamps().t_ns
     at = missing = 0
-    columns = [(i, n, table.dtype(i)) for i, n in enumerate(table.names) if i not in (table.time, *table.beside)]
+    columns = table.columns()
+    relating = Relating(told)
     size = max(1, int(source.options.get("block_rows", min(_ROWS, 1_000_000 // len(table.names)))))
     for batch in table.batches(size):
         t_ns = times[at : at + batch.num_rows]
@@ -69,6 +100,8 @@ def _rows(table: Table) -> Iterator[Block | Loss]:
         missing += int((~good).sum())
         with damage_as_format_error(path):
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
-        yield Block(STREAM, t_ns[good], values, at=rows)
+            empty = {name: nothing[good] for name, nothing in _empty(batch, columns).items()}
+        values, flags = relating.over(values, {}, empty)
+        yield Block(STREAM, t_ns[good], values, flags or None, at=rows)
     if missing:
         yield Loss(path.name, None, None, missing / at, f"{counted(missing, 'row')} without a time")

@@ -254,6 +254,10 @@ class Table:
             return "float64"
         return "str"
 
+    def columns(self) -> list[tuple[int, str, str]]:
+        """(number, name, dtype) of those beside the time."""
+        return [(i, n, self.dtype(i)) for i, n in enumerate(self.names) if i not in (self.time, *self.beside)]
+
     def _complete(self, column: int) -> bool:
         meta, place = self.file.metadata, ".".join(self.places[column])
         for number in range(meta.num_row_groups):

@@ -1,0 +1,85 @@
+"""Pieces of one log that were put aside: the oldest first where nothing dates them, and packed ones are asked for."""
+
+from __future__ import annotations
+
+import gzip
+from collections.abc import Callable
+from pathlib import Path, PurePosixPath
+
+import pytest
+
+from thermodata.draft.make import draft_files
+from thermodata.reader.rotated import age, unrotated
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+from .conftest import Said
+
+Say = Callable[..., Said]
+CAMPAIGN = """\
+schema: thermodata/campaign/1
+id: shop
+machine: {id: x}
+sources: {log: {reader: table}}
+channels: {T_bed: {source: log, signal: "T_bed [degC]", quantity: temperature, at: bed}}
+tests:
+  - {id: warm, kind: other, role: calibration, files: {log: FILES}}
+"""
+
+
+def piece(number: int) -> str:
+    """Of 60 rows that count from 0, in which the temperature says which of the log they are."""
+    return "t [s],T_bed [degC]\n" + "".join(f"{10 * i},{20 + number + i / 100:.2f}\n" for i in range(60))
+
+
+def dated(hour: int) -> str:
+    return "time,T_bed [degC]\n" + "".join(f"2026-03-02T{hour:02d}:{i:02d}:00Z,{20 + i / 100:.2f}\n" for i in range(60))
+
+
+def test_the_pieces_of_one_log_from_the_oldest_on() -> None:
+    names = ["a.log", "a.log.1", "a.log.10", "a.log.2"]
+    assert sorted(names, key=lambda n: age(PurePosixPath(n))) == ["a.log.10", "a.log.2", "a.log.1", "a.log"]
+    assert [unrotated(PurePosixPath(n)).name for n in ("a.log-20260403", "run.1", "V1.2.csv")] == [
+        "a.log",
+        "run.1",
+        "V1.2.csv",
+    ]
+
+
+def test_undated_pieces_are_asked_as_one_test_the_oldest_first(tmp_path: Path) -> None:
+    for k, name in enumerate(("a.log.2", "a.log.1", "a.log")):
+        (tmp_path / name).write_text(piece(k))
+    (question,) = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if "parts of one?" in q]
+    assert "one test, a, with files: {log: [a.log.2, a.log.1, a.log]}" in question
+    for k in range(3, 7):
+        (tmp_path / f"a.log.{k}").write_text(piece(-k))
+    (tmp_path / "campaign.yaml").unlink()
+    (question,) = [q for s in draft_files(tmp_path).draft.sources for q in s.questions if "parts of one?" in q]
+    assert 'with files: {log: "a.log*"}' in question
+
+
+@pytest.mark.parametrize(
+    ("files", "order"),
+    [('"a.log*"', (2, 1, 0)), ("[a.log, a.log.2, a.log.1]", (0, 2, 1)), ("[a.log.1, a.log]", (1, 0))],
+)
+def test_undated_pieces_are_put_end_to_end_as_listed_or_the_oldest_first(
+    tmp_path: Path, files: str, order: tuple[int, ...]
+) -> None:
+    for k, name in enumerate(("a.log", "a.log.1", "a.log.2")):
+        (tmp_path / name).write_text(piece(k))
+    store = Store(tmp_path / "store", create=True)
+    for said in ('"a.log.*"', files):  # an order that is changed makes the test anew
+        (tmp_path / "campaign.yaml").write_text(CAMPAIGN.replace("FILES", said))
+        ingest(store, tmp_path / "campaign.yaml")
+    with store.reader() as con:
+        found = con.execute("select floor(value) from sample where t_s % 600 = 0 order by t_s").fetchall()
+    assert [int(v) - 20 for (v,) in found] == list(order)
+
+
+def test_a_packed_piece_of_a_log_is_asked_for(tmp_path: Path, say: Say) -> None:
+    (tmp_path / "a.log").write_text(dated(10))
+    (tmp_path / "a.log.1").write_text(dated(9))
+    (tmp_path / "a.log.2.gz").write_bytes(gzip.compress(dated(8).encode()))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert "'a.log.2.gz' is a piece of a.log too, packed and not read: unpack and draft again" in text

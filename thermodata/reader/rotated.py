@@ -1,0 +1,22 @@
+"""Pieces of one log that were put aside, as logrotate does: `a.log.2` is older than `a.log.1`, and `a.log` goes on."""
+
+from __future__ import annotations
+
+import re
+from pathlib import PurePosixPath
+
+_ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.(?P<number>\d{1,3})|[.-](?P<day>\d{8}))$")
+
+
+def unrotated(path: PurePosixPath) -> PurePosixPath:
+    """A path without the number, or the day, of a piece that was put aside: `a.log` of `a.log.2`, `a.log-20260403`."""
+    bare = _ROTATED.sub("", path.name)
+    return path.with_name(bare) if bare and PurePosixPath(bare).suffix else path
+
+
+def age(path: PurePosixPath) -> tuple[int, int]:
+    """A sort key of the pieces of one log, the oldest first: numbered ones, by days, and the one that goes on."""
+    found = _ROTATED.search(path.name) if unrotated(path) != path else None
+    if found is None:
+        return 2, 0
+    return (0, -int(found["number"])) if found["number"] else (1, int(found["day"]))

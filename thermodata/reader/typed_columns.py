@@ -1,0 +1,108 @@
+"""What columns of typed tables (workbooks, Parquet) say of each other, by the rules of text: which stand over the empty
+cells behind them, and which tell the quality of others."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF, Pairs, bad_rows, quality_pairs, shared, values_of
+from thermodata.reader.zone import NAT
+
+ROWS = 20_000  # whose cells are looked at
+_NO_NUMBER = "NaN"  # a cell that says it, where others say nothing
+
+
+@dataclass(frozen=True, slots=True)
+class Related:
+    """stands: columns whose values stand over the empty cells behind them; quality: value column -> (that of its
+    quality, whether the code 0 is good); notes: on both."""
+
+    stands: frozenset[str] = frozenset()
+    quality: Pairs = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def properties(self, name: str) -> dict[str, str]:
+        """What is said of a column: the values that it tells the quality of."""
+        values = values_of(self.quality).get(name)
+        return {QUALITY_OF: ", ".join(values)} if values else {}
+
+
+class Relating:
+    """The values and flags of a table's columns, block by block, with what stands and what is called bad."""
+
+    def __init__(self, related: Related) -> None:
+        self.related = related
+        self._standing = {name: Standing() for name in related.stands}
+
+    def over(
+        self, values: Mapping[str, Array], flags: Mapping[str, Array], empty: Mapping[str, Bool1D]
+    ) -> tuple[dict[str, Array], dict[str, Array]]:
+        """(values, flags) of all rows of a block, each shape (n,). empty: cells that hold nothing, of the columns that
+        have any."""
+        values, flags = dict(values), dict(flags)
+        for name, standing in self._standing.items():
+            if name in values:
+                written = ~empty[name] if name in empty else np.ones(values[name].size, bool)
+                values[name], flag = standing.over(values[name], flags.get(name), written)
+                if flag is not None:
+                    flags[name] = flag
+        for name, (own, zero) in self.related.quality.items():
+            if name in values and own in values and (bad := bad_rows(values[own], zero)).any():
+                flags[name] = flags.get(name, np.zeros(bad.size, np.uint16)) | bad
+        return values, flags
+
+
+def related(
+    said: Mapping[str, Any] | None,
+    values: Mapping[str, Array],
+    empty: Mapping[str, Bool1D],
+    t_ns: Int1D,
+    where: str,
+    *,
+    told_by_cells: bool = True,
+    beyond: Collection[str] = (),
+) -> Related:
+    """By the first rows of columns on one time. values: shape (n,) each; empty: cells that hold nothing, of the columns
+    that have any; told_by_cells: False where only what is declared stands; beyond: names of other streams of the file,
+    which may be declared as well. UsageError: `declared_standing`; QuestionError: `declared_zero`."""
+    said = said or {}
+    cells = {name: _cells(v[:ROWS], empty.get(name)) for name, v in values.items()}
+    quality = quality_pairs(cells, lambda zero, name: declared_zero(said, zero, name, where))
+    note = None
+    told = _declared(said.get(KEY), list(values), beyond, where)
+    own = {name for name, _ in quality.values()}
+    if told is None:
+        seen = t_ns[t_ns != NAT]
+        told = frozenset()
+        if told_by_cells and not (seen.size > 1 and seen[-1] < seen[0]):
+            told, note = find_standing({name: c for name, c in cells.items() if name not in own})
+    told |= {own for value, (own, _) in quality.items() if value in told}
+    return Related(told, quality, tuple(n for n in (note, *shared(quality)) if n))
+
+
+def _declared(said: object, names: Sequence[str], beyond: Collection[str], where: str) -> frozenset[str] | None:
+    """Those of some columns that are declared, by their own names behind that of a sheet too."""
+    if not isinstance(said, list | tuple):
+        return declared_standing(said, names, where)
+
+    def called(one: str, among: Iterable[str]) -> list[str]:
+        return [one] if one in among else [name for name in among if name.endswith(f"/{one}")]
+
+    unknown = [one for one in map(str, said) if not called(one, [*names, *beyond])]
+    declared_standing(unknown, names, where)
+    return frozenset(name for one in map(str, said) for name in called(one, names))
+
+
+def _cells(values: Array, empty: Bool1D | None) -> list[str]:
+    """What cells hold, as text has it: nothing where they are empty."""
+    if values.dtype.kind == "O":
+        return ["" if v is None else str(v) for v in values.tolist()]
+    none = np.zeros(values.size, bool) if empty is None else empty[: values.size]
+    return ["" if e else _NO_NUMBER if v != v else str(v) for v, e in zip(values.tolist(), none.tolist(), strict=True)]
