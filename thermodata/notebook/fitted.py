@@ -264,7 +264,9 @@ def compared(store: Store, refs: Sequence[str]) -> Comparison:
 
 def history_of(store: Store, ref: str) -> Listed:
     """The versions that led to a model, as `thermodata history` lists them."""
-    from thermodata.report.fit_text import HISTORY
+    from thermodata.report.fit_text import history_table
     from thermodata.report.history import history_rows
 
-    return Listed(history_rows(store, ref), HISTORY)
+    rows = history_rows(store, ref)
+    shown, columns = history_table(rows)
+    return Listed(rows, columns, shown=shown)
