@@ -18,6 +18,7 @@ from thermodata.modelling.differences import Course, between, over_tests
 from thermodata.modelling.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
+from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.history import chain_units, versions
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
@@ -49,6 +50,7 @@ class Line:
     phase: str
     errors: tuple[float | None, ...]
     differences: tuple[Difference | None, ...] = ()  # of each but the pinned one to it
+    in_sample: tuple[bool, ...] = ()  # in which models the test was fitted though it is no calibration test
 
     @property
     def differs(self) -> bool:
@@ -100,6 +102,7 @@ def show(request: Request) -> Response:
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
+        in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
         waterfall=_waterfall(chain),
         undo=_undo(chosen[-1], models),
@@ -168,8 +171,22 @@ def _lines(scores: list[list[Score]]) -> list[Line]:
         for s in each
         if s.phase == "all"
     }
-    known = [{(s.campaign, s.test, s.response, s.phase): s.rmse_um for s in each} for each in scores]
-    return [Line(k[0], k[1], role, k[2], k[3], tuple(e.get(k) for e in known)) for k, role in keys.items()]
+    known = [{(s.campaign, s.test, s.response, s.phase): s for s in each} for each in scores]
+    found = {key: [each.get(key) for each in known] for key in keys}
+    return [
+        Line(
+            *key[:2],
+            role,
+            *key[2:],
+            tuple(s.rmse_um if s else None for s in found[key]),
+            in_sample=tuple(s is not None and _in_sample(s) for s in found[key]),
+        )
+        for key, role in keys.items()
+    ]
+
+
+def _in_sample(score: Score) -> bool:
+    return score.role != base_role(score.role)
 
 
 def _with_differences(lines: list[Line], courses: Sequence[Mapping[Course, Float1D]]) -> list[Line]:
@@ -196,9 +213,19 @@ def _of_responses(courses: Mapping[Course, Float1D], responses: Sequence[str]) -
     return {key: course for key, course in courses.items() if key[2] in responses}
 
 
-def _roles(scores: list[list[Score]], responses: Sequence[str]) -> list[tuple[str, list[float | None]]]:
+def _roles(scores: list[list[Score]], responses: Sequence[str]) -> list[tuple[str, list[tuple[float | None, bool]]]]:
+    """(role, of each model its error, and whether tests of the role were fitted though they are no calibration)."""
     names = dict.fromkeys(base_role(s.role) for each in scores for s in each)
-    return [(role, [pooled(each, role, responses=responses) for each in scores]) for role in names]
+    return [
+        (
+            role,
+            [
+                (pooled(each, role, responses=responses), any(_in_sample(s) for s in each if base_role(s.role) == role))
+                for each in scores
+            ],
+        )
+        for role in names
+    ]
 
 
 def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
