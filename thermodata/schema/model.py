@@ -151,7 +151,7 @@ class Model(Strict):
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
-    taken_back: set by remove: id of the version in which all that was added since is taken out again
+    taken_back: set by remove: id of the version that an effect was taken out of
     notes: free text
     """
 
