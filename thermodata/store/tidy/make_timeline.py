@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Int1D, Loss
+from thermodata.reader.clock_leaps import LEAP_NS
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
@@ -36,7 +37,7 @@ def make_timeline(
     if _known_ordered(raws):
         return line
     if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
-        order = by_time(line.file_times, n)
+        order = by_time(line.file_times, n, resets_allowed=resets_allowed)
     else:
         begins = [0, *accumulate(raw.rows for raw, _ in raws)]
         held = all(s.held for raw, _ in raws for s in raw.signals)
@@ -53,7 +54,7 @@ def make_timeline(
 
 def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
     return all(raw.ordered for raw, _ in raws) and all(
-        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
+        0 <= b.first_ns + r - a.last_ns - s <= LEAP_NS for (a, s), (b, r) in pairwise(raws)
     )
 
 
