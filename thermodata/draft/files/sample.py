@@ -66,8 +66,8 @@ class RepeatedTimes:
 @dataclass(frozen=True, slots=True)
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
-    for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before; failed:
-    what ended the reading of it; repeats: of times; set_back: the clock, within the file."""
+    for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
+    failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
