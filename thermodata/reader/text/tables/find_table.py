@@ -20,6 +20,7 @@ from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import unit_column
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import quality_pairs, worded
@@ -123,15 +124,18 @@ def find_table(
     rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
+    looked = first
+    if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
+        head, top, rows, looked = head[:end], top[:end], rows[:end], replace(first, rest=())
     layout = find(rows, said, where, delimiters.shown(delimiter, blanks) if strict else None)
     width = len(layout.names)
     # lines of a header were joined, rows are not
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
-    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
+    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *looked.rest))
     body = [r for r in (*top_rows, *later) if len(r) == width]
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
-    groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
+    groups = tuple(_timed(g, layout, body, head, cells, looked, stream, where) for g in layout.groups)
     lines = map(cells, head[: layout.first])
     groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
     cells_of = sampled_cells(layout, groups, body)
