@@ -34,6 +34,7 @@ from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.times.time_formats import find_formats
+from thermodata.reader.text.times.unpadded import unpadded_note
 
 _HEAD_LINES = 500  # in which the layout shows
 _HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
@@ -191,6 +192,7 @@ def find_table(
         *layout.notes,
         *_notes(layout, kinds, groups),
         *midnights,
+        *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
         *units_noted,
         standing_note,
         doubt,
