@@ -18,10 +18,11 @@ _LEAST = 20
 
 @dataclass(frozen=True, slots=True)
 class SetBack:
-    """row: of the stream, from 1; by_ns: by how much."""
+    """row: of the stream, from 1; by_ns: by how much; in_no_order: whether rows stand in no order at all."""
 
     row: int
     by_ns: int
+    in_no_order: bool = False
 
 
 @dataclass(slots=True)
@@ -61,7 +62,9 @@ class Clock:
         x = np.concatenate(self.values)
         before = set(zip(t[:keep].tolist(), x[:keep].tolist(), strict=True))
         same = sum(pair in before for pair in zip(t[again].tolist(), x[again].tolist(), strict=True))
-        return None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]))
+        return (
+            None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]), self.steps.in_no_order)
+        )
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:
