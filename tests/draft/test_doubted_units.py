@@ -95,3 +95,16 @@ MEASURED = [f"{20 + k / 97:.3f}" for k in range(200)]
 def test_numbers_that_a_file_keeps_as_text_are_asked(cells: list[str], said: str) -> None:
     seen = values_of(np.array(cells, object))
     assert said in guess("bed", None, "str", seen).comment()
+
+
+def test_a_unit_in_the_letters_of_another_encoding_is_asked_for_that_first() -> None:
+    seen = values_of(np.linspace(20.0, 30.0, 200))
+    assert (
+        "unit: encoding: cp850 in the source, by which 'řC' is '°C'" in guess("T [řC]", "řC", "float64", seen).comment()
+    )
+    assert "encoding" not in guess("T [tenths]", "tenths", "float64", seen).comment()
+
+
+@pytest.mark.parametrize("name", ["/thermo/spindle.variance", "T_stddev", "Varianz T1"])
+def test_how_far_readings_scatter_is_no_reading(name: str) -> None:
+    assert guess(name, None, "float64", values_of(np.linspace(0.0, 0.01, 200))).quantity is None
