@@ -58,6 +58,13 @@ def test_a_unit_that_is_stated_is_not_asked() -> None:
         ("Bett", "°F", 70.0, 87.0, ""),
         ("Bett", "°C", 21.0, 87.0, ""),
         ("T Motor Z", "°C", 70.0, 87.0, ""),
+        ("T_hall", "°C", 294.0, 310.0, "unit: K, or °C? no reading is below 294 degC"),
+        ("T bearing front", "°C", 294.0, 320.0, "unit: K, or °C? no reading is below 294 degC"),
+        ("T_hall", "K", 294.0, 310.0, ""),
+        ("T tool", "°C", 21.0, 320.0, ""),  # of a cut
+        ("T bearing front", "°C", 230.0, 320.0, ""),
+        ("T_hall", "°C", 200.0, 210.0, "unit: °C? no reading is below 200 degC"),
+        ("T bearing front", "°C", 4000.0, 4095.0, "raw counts, or K?"),
     ],
 )
 def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
@@ -65,3 +72,39 @@ def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
 ) -> None:
     said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200))).comment()
     assert asked in said if asked else "unit:" not in said
+
+
+MEASURED = [f"{20 + k / 97:.3f}" for k in range(200)]
+
+
+@pytest.mark.parametrize(
+    ("cells", "said"),
+    [
+        (MEASURED, "numbers kept as text (20 to 22.05)"),
+        ([c.replace(".", ",") for c in MEASURED], "numbers kept as text (20 to 22.05)"),
+        (
+            [c.translate(str.maketrans("0123456789.", "０１２３４５６７８９．")) for c in MEASURED],
+            "numbers kept as text",
+        ),
+        ([*MEASURED, "", "n/a"], "numbers kept as text"),
+        ([f"{1000 + k}" for k in range(200)], "sure: text"),  # of programs
+        (["1.5", "2.5"] * 100, "sure: text"),  # versions of one
+        ([f"N{c}" for c in MEASURED], "sure: text"),
+    ],
+)
+def test_numbers_that_a_file_keeps_as_text_are_asked(cells: list[str], said: str) -> None:
+    seen = values_of(np.array(cells, object))
+    assert said in guess("bed", None, "str", seen).comment()
+
+
+def test_a_unit_in_the_letters_of_another_encoding_is_asked_for_that_first() -> None:
+    seen = values_of(np.linspace(20.0, 30.0, 200))
+    assert (
+        "unit: encoding: cp850 in the source, by which 'řC' is '°C'" in guess("T [řC]", "řC", "float64", seen).comment()
+    )
+    assert "encoding" not in guess("T [tenths]", "tenths", "float64", seen).comment()
+
+
+@pytest.mark.parametrize("name", ["/thermo/spindle.variance", "T_stddev", "Varianz T1"])
+def test_how_far_readings_scatter_is_no_reading(name: str) -> None:
+    assert guess(name, None, "float64", values_of(np.linspace(0.0, 0.01, 200))).quantity is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -49,6 +50,16 @@ def test_strays_copied_rows_and_newest_first_are_not(tmp_path: Path, say: Say) -
     assert _asked(tmp_path, say, [10 * k for k in again], [20 + k / 99 for k in again]) == ""
     (tmp_path / "campaign.yaml").unlink()
     assert _asked(tmp_path, say, EVEN[::-1]) == ""
+
+
+def test_rows_in_no_order_are_to_be_sorted_and_not_joined(tmp_path: Path, say: Say) -> None:
+    shuffled = random.Random(5).sample(EVEN, len(EVEN))
+    assert _asked(tmp_path, say, shuffled) == ""
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert "the rows of R2.csv stand in no order of their times" in text
+    out = say("--store", tmp_path / "store", "ingest", tmp_path / "campaign.yaml").out
+    assert "sort the file by them" in out
+    assert "resets" not in out
 
 
 def test_the_end_of_summer_time_is_left_to_the_zone(tmp_path: Path, say: Say) -> None:

@@ -21,6 +21,7 @@ from thermodata.schema.quantity import (
     normal_unit,
     split_value,
 )
+from thermodata.schema.unit_letters import encoding_hint
 
 # A clipped signal stands within noise and a code or two of its limit; 0.05 % of the range holds both.
 _EDGE = 5e-4
@@ -178,7 +179,7 @@ def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, w
             where=where,
             expected=f"a unit that converts to {target}",
             got=unit,
-            hint=_to_calibrate(channel.quantity, f"{target}/{normal_unit(unit)}"),
+            hint=encoding_hint(unit) + _to_calibrate(channel.quantity, f"{target}/{normal_unit(unit)}"),
         ) from error
     return values if (factor, shift) == (1.0, 0.0) else values * factor + shift
 

@@ -152,6 +152,7 @@ def flagged(
         }
         if seen is not None:
             told[signal.name]["values"] = {"low": seen.low, "high": seen.high, "median": seen.median}
+        if seen is not None and not seen.numerals:
             values = _canonical(column, quantity, unit)
             inputs[signal.name] = ColumnInput(values, quantity, own[signal.name], held=signal.held)
     flags, events = flag_stream(t_ns, inputs) if t_ns.size and inputs else ({}, [])

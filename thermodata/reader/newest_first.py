@@ -11,6 +11,7 @@ from thermodata.plugin import Int1D
 NOTE = "the rows stand newest first: they are taken from the last to the first"
 _MOSTLY = 20  # steps back for one ahead: a stray time makes one of each
 _LEAST = 3
+_SELDOM = 0.2  # of the steps: a clock that is set, or a test that begins anew, makes one for many rows
 
 
 @dataclass(slots=True)
@@ -29,6 +30,11 @@ class Steps:
         self.ahead += int(np.count_nonzero(steps > 0))
         self.back += int(np.count_nonzero(steps < 0))
         self._before = int(t_ns[-1])
+
+    @property
+    def in_no_order(self) -> bool:
+        """Whether steps back are so many that rows stand in no order of their times."""
+        return self.back > _SELDOM * (self.ahead + self.back) and not self.newest_first
 
     @property
     def newest_first(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
+from thermodata.reader.clock_leaps import Leap
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
@@ -37,10 +38,12 @@ class _Stream:
     largest: int = 0
     head: list[dict[str, Any]] = field(default_factory=list)
     clock: Steps = field(default_factory=Steps)
+    leap: Leap = field(default_factory=Leap)
 
     def add(self, block: Block, absolute: bool, first_rows: int) -> None:
         t = block.t_ns
         self.clock.add(t)
+        self.leap.add(t)
         joined = t if self.last is None else np.concatenate(([self.last], t))
         steps = np.diff(joined)
         self.first = int(t[0]) if self.first is None else self.first
@@ -120,7 +123,7 @@ def preview(
         "complete": said.complete,
         "whole": whole,
         "rows_read": read,
-        "notes": [*said.notes, *([NOTE] if any(s.clock.newest_first for s in streams.values()) else [])],
+        "notes": [*said.notes, *_of_clocks(streams.values(), absolute)],
         "losses": [
             {
                 "where": x.where,
@@ -133,6 +136,13 @@ def preview(
         ],
         "streams": [_shown(name, stream, signals[name], absolute) for name, stream in streams.items()],
     }
+
+
+def _of_clocks(streams: Iterable[_Stream], absolute: bool) -> list[str]:
+    """What the times of a file say of its clocks, each once."""
+    streams = list(streams)
+    found = [NOTE] if any(s.clock.newest_first for s in streams) else []
+    return found + list(dict.fromkeys(note for s in streams if absolute and (note := s.leap.note())))
 
 
 def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bool]:

@@ -16,7 +16,8 @@ class TimeColumn(Strict):
     signals: where a table has several times: the columns that belong to this one; by default those behind it
     unit: of relative times: s, min, h; taken from the header where it stands there; unknown: nothing is read until it
         is written
-    format: as strptime writes it, where day and month cannot be told apart; or unknown
+    format: as strptime writes it, where day and month cannot be told apart; swapped or shown: of dates in a workbook
+        that seem to have them exchanged; or unknown
     period: of rows without a time column: 60 s from row to row; or unknown
     start: of rows without a date, from the lines above them ('Start time: 04/07/2026 08:07'): dmy, mdy or ymd, where
         day and month cannot be told apart; head: they begin then, though no word says so; none: they do not; or unknown

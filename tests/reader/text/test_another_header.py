@@ -137,3 +137,34 @@ def test_units_below_a_header_at_the_end_of_the_piece_before_are_seen(
     size = len("\n".join([head, *[row.format(h=8, m=m) for m in range(10, 40)], HEAD]).encode()) + 2
     monkeypatch.setattr("thermodata.reader.text.delimited.chunks", partial(chunks, size=size))
     assert read(tmp_path, head, HEAD + ";°F;µm").t_ns["table"].size == 30
+
+
+@pytest.mark.parametrize(
+    ("head", "again", "first", "then"),
+    [
+        ("Time,T_front,dZ", "Time,T_front,dZ,T_hall", "21.5,0.1", "21.5,0.1,20.1"),
+        ("Time,T_front,dZ", "Time,T_hall,T_front,dZ", "21.5,0.1", "20.1,21.5,0.1"),
+        ("Time,T_front,dZ", "Time,T_front", "21.5,0.1", "21.5"),
+    ],
+)
+@pytest.mark.parametrize("rows", [60, 900])
+def test_a_header_of_more_or_fewer_names_ends_the_reading(
+    tmp_path: Path, head: str, again: str, first: str, then: str, rows: int
+) -> None:
+    at = [f"2026-03-02 {8 + k // 60:02d}:{k % 60:02d}:00" for k in range(rows)]
+    half = rows // 3
+    lines = [head, *(f"{t},{first}" for t in at[:half]), again, *(f"{t},{then}" for t in at[half:]), ""]
+    (tmp_path / "a.csv").write_text("\n".join(lines), encoding="utf-8")
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert data.t_ns["table"].size == half
+    (loss,) = data.losses
+    assert loss.reason == f"another header begins here, nothing after it is read: '{again}'; split the file there"
+
+
+def test_a_list_of_channels_above_the_table_is_no_table_of_its_own(tmp_path: Path) -> None:
+    listed = ["No,Name,Unit", "1,T_front,degC", "2,dZ,um", "3,n,rpm", "4,p,bar", ""]
+    rows = [f"2026-03-02 08:{m:02d}:00,2{m}.5,0.{m},4000,6" for m in range(10, 40)]
+    (tmp_path / "a.csv").write_text("\n".join([*listed, "Time,T_front,dZ,n,p", *rows, ""]), encoding="utf-8")
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert data.t_ns["table"].size == 30
+    assert not data.losses

@@ -19,9 +19,10 @@ from thermodata.reader.guard import described
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
+from thermodata.reader.text.times.unpadded import UNPADDED
 
 _MOST_QUESTIONS = 4
-_ASSUMED = "counted as 1 s each|taken as seconds from a start|changes its distance from them"
+_ASSUMED = f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}"
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 

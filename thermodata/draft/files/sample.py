@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.files.set_back import Clock, SetBack, first_of
+from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of
 from thermodata.draft.signals.guess import guess_of, says_nothing
 from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.signals.values import Values, bare_word, joined, values_of
@@ -66,8 +66,8 @@ class RepeatedTimes:
 @dataclass(frozen=True, slots=True)
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
-    for; first_ns, last_ns: of what was read; failed: what ended the reading of it; repeats: of times; set_back: the
-    clock, within the file."""
+    for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
+    failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -116,6 +116,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         losses, whole, failed = losses + 1, False, short(error)
     finally:
         items.close()  # type: ignore[attr-defined]
+    first, last = extent_of(clocks) or (first, last)
     return Sample(
         values,
         {k: _thinned(v) for k, v in parts.items()},

@@ -1,4 +1,4 @@
-"""A clock that was set back in the middle of a file, as ingest would find it, seen in a draft's sample."""
+"""A clock that was set in the middle of a file, as ingest would find it, seen in a draft's sample."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D
+from thermodata.reader.clock_leaps import Leap
 from thermodata.reader.newest_first import Steps
 from thermodata.store.raw.order import find_order
 
@@ -17,10 +18,11 @@ _LEAST = 20
 
 @dataclass(frozen=True, slots=True)
 class SetBack:
-    """row: of the stream, from 1; by_ns: by how much."""
+    """row: of the stream, from 1; by_ns: by how much; in_no_order: whether rows stand in no order at all."""
 
     row: int
     by_ns: int
+    in_no_order: bool = False
 
 
 @dataclass(slots=True)
@@ -30,12 +32,22 @@ class Clock:
     t_ns: list[Int1D] = field(default_factory=list)
     values: list[Array] = field(default_factory=list)
     steps: Steps = field(default_factory=Steps)
+    leap: Leap = field(default_factory=Leap)
 
     def add(self, block: Block) -> None:
         self.t_ns.append(block.t_ns)
         numbers = next((v for v in block.values.values() if v.dtype.kind in "iuf"), None)
         self.values.append(np.zeros(block.t_ns.size) if numbers is None else numbers.astype(np.float64))
         self.steps.add(block.t_ns)
+        self.leap.add(block.t_ns)
+
+    def extent(self) -> tuple[int, int] | None:
+        """The first and the last time where the clock was set ahead by years, once what came before is moved up to it;
+        None where it was not."""
+        if self.leap.row is None:
+            return None
+        t = np.concatenate(self.t_ns)
+        return find_order(lambda a, b: t[a:b], t.size, resets_allowed=False).extent
 
     def set_back(self) -> SetBack | None:
         """Where it first went back for good; None where it did not, or where rows stand twice, or newest first."""
@@ -50,9 +62,23 @@ class Clock:
         x = np.concatenate(self.values)
         before = set(zip(t[:keep].tolist(), x[:keep].tolist(), strict=True))
         same = sum(pair in before for pair in zip(t[again].tolist(), x[again].tolist(), strict=True))
-        return None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]))
+        return (
+            None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]), self.steps.in_no_order)
+        )
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:
     """Of the streams of a file the first that was set back."""
     return next((found for clock in clocks.values() if (found := clock.set_back()) is not None), None)
+
+
+def extent_of(clocks: Mapping[str, Clock]) -> tuple[int, int] | None:
+    """The first and the last time of a file in which any clock was set ahead by years; None where none was."""
+    found = [clock.extent() for clock in clocks.values()]
+    if not any(found):
+        return None
+    ends = [
+        e or (int(min(t.min() for t in c.t_ns)), int(max(t.max() for t in c.t_ns)))
+        for e, c in zip(found, clocks.values(), strict=True)
+    ]
+    return min(a for a, _ in ends), max(b for _, b in ends)

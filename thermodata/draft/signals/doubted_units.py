@@ -15,7 +15,9 @@ _AIR = ("hall", "floor", "outside")
 _FEW_RPM = 60.0
 _FURTHEST_UM = 3000.0  # a tool is displaced by tenths of a millimetre
 _COOL = ("bed", "column", "table", "crossbeam", "saddle", "hall", "floor", "outside")  # no heat is made there
-_HOTTEST_C = 150.0  # above it stand counts and kelvins, which are asked for elsewhere
+# what never is colder counts kelvins: of a machine at -20 degC, and what runs hottest; counts of a converter beyond
+# are asked for elsewhere
+_COLDEST_K, _HOTTEST_K = 250.0, 400.0
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -43,10 +45,12 @@ def implausible(found: Guess, values: Values) -> Guess:
         span = (values.high - values.low) * units.factor_to(found.unit, "um")
         if span > _FURTHEST_UM:
             asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
-    elif found.quantity == "temperature" and units.kelvins(found.unit) is None and _stands_at(found, _COOL):
+    elif found.quantity == "temperature" and units.kelvins(found.unit) is None:
         factor, offset = units.to_degc(found.unit)
         least = factor * _coldest(values) + offset
-        if _NO_REST_C <= least <= _HOTTEST_C:
+        if least >= _COLDEST_K and factor * values.median + offset <= _HOTTEST_K:
+            asked = f"unit: K, or {found.unit}? no reading is below {least:.3g} degC"
+        elif _NO_REST_C <= least <= _COLDEST_K and _stands_at(found, _COOL):
             asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
     return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
 

@@ -24,6 +24,7 @@ from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.schema.quantity import is_unit, normal_unit
+from thermodata.schema.unit_letters import encoding_hint
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")
@@ -139,7 +140,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
             return _place(found, own, text)
-        asked = f"the file says '{known}', which is no unit known here"
+        asked = f"{encoding_hint(known or '')}the file says '{known}', which is no unit known here"
         if counts:
             asked = f"the file says '{counts}': is each count one of these, or is that a range? ({range_text(values)})"
         if found.quantity is None or found.basis == ("values",):  # of which nobody knows what they count

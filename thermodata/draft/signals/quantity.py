@@ -52,6 +52,9 @@ class Guess:
 def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Values | None) -> Guess:
     bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "str":
+        if bare and values is not None and values.numerals:
+            why = f"numbers kept as text ({values.span()}), which have no value: write them as numbers into the file"
+            return Guess(None, unit, why_not=f"{why}, or quantity: label if they measure nothing")
         if bare and values is not None and values.text and not foreign_in(own):
             return Guess("state", basis=("name", "values") if places_in(own) else ("values",))  # ON and OFF
         if bare:

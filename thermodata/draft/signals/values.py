@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import unicodedata
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +16,7 @@ from thermodata.plugin import Array, Float1D
 from thermodata.schema.quantity import linear_conversion
 
 _FEW = 8
+_NUMERAL, _MOSTLY = re.compile(r"[-+]?\d*[.,]?\d+([eE][-+]?\d+)?"), 0.9
 _LEAST_COUNTED = 10
 _OVERFLOW, _FAR = 1e6, 100.0  # the smallest such mark, and how many times as large as all else it is
 
@@ -23,7 +26,7 @@ class Values:
     """Of a sample of a signal. n: finite values; low and high: its range; step: the median of its changes from row to
     row; moves: the share of rows that differ from the one before; distinct: at most 9; whole: integers only; first,
     second: the first two of them; counts: each is one more than the one before; text: words of a switch, counted as 0
-    and 1."""
+    and 1; numerals: texts that are numbers, measured ones by their fractions."""
 
     n: int
     low: float
@@ -37,6 +40,7 @@ class Values:
     second: float
     counts: bool = False
     text: bool = False
+    numerals: bool = False
 
     @property
     def counts_rows(self) -> bool:
@@ -63,10 +67,14 @@ class Values:
 
 
 def values_of(column: Array) -> Values | None:
-    """None for text, but of a switch ('ON', 'aus'), and for signals without a finite value. column: shape (n,)."""
+    """None for text, but of a switch ('ON', 'aus') or of numbers, and for signals without a finite value. column:
+    shape (n,)."""
     if column.dtype.kind in "OUS" and (switched := _switched(column)) is not None:
         made = values_of(switched)
         return None if made is None else replace(made, text=True)
+    if column.dtype.kind in "OUS" and (numbers := _numerals(column)) is not None:
+        made = values_of(numbers)
+        return None if made is None else replace(made, numerals=True)
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = np.asarray(column, dtype=np.float64)
@@ -98,6 +106,17 @@ def _switched(column: Array) -> Float1D | None:
         return None
     numbers = {word: float(b in TRUE_WORDS) for word, b in said.items()}
     return np.array([numbers.get(word, np.nan) for word in column.tolist()])
+
+
+def _numerals(column: Array) -> Float1D | None:
+    """Texts that are numbers with fractions, in digits of any script; None where words, or none but whole numbers, as
+    those of programs and lots, stand there. shape (n,)."""
+    spelled = {word: unicodedata.normalize("NFKC", bare_word(word)).replace("−", "-") for word in set(column.tolist())}
+    said = [s for s in spelled.values() if s]
+    numbers = {word: s.replace(",", ".") for word, s in spelled.items() if _NUMERAL.fullmatch(s)}
+    if len(numbers) <= _FEW or len(numbers) < _MOSTLY * len(said) or not any("." in s for s in numbers.values()):
+        return None
+    return np.array([float(numbers.get(word, "nan")) for word in column.tolist()])
 
 
 def bare_word(cell: object) -> str:
@@ -156,4 +175,5 @@ def joined(one: Values | None, other: Values | None) -> Values | None:
         one.second,
         one.counts and other.counts,
         one.text and other.text,
+        one.numerals and other.numerals,
     )

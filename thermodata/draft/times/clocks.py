@@ -132,6 +132,11 @@ def set_back_question(group: Group) -> str | None:
         said = file.sample.set_back
         if said is not None and file.local and _HOUR_NS - _ROW_NS <= said.by_ns <= _HOUR_NS:
             continue  # the end of summer time: the zone, which is asked for, tells it
+        if said is not None and said.in_no_order and file.block is None:
+            return (
+                f"the rows of {file.path.name} stand in no order of their times, and what follows row {said.row - 1} "
+                "is lost: sort the file by its time"
+            )
         if said is not None and file.block is None and not any("resets: allow" in a.ask for a in file.asked):
             return (
                 f"row {said.row} of {file.path.name} is {said.by_ns / 1e9:g} s earlier than the rows before, and what "

@@ -25,7 +25,9 @@ _SAID_SPEED = re.compile(rf"{_START}({_NUMBER}) ?(k?) ?{_RPM}{_END}|(?<![a-z]){_
 _LETTER = re.compile(rf"(?<![a-z])[sn](\d{{3,5}})(?!\d)(?![a-z])|(?<![a-z])[sn] (\d{{3,5}}){_END}")
 _THOUSANDS = re.compile(rf"{_START}(\d{{1,2}}(?:[.,]\d)?)k{_END}")
 _LEAST_RPM = 50  # of a number behind a word; no spindle test turns slower, and runs are counted so
-_FEED = re.compile(rf"(?<![a-z])(?:f|vf|feed|vorschub|posuv|进给) ?({_NUMBER})(?: ?(m|mm)/? ?min)?{_END}")
+# 'VF2' is a machine, 'vf2000', 'vf 2.5' and 'vf 2 m/min' are feeds
+_VF = r"vf(?! ?\d{1,2}(?! ?m)(?![a-z0-9.,]))"
+_FEED = re.compile(rf"(?<![a-z])(?:f|{_VF}|feed|vorschub|posuv|进给) ?({_NUMBER})(?: ?(m|mm)/? ?min)?{_END}")
 _FEED_UNIT = re.compile(rf"{_START}({_NUMBER}) ?(m|mm)/?min{_END}")
 _DEGREES = rf"((?:(?<![a-z0-9])-)?{_NUMBER}) ?(?:°|deg)?c"  # the dash of 0-20C is none of the number
 _COURSE = re.compile(rf"{_DEGREES} ?(?:to|bis|na|az|auf|->|-|~) ?{_DEGREES}(?![a-z])")

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.clock_leaps import LEAP_NS
 from thermodata.schema.counted import counted
 
 JITTER_NS = 1_000_000_000  # a step back up to this is disorder
 SMALL_NS = 120_000_000_000  # up to this, what a time server corrects
-LEAP_NS = 365 * 86_400 * 1_000_000_000  # no pause of a test is as long
 MOST_STRAYS = 3
 _RECENT = 100
 
@@ -28,9 +28,11 @@ class Faults:
     """Looks at the times of a stream, chunk by chunk. See `Order` for at, shifts and marked.
 
     keep: the row at which the clock went back by more than it may, or None. lowest: the earliest time of each chunk.
+    disorder_ns: a step back up to this is none of the clock's, for rows stand out of order.
     """
 
     resets_allowed: bool
+    disorder_ns: int = JITTER_NS
     keep: int | None = None
     at: list[int] = field(default_factory=list)
     shifts: list[int] = field(default_factory=lambda: [0])
@@ -63,7 +65,7 @@ class Faults:
                 at = max(stray[0] - 1, 0)
                 continue
             if int(t[row]) > high:
-                self._leap(t, row, first)
+                self._leap(t, row, first, high)
             elif self.resets_allowed or high - int(t[row]) <= SMALL_NS:
                 self._reset(t, row, first, high)
             else:
@@ -101,7 +103,7 @@ class Faults:
         """The first row behind by more than jitter, or ahead by more than a leap."""
         part = t[at:]
         high = np.maximum(np.maximum.accumulate(part), self._highest)
-        behind = part < high - JITTER_NS
+        behind = part < high - self.disorder_ns
         before = np.concatenate([part[:1] if self._highest == np.iinfo(np.int64).min else [self._highest], high[:-1]])
         # a difference of int64 may overflow where a time is absurd: compare as floats
         ahead = part.astype(np.float64) - before.astype(np.float64) > LEAP_NS
@@ -114,7 +116,7 @@ class Faults:
         step = min((x for x in (self._step(t[:row]), _median_step(t[row : row + _RECENT])) if x), default=0)
         for stop in range(row + 1, min(row + 1 + MOST_STRAYS, len(t))):  # sound again soon behind it?
             # rows that go on from a smaller time come back to the old one too, but later than they should
-            least = high - JITTER_NS if step < JITTER_NS else high + step * (stop - row + 1) // 2
+            least = high - self.disorder_ns if step < self.disorder_ns else high + step * (stop - row + 1) // 2
             if high == none or least <= int(t[stop]) <= high + LEAP_NS:
                 return row, stop
         if int(t[row]) < high:  # or is it sound, and those before it were ahead?
@@ -122,8 +124,9 @@ class Faults:
                 before = max(self._highest, int(t[at:start].max(initial=self._highest)))
                 if before == none and start:
                     continue
-                most = int(t[row]) + JITTER_NS if step < JITTER_NS else int(t[row]) - step * (row - start + 1) // 2
-                if before <= most and int(t[row]) + JITTER_NS < int(t[start]):
+                late = step * (row - start + 1) // 2
+                most = int(t[row]) + self.disorder_ns if step < self.disorder_ns else int(t[row]) - late
+                if before <= most and int(t[row]) + self.disorder_ns < int(t[start]):
                     return start, row
         # the last rows of all can't be told from a clock that was set: they are drawn in all the same
         return (row, len(t)) if not more and len(t) - row <= MOST_STRAYS and high != none else None
@@ -151,10 +154,9 @@ class Faults:
         self._shift(first + row, self.shifts[-1] + delta)
         self.marked.add(first + row)
 
-    def _leap(self, t: Int1D, row: int, first: int) -> None:
-        """Moves all that came before up to the row."""
-        before = int(t[row - 1]) if row else int(self._recent[-1])
-        delta = int(t[row]) - max(self._step(t[:row]), 1) - before
+    def _leap(self, t: Int1D, row: int, first: int, high: int) -> None:
+        """Moves all that came before, up to `high`, up to the row."""
+        delta = int(t[row]) - max(self._step(t[:row]), 1) - high
         self.leaps.append(delta)
         going = self.shifts[-1]
         t[:row] += delta

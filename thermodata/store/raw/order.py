@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Int1D
+from thermodata.reader.clock_leaps import LEAP_NS
 from thermodata.schema.counted import counted
-from thermodata.store.raw.clock_faults import MOST_STRAYS, Faults, shifted
+from thermodata.store.raw.clock_faults import JITTER_NS, MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000
 _NEAR, _LONGEST = 256, 65_536  # rows: stretches that lie so near are sorted as one, up to this length
@@ -52,12 +53,15 @@ def in_order(n: int) -> Order:
     return Order(n, empty, np.zeros(1, np.int64), empty, np.empty((0, 2), np.int64))
 
 
-def find_order(times: Times, n: int, *, resets_allowed: bool, sound: Int1D | None = None) -> Order:
+def find_order(
+    times: Times, n: int, *, resets_allowed: bool, sound: Int1D | None = None, disorder_ns: int = JITTER_NS
+) -> Order:
     """Looks at the times of n rows, twice. A step back by a second at most is disorder; for more see `clock_faults`.
 
     sound: (first, past-the-last) rows that may step back, for they belong among those before, shape (k, 2).
+    disorder_ns: in place of the second.
     """
-    faults = Faults(resets_allowed)
+    faults = Faults(resets_allowed, disorder_ns)
     looked = times if sound is None or not len(sound) else _standing(times, sound)
     for first in range(0, n, CHUNK_ROWS):
         t = looked(first, min(n, first + CHUNK_ROWS + MOST_STRAYS + 1))
@@ -88,18 +92,13 @@ def _standing(times: Times, sound: Int1D) -> Times:
     return looked
 
 
-def by_time(times: Times, n: int) -> Order:
-    """The order of n rows whose times are sound, wherever they stand: all are sorted."""
-    lowest, highest = [], np.iinfo(np.int64).min
-    for first in range(0, n, CHUNK_ROWS):
-        t = times(first, min(n, first + CHUNK_ROWS))
-        lowest.append(int(t.min()))
-        highest = max(highest, int(t.max()))
-    order = replace(in_order(n), extent=(min(lowest, default=0), highest if lowest else 0), trusted=True)
-    islands = _islands(times, order, lowest)
-    rows = int((islands[:, 1] - islands[:, 0]).sum())
+def by_time(times: Times, n: int, *, resets_allowed: bool = False) -> Order:
+    """The order of n rows whose times are sound, wherever they stand: all are sorted. Rows a year apart are of a clock
+    that was set between them, and never sorted among each other: see `clock_faults`."""
+    order = replace(find_order(times, n, resets_allowed=resets_allowed, disorder_ns=LEAP_NS), trusted=True)
+    rows = int((order.islands[:, 1] - order.islands[:, 0]).sum())
     notes = (f"{counted(rows, 'row', 'stands', 'stand')} out of order: sorted by their times",) if rows else ()
-    return replace(order, islands=islands, notes=notes)
+    return replace(order, notes=(*order.notes, *notes))
 
 
 def _islands(times: Times, order: Order, lowest: list[int]) -> Int1D:

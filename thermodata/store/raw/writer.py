@@ -11,11 +11,11 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
+from thermodata.reader.clock_leaps import LEAP_NS
 from thermodata.reader.newest_first import Steps
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
-from thermodata.store.raw.clock_faults import LEAP_NS
 from thermodata.store.raw.columns import RawFile
 from thermodata.store.raw.order import by_time, find_order
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of

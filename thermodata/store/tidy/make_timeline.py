@@ -9,10 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Int1D, Loss
+from thermodata.reader.clock_leaps import LEAP_NS
+from thermodata.reader.newest_first import Steps
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
 from thermodata.store.tidy.timeline import Timeline
+
+_LOOKED_AT = 10_000  # rows
 
 
 def make_timeline(
@@ -36,7 +40,7 @@ def make_timeline(
     if _known_ordered(raws):
         return line
     if all(raw.unordered or raw.ordered for raw, _ in raws) and any(raw.unordered for raw, _ in raws):
-        order = by_time(line.file_times, n)
+        order = by_time(line.file_times, n, resets_allowed=resets_allowed)
     else:
         begins = [0, *accumulate(raw.rows for raw, _ in raws)]
         held = all(s.held for raw, _ in raws for s in raw.signals)
@@ -53,7 +57,7 @@ def make_timeline(
 
 def _known_ordered(raws: Sequence[tuple[RawStream, int]]) -> bool:
     return all(raw.ordered for raw, _ in raws) and all(
-        a.last_ns + s <= b.first_ns + r for (a, s), (b, r) in pairwise(raws)
+        0 <= b.first_ns + r - a.last_ns - s <= LEAP_NS for (a, s), (b, r) in pairwise(raws)
     )
 
 
@@ -74,12 +78,17 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
 
 
 def _lost(line: Timeline, keep: int, n: int) -> Loss:
+    steps = Steps()
+    steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
+    if steps.in_no_order:
+        advice = "rows stand in no order of their times: sort the file by them"
+    else:
+        advice = "split the test there or set clock: {resets: allow}"
     at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
     return Loss(
         where=f"{line.raws[0][0].source_path} row {keep}",
         from_ns=at,
         to_ns=int(line.file_times(n - 1, n)[0]),
         fraction=(n - keep) / n,
-        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; split the test there "
-        "or set clock: {resets: allow}",
+        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; {advice}",
     )

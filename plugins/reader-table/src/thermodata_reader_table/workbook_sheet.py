@@ -38,6 +38,7 @@ from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
 from thermodata_reader_table.workbook_days import local_times
 from thermodata_reader_table.workbook_start import begun
+from thermodata_reader_table.workbook_swapped import swapped_times
 
 
 @dataclass
@@ -194,6 +195,8 @@ class Table:
             return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
         worded = any(belongs_to_time(cells) for cells in columns[1:])
         joined = [_of_words(cells) if worded else _joined(cells) for cells in zip(*columns, strict=True)]
+        if (turned := swapped_times(joined, zone, group.form, self.where)) is not None:
+            return turned
         if any(isinstance(j, str) and j for j in joined):
             texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
             return self._of_texts(texts, zone, group.form)

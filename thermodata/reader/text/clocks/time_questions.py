@@ -20,6 +20,8 @@ from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
 _MJD_2000 = 51_544
+_ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
+_COUNTERS = {"millis": "ms", "micros": "us"}
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 
@@ -71,10 +73,15 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     place, rising = _likely_time(data)
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[place], rising, where, place + 1)
-    epoch = None if rising is None else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
-    unit = epoch or (low if (low := names[place].strip().lower()) in SECONDS else "s")
-    proposed = f"; or is '{names[place]}' the time? then time: {{column: {place + 1}, unit: {unit}}}"
-    other = proposed if rising is not None else ""
+    rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in data)
+    epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
+    low = names[place].strip().lower().removesuffix("()")
+    unit = epoch or _COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
+    also = ", which begins anew behind 2^32" if rolls else ""
+    then = f"time: {{column: {place + 1}, unit: {unit}}}" + (
+        ", and clock: {resets: allow} beside table" if rolls else ""
+    )
+    other = f"; or is '{names[place]}' the time{also}? then {then}" if rising is not None else ""
     return QuestionError(
         "no time column found",
         where=where,
@@ -101,8 +108,10 @@ def _likely_time(data: Sequence[Sequence[Cell]]) -> tuple[int, Array | None]:
 
 
 def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
-    """The numbers of a column where they rise from row to row in even steps, as a time does or a count."""
+    """The numbers of a column where they rise from row to row in even steps, as a time does or a count; those of 32
+    bits go on beyond them where they begin anew."""
     values = np.array([v for r in data if (v := number_of(r[place])) is not None], np.float64)
+    values += _ROLL * np.concatenate([[0], np.cumsum(np.diff(values) < -_ROLL / 2)])[: values.size]
     steps = np.diff(values)
     even = values.size >= max(2, 0.9 * len(data)) and bool((steps > 0).all())
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None

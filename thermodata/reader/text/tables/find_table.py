@@ -20,6 +20,7 @@ from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import machine_note, unit_column
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import quality_pairs, shared, worded
@@ -33,6 +34,7 @@ from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.times.time_formats import find_formats
+from thermodata.reader.text.times.unpadded import unpadded_note
 
 _HEAD_LINES = 500  # in which the layout shows
 _HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
@@ -123,15 +125,18 @@ def find_table(
     rows = [cells(line) for line in (_records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
+    looked = first
+    if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
+        head, top, rows, looked = head[:end], top[:end], rows[:end], replace(first, rest=())
     layout = find(rows, said, where, delimiters.shown(delimiter, blanks) if strict else None)
     width = len(layout.names)
     # lines of a header were joined, rows are not
     top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
-    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *first.rest))
+    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *looked.rest))
     body = [r for r in (*top_rows, *later) if len(r) == width]
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
-    groups = tuple(_timed(g, layout, body, head, cells, first, stream, where) for g in layout.groups)
+    groups = tuple(_timed(g, layout, body, head, cells, looked, stream, where) for g in layout.groups)
     lines = map(cells, head[: layout.first])
     groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
     cells_of = sampled_cells(layout, groups, body)
@@ -187,6 +192,7 @@ def find_table(
         *layout.notes,
         *_notes(layout, kinds, groups),
         *midnights,
+        *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
         *units_noted,
         *shared(quality),
         standing_note,
