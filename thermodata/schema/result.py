@@ -88,8 +88,8 @@ class FitResult(Result):
     checks: what the fit says of itself
     before: of add: the parent's scores
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
-    notes: in sentences: temperatures that are read in coarse steps and drawn through them; of add: which second lags
-        were taken in and why
+    notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
+        without a value; of add: which second lags were taken in and why
     """
 
     model: str
