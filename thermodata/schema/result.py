@@ -75,6 +75,19 @@ class Check(Result):
     advice: str
 
 
+class Coefficients(Result):
+    """A function that was identified by its coefficients: y(k) = a[0] u(k) + a[1] u(k-1) + ... - b[1] y(k-1) - ...
+
+    a: numerator, of rising powers of 1/z
+    b: denominator, likewise; b[0] = 1
+    step_s: sample time that they belong to
+    """
+
+    a: list[float]
+    b: list[float]
+    step_s: float
+
+
 class FitResult(Result):
     """Answer of fit, add and compare.
 
@@ -90,6 +103,7 @@ class FitResult(Result):
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
     notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
         without a value; of add: which second lags were taken in and why
+    coefficients: of effects that were identified by method arx; their time constants and gain at rest are parameters
     """
 
     model: str
@@ -103,3 +117,4 @@ class FitResult(Result):
     before: list[Score] | None = None
     added: list[str] | None = None
     notes: list[str] = []
+    coefficients: dict[str, Coefficients] | None = None

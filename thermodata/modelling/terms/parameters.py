@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from thermodata.calibration.expression import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
+from thermodata.modelling.terms.identified import identified
 from thermodata.plugin import Param
 from thermodata.schema.result import Parameter
 
@@ -24,8 +25,13 @@ def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
 
 
 def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Parameter]:
-    """'effect.parameter' of one term; parameters that groups share appear once."""
+    """'effect.parameter' of one term; parameters that groups share appear once. Of a function that was identified by
+    its coefficients, its time constants and its gain at rest."""
     by_name: dict[str, Parameter] = {}
+    function = identified(term.effect)
+    taus = () if function is None else function.taus_min
+    for number, tau in enumerate(taus, 1):
+        by_name[f"{term.id}.tau" + (f"_{number}" if len(taus) > 1 else "")] = Parameter(value=tau, unit="min")
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
         for param in term.effect.params:
@@ -40,7 +46,10 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             unit = gain_unit(response, term, gain.unit)
             if f"{term.id}.{gain.name}{tag}" in by_name and term.bound.spec.one_gain:
                 continue
-            by_name[f"{term.id}.{gain.name}{tag}"] = _told(values.gains[gain.name], unit, interval(gain.name, values))
+            value = values.gains[gain.name]
+            if function is not None:
+                value, unit = value * function.gain_at_rest, gain_unit(response, term, "um/u")
+            by_name[f"{term.id}.{gain.name}{tag}"] = _told(value, unit, interval(gain.name, values))
     return by_name
 
 
