@@ -203,3 +203,13 @@ def test_carrying_over(store: Store, spec: Spec) -> None:
     assert all(r.verdict == "portable" for r in rows)
     with store.reader() as con:
         assert con.execute("select count(distinct test) from portability").fetchone() == (7,)
+
+
+def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> None:
+    model = run.fit(store, spec(*EFFECTS)).model
+    for names in (["t7"], ["t0", "t7"]):
+        with pytest.raises(UsageError, match=r"locked: c/t7; opened only to confirm") as caught:
+            run.transfer(store, model, names)
+        assert (caught.value.where, caught.value.got, caught.value.exit_code) == ("--test", "c/t7", 2)
+    with store.reader() as con:
+        assert con.execute("select count(*) from locked_look where model = ?", [model]).fetchone() == (0,)

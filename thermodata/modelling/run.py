@@ -186,14 +186,37 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
 
 def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
     """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
-    findings of the model. UsageError for an unknown test."""
+    findings of the model. UsageError for a named test that is unknown, locked, or has nothing to carry over to."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
-    rows = portability(model.fitted, model.data)
-    save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     wanted = find_tests(tests, model.data, "--test")
+    rows = portability(model.fitted, model.data)
+    told = {(r.campaign, r.test) for r in rows}
+    _refuse_closed([key for key in wanted if key not in told], model)
+    save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
+
+
+def _refuse_closed(without: Sequence[tuple[str, str]], model: Loaded) -> None:
+    """UsageError for tests that were asked for and have no row."""
+    if not without:
+        return
+    names = ", ".join("/".join(key) for key in without)
+    if any(model.fitted.roles.role(key) == "locked" for key in without):
+        raise UsageError(
+            f"locked: {names}; opened only to confirm an effect, and every look is counted",
+            where="--test",
+            expected="tests that are not locked in the model",
+            got=names,
+            hint=f"thermodata confirm {model.identity} EFFECT opens the locked tests for an effect of your choice",
+        )
+    raise UsageError(
+        f"nothing to carry over to in {names}",
+        where="--test",
+        expected=f"a valid sample of {', '.join(r.name for r in model.fitted.responses)}, where the model predicts",
+        got="none",
+    )
 
 
 def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:
