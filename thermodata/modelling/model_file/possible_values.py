@@ -19,7 +19,7 @@ from thermodata.schema.quantity import converts
 from thermodata.view.dataset import Dataset, TestData
 
 _NAME = re.compile(r"[^\W\d]\w*")
-_NEAR = 1e-9  # of a value: what is held at its bound lies within it
+_NEAR = 1e-9  # of the bounds: what a fit left at one of them lies within
 
 
 def refuse_impossible(given: EffectSpec, spec: EffectSpec, effect: Effect, where: str) -> None:
@@ -38,7 +38,8 @@ def refuse_impossible(given: EffectSpec, spec: EffectSpec, effect: Effect, where
                 said = f"{_range(ends)} {_unit(params[name])}"
             else:
                 continue
-            if not ends[0] - _NEAR * abs(ends[0]) <= value <= ends[1] + _NEAR * abs(ends[1]):
+            near = _NEAR * sum(abs(end) for end in ends if isfinite(end))
+            if not ends[0] - near <= value <= ends[1] + near:
                 raise SpecError(
                     f"'{name}': the {key} value lies outside of its bounds",
                     where=f"{where}.{key}.{name}",
