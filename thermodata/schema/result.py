@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from pydantic import BaseModel, ConfigDict
+
+SAMPLE = ".sample_s"  # behind the id of an effect whose coefficients are parameters
+_COEFFICIENT = re.compile(r"\.([ab]\d+|sample_s)$")
 
 
 class Result(BaseModel):
@@ -75,19 +80,6 @@ class Check(Result):
     advice: str
 
 
-class Coefficients(Result):
-    """A function that was identified by its coefficients: y(k) = a[0] u(k) + a[1] u(k-1) + ... - b[1] y(k-1) - ...
-
-    a: numerator, of rising powers of 1/z
-    b: denominator, likewise; b[0] = 1
-    step_s: sample time that they belong to
-    """
-
-    a: list[float]
-    b: list[float]
-    step_s: float
-
-
 class FitResult(Result):
     """Answer of fit, add and compare.
 
@@ -96,14 +88,14 @@ class FitResult(Result):
     parent: id of the version before
     campaigns: ids
     response: name or names
-    parameters: effect.parameter -> value with its interval
+    parameters: effect.parameter -> value with its interval; of method arx the time constants, the gain at rest, and the
+        coefficients a0 ... over b0 ... at sample_s
     scores: a row a test, response and phase
     checks: what the fit says of itself
     before: of add: the parent's scores
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
     notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
         without a value; of add: which second lags were taken in and why
-    coefficients: of effects that were identified by method arx; their time constants and gain at rest are parameters
     """
 
     model: str
@@ -117,4 +109,13 @@ class FitResult(Result):
     before: list[Score] | None = None
     added: list[str] | None = None
     notes: list[str] = []
-    coefficients: dict[str, Coefficients] | None = None
+
+    @property
+    def readable(self) -> dict[str, Parameter]:
+        """The parameters without the coefficients of functions, which say nothing in three digits."""
+        functions = {name.removesuffix(SAMPLE) for name in self.parameters if name.endswith(SAMPLE)}
+        return {
+            name: parameter
+            for name, parameter in self.parameters.items()
+            if not (name.rpartition(".")[0] in functions and _COEFFICIENT.search(name))
+        }

@@ -9,9 +9,8 @@ from pathlib import Path
 
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.modelling.terms.identified import identified
 from thermodata.schema.model import Model
-from thermodata.schema.result import Check, Coefficients, FitResult, Score
+from thermodata.schema.result import Check, FitResult, Score
 from thermodata.view.dataset import Dataset
 
 ID_LENGTH = 12
@@ -65,21 +64,7 @@ def make_result(
         scores=rows,
         checks=[*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)],
         before=before,
-        coefficients=_coefficients(fitted) or None,
     )
-
-
-def _coefficients(fitted: FittedModel) -> dict[str, Coefficients]:
-    """By the effect's id, with several responses 'response/effect'."""
-    several = len(fitted.responses) > 1
-    return {
-        (f"{response.name}/" if several else "") + term.id: Coefficients(
-            a=list(found.a), b=list(found.b), step_s=found.step_s
-        )
-        for response in fitted.responses
-        for term in response.terms
-        if (found := identified(term.effect)) is not None
-    }
 
 
 def _not_predicted(fitted: FittedModel, data: Dataset, locked: bool) -> list[Check]:
