@@ -12,7 +12,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of, start_value
 from thermodata.view.dataset import Dataset
 
-from .conftest import make_test
+from .conftest import Spec, make_test
 
 
 def test_temperatures_count_from_the_start_and_speeds_from_zero() -> None:
@@ -70,6 +70,26 @@ def test_a_test_without_the_channel_says_so(world: Dataset) -> None:
     assert not has_drivers(dead, {"u": "T_nut"})
     with pytest.raises(UsageError, match="no channel 'T_tool'"):
         make_drivers(test, effect("lag"), {"u": "T_tool"})
+
+
+def test_a_driver_without_a_valid_sample_is_told_with_effect_channels_and_test(world: Dataset, spec: Spec) -> None:
+    from thermodata.modelling import fit_model
+
+    never = {"effect": "lag", "id": "half", "drivers": {"u": "T_nut / (T_hall - T_hall)"}}
+    with pytest.raises(UsageError) as caught:
+        fit_model(spec(never), world)
+    error = caught.value
+    assert error.what == "the driver 'T_nut / (T_hall - T_hall)' has no valid sample in test 'c/t0'"
+    assert error.where == "effect 'half', driver 'u', expression 'T_nut / (T_hall - T_hall)'"
+    assert "T_nut valid in 721 of 721 samples" in (error.got or "")
+    assert "stays zero" in (error.hint or "")
+    test = world.tests[0]
+    early = np.arange(len(test.t_s)) < 300
+    apart = replace(test, valid={**test.valid, "T_nut": early, "T_hall": ~early})
+    with pytest.raises(UsageError) as caught:
+        make_drivers(apart, effect("lag"), {"u": "T_nut - T_hall"})
+    assert "T_hall valid in 421 of 721 samples, T_nut valid in 300" in (caught.value.got or "")
+    assert (caught.value.got or "").endswith("never at once")
 
 
 def test_the_start_value_is_a_mean_only_while_nothing_moves() -> None:

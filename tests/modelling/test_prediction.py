@@ -53,6 +53,99 @@ def test_beyond_its_end_a_prediction_says_nothing(world: Dataset, tmp_path: Path
     assert mask.sum() == (world.tests[0].t_s <= 9000).sum()
 
 
+def test_before_its_start_a_prediction_says_nothing(world: Dataset, tmp_path: Path, spec: Spec) -> None:
+    path = tmp_path / "late.csv"
+    rows = [f"t{k},{t},{t / 100}" for k in range(5) for t in (3000, 90000)]
+    path.write_text("\n".join(["test,t_s,predicted", *rows]))
+    fitted = fit_model(spec({"effect": "prediction", "file": str(path)}), world).responses[0]
+    test = world.tests[0]
+    assert np.array_equal(fitted.mask(test), test.t_s >= 3000)
+
+
+@pytest.mark.parametrize(
+    ("header", "minutes", "um"),
+    [
+        ("test,t [min],predicted [um]", 60.0, 1.0),
+        ("test,t_s [s],predicted [mm]", 1.0, 1e-3),
+        ("test,t,predicted", 1, 1),
+    ],
+)
+def test_times_and_values_are_converted_by_the_units_of_their_header(
+    tmp_path: Path, header: str, minutes: float, um: float
+) -> None:
+    path = tmp_path / "theirs.csv"
+    path.write_text("\n".join([header, *(f"a,{30 * k / minutes},{2 * k * um}" for k in range(9))]))
+    t, y = read_prediction(path, {"c": "dZ"}, "um").tables["a"]
+    assert t.tolist() == [30.0 * k for k in range(9)]
+    assert y == pytest.approx([2.0 * k for k in range(9)])
+
+
+def test_rows_without_a_value_say_nothing_and_are_told(world: Dataset, tmp_path: Path, spec: Spec) -> None:
+    test = world.tests[0]
+    holes = (0, 10, 11)
+    rows = [
+        f"t{k},{t},{'' if i == 10 else 'NaN' if i in holes else t / 100}"
+        for k in range(5)
+        for i, t in enumerate(test.t_s)
+    ]
+    path = tmp_path / "holes.csv"
+    path.write_text("\n".join(["test,t_s,predicted", *rows, "t5,0,nan"]))
+    fitted = fit_model(spec({"effect": "prediction", "file": str(path)}), world).responses[0]
+    assert np.array_equal(np.flatnonzero(~fitted.mask(test)), holes)
+    prediction = read_prediction(path)
+    (note,) = prediction.notes
+    assert note.startswith(f"holes.csv: 16 of {len(rows) + 1} rows have no predicted value (the first at line 2)")
+    assert "nothing is left of t5" in note
+    assert not prediction.has(world.tests[5])
+
+
+def test_a_row_that_stands_twice_counts_once(tmp_path: Path) -> None:
+    path = tmp_path / "twice.csv"
+    path.write_text("test,t_s,predicted\na,0,1\na,30,2\na,30,2.0\nb,30,5\n")
+    assert read_prediction(path).tables["a"].t_s.tolist() == [0.0, 30.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "got"),
+    [
+        ("test,t_s,predicted [K]\na,0,1\n", 1, "K"),
+        ("test,t [um],predicted\na,0,1\n", 1, "um"),
+        ("test,t_s [min],predicted\na,0,1\n", 1, "t_s [min]"),
+        ("test,t_s,predicted [um],predicted [mm]\na,0,1,2\n", 1, "predicted [um], predicted [mm]"),
+        ("test,t_s,predicted\na,0,1\na,30,2\na,0,3\n", 4, "3"),
+        ("test,t_s,predicted\na,0,1\na,nan,2\n", 3, "nan"),
+        ("test,t_s,predicted\na,0,1\na,30,inf\n", 3, "inf"),
+        ("test,t_s,predicted\na,0,nan\na,30,\n", 2, "none in 2 rows"),
+        ("test,t_s,predicted\n", 1, "none in 0 rows"),
+        ("test,response,t_s,predicted\na,dX,0,1\n", 2, "dX"),
+        ("campaign,test,response,t_s,predicted\nc,a,dZ,0,1\nd,a,dZ,0,1\n", 3, "dZ"),
+    ],
+)
+def test_what_contradicts_itself_or_the_model_is_refused_with_its_line(
+    tmp_path: Path, text: str, line: int, got: str
+) -> None:
+    path = tmp_path / "bad.csv"
+    path.write_text(text)
+    with pytest.raises(SpecError) as caught:
+        read_prediction(path, {"c": "dZ", "d": "Z1"}, "um")
+    assert (caught.value.where or "").endswith(f"bad.csv:{line}")
+    assert caught.value.got == got
+
+
+def test_each_campaign_names_the_response_as_it_does(tmp_path: Path) -> None:
+    path = tmp_path / "both.csv"
+    path.write_text("campaign,test,response,t_s,predicted\nc,a,dZ,0,1\nd,a,Z1,0,1\n")
+    assert list(read_prediction(path, {"c": "dZ", "d": "Z1"}, "um").tables) == ["c/a", "d/a"]
+
+
+def test_a_model_refuses_the_prediction_of_another_response(world: Dataset, tmp_path: Path, spec: Spec) -> None:
+    path = tmp_path / "dX.csv"
+    path.write_text("test,response,t_s,predicted\nt0,dX,0,1\nt0,dX,9000,2\n")
+    with pytest.raises(SpecError, match="of the model's") as caught:
+        fit_model(spec({"effect": "prediction", "file": str(path)}), world)
+    assert caught.value.expected == "dZ"
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

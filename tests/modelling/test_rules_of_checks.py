@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from thermodata.modelling.model_file.shaped import DEAD_TIME
 from thermodata.modelling.terms import parameters
 from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import gain_unit
@@ -59,12 +60,13 @@ def term(
     bounds: Mapping[str, tuple[float, float]] | None = None,
     held: bool = False,
     driver: str = "T",
+    also: Sequence[str] = (),
 ) -> Any:
     """A fitted term as the checks see it."""
     effect = effect or Straight()
     values = Values(dict(params or {"tau": 30.0}), {"gain": gain}, dict(sd or {}), silent=frozenset(silent))
     bound = SimpleNamespace(
-        spec=SimpleNamespace(fixed=dict.fromkeys(fixed, 1.0), bounds=dict(bounds or {})),
+        spec=SimpleNamespace(fixed=dict.fromkeys(fixed, 1.0), bounds=dict(bounds or {}), also=list(also)),
         covers=lambda test: True,
         has=lambda test: True,
         calibrate=frozenset({("c", "t")}) if held else None,
@@ -181,6 +183,17 @@ def test_a_bound_that_bodies_reach_beyond_is_told_with_what_to_write() -> None:
 def test_a_parameter_that_may_be_zero_is_at_its_bound_by_its_range(value: float, at: bool) -> None:
     effect = Straight(params=(EXPONENT,))
     assert names(bound_checks.at_bounds(UM, term(effect, {"p": value}))) == (["at_bound:straight.p"] if at else [])
+
+
+def test_what_lies_next_to_a_bound_is_not_said_to_stand_at_it() -> None:
+    late = Straight(params=(DEAD_TIME,))
+    [near] = bound_checks.at_bounds(UM, term(late, {"dead_time": 0.275}, also=["dead_time"]))
+    assert "is 0.275, as good as its bound 0 s" in near.advice
+    assert near.advice.endswith("leave dead_time out of 'also'")
+    [at] = bound_checks.at_bounds(UM, term(late, {"dead_time": 0.0}, also=["dead_time"]))
+    assert "stands at its bound 0 s" in at.advice
+    [longest] = bound_checks.at_bounds(UM, term(late, {"dead_time": 1200.0}, also=["dead_time"]))
+    assert longest.advice.endswith("or the bound is wrong")
 
 
 def test_a_bound_is_the_users_where_there_is_one_and_fixed_and_silent_ones_have_none() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import yaml
@@ -76,6 +78,13 @@ def test_a_fit_is_kept_with_its_scores_and_contributions(store: Store, spec: Spe
     again = run.load(store, result.model[:8])
     assert again.identity == result.model
     assert again.fitted.parameters()["coolant.tau"].value == pytest.approx(result.parameters["coolant.tau"].value)
+
+
+def test_a_fit_tells_the_rows_of_a_prediction_file_that_have_no_value(store: Store, spec: Spec, tmp_path: Path) -> None:
+    rows = [f"t{k},{t},{'nan' if t == 600 else t / 100}" for k in range(7) for t in range(0, 43201, 600)]
+    (tmp_path / "theirs.csv").write_text("\n".join(["test,t_s,predicted", *rows]))
+    result = run.fit(store, spec({"effect": "prediction", "file": "theirs.csv"}, name="theirs"), base=tmp_path)
+    assert any(note.startswith("theirs.csv: 7 of 511 rows have no predicted value") for note in result.notes)
 
 
 def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec) -> None:
@@ -211,3 +220,13 @@ def test_carrying_over(store: Store, spec: Spec) -> None:
     assert all(r.verdict == "portable" for r in rows)
     with store.reader() as con:
         assert con.execute("select count(distinct test) from portability").fetchone() == (7,)
+
+
+def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> None:
+    model = run.fit(store, spec(*EFFECTS)).model
+    for names in (["t7"], ["t0", "t7"]):
+        with pytest.raises(UsageError, match=r"locked: c/t7; opened only to confirm") as caught:
+            run.transfer(store, model, names)
+        assert (caught.value.where, caught.value.got, caught.value.exit_code) == ("--test", "c/t7", 2)
+    with store.reader() as con:
+        assert con.execute("select count(*) from locked_look where model = ?", [model]).fetchone() == (0,)

@@ -164,3 +164,12 @@ def test_the_exponent_of_friction_is_held_as_fitted(spec: Spec) -> None:
     assert [lag.id for lag in refined.lags] == ["heat_lag2"]
     assert refined.spec.effects[-1].fixed["exponent"] == pytest.approx(1.5, abs=0.2)
     assert refined.spec.effects[-1].bounds["tau"] == (1.0, 480.0)
+
+
+def test_a_second_lag_starts_anew(world: Dataset, spec: Spec) -> None:
+    """Where the first one starts may lie outside of where a second one is searched."""
+    wide = {"effect": "lag", "drivers": {"u": "T_nut"}, "start": {"tau": 5000}, "bounds": {"tau": [5, 6000]}}
+    refined = with_second_lags(spec("spindle_bearing", wide, in_sample=True), world)
+    assert [lag.id for lag in refined.lags] == ["lag_lag2"]
+    assert refined.spec.effects[-1].start == {}
+    fit_model(refined.spec, world, uncertainty=False)

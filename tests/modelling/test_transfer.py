@@ -18,7 +18,9 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.model_file.transfer import GivenFunction, given
 from thermodata.modelling.predictions.score import scores
+from thermodata.modelling.versions.result import make_result
 from thermodata.plugin import Float1D
+from thermodata.report.fit_text import fit_text
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.printed import WithUnit
@@ -140,6 +142,34 @@ def test_arx_is_scored_in_free_run_and_that_shows(fine: Dataset, spec: Spec) -> 
     data = Dataset(60.0, quiet, quiet[0].channels)
     exact = {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "arx", "orders": [3, 2]}
     assert _unseen(fit_model(spec(exact), data), data) > 98
+
+
+def test_an_arx_function_tells_its_gain_at_rest_its_time_constants_and_its_coefficients(spec: Spec) -> None:
+    quiet = tuple(_two_lags(seed, role, 1e-9, noise=1e-6) for seed, role in ((1, "calibration"), (2, "verification")))
+    data = Dataset(60.0, quiet, quiet[0].channels)
+    exact = {"effect": "transfer_function", "drivers": {"u": "T"}, "method": "arx", "orders": [3, 2]}
+    fitted = fit_model(spec(exact), data)
+    result = make_result(fitted, data, "m")
+    gain = result.parameters["transfer_function.gain"]
+    assert (gain.value, gain.unit) == (pytest.approx(3.2, rel=0.02), "um/K")
+    taus = [result.parameters[f"transfer_function.tau_{i}"] for i in (1, 2)]
+    assert [(tau.value, tau.unit) for tau in taus] == [
+        (pytest.approx(20.0, rel=0.05), "min"),
+        (pytest.approx(180.0, rel=0.05), "min"),
+    ]
+    again = {name.removeprefix("transfer_function."): p.value for name, p in result.parameters.items()}
+    for fitted_by in ("gain", "tau_1", "tau_2"):
+        del again[fitted_by]
+    assert list(again) == ["a0", "a1", "a2", "b0", "b1", "b2", "sample_s"]
+    assert (again["b0"], again["sample_s"]) == (1.0, 60.0)
+    assert sum(again[f"a{i}"] for i in range(3)) / sum(again[f"b{i}"] for i in range(3)) == pytest.approx(gain.value)
+    assert set(result.parameters) - set(result.readable) == {f"transfer_function.{name}" for name in again}
+    assert "b1" not in fit_text(result)
+    printed = fit_model(
+        spec({"effect": "transfer_function", "drivers": {"u": "T"}, "fixed": again | {"gain": 1}}), data
+    )
+    assert _unseen(printed, data) == pytest.approx(_unseen(fitted, data))
+    assert list(printed.parameters()) == ["transfer_function.gain"], "the file has the others"
 
 
 @pytest.mark.parametrize("name", sorted(n for n, f in PRINTED.items() if f.get("usable")))

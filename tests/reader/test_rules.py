@@ -65,6 +65,13 @@ def test_item_rule_is_the_one_that_catches_its_broken_twin(rule: rules.BlockRule
     assert found[0] == rules.sentence(rule)
 
 
+@pytest.mark.parametrize("dtype", ["text", "object", "<U5", "a[", "datetime64[ns]"])
+def test_a_dtype_that_is_none_is_answered_with_what_to_declare(dtype: str) -> None:
+    said = rules.every_signal_has_a_name_a_stream_and_a_dtype(replace(GOOD, signals=(Signal("w", "s", dtype=dtype),)))
+    assert said is not None
+    assert said.startswith(f"signal 'w' declares dtype {dtype!r}; expected 'str' for text, else numpy's name")
+
+
 @pytest.mark.parametrize("t_ns", [np.iinfo(np.int64).min, np.iinfo(np.int64).max])
 def test_a_time_that_is_none_is_no_time(t_ns: int) -> None:
     block = replace(BLOCK, t_ns=np.array([0, t_ns, 1], np.int64))

@@ -89,6 +89,13 @@ def test_rows_whose_times_stand_still_are_told_and_asked(store: Store, tmp_path:
             "a: the phase 'most' ends at 3 h, and the recording ends at 0.65 h: it is taken",
         ),
         ("phases: {all: [0 h, 0.65 h]}", ""),
+        (
+            "window: [0.1 h, 50 h]",
+            "a: the window ends at 50 h, and the last sample in it is at 0.65 h: the test is taken",
+        ),
+        ("window: [0.1 h, 0.5 h]", ""),
+        ("window: [0 h, 0.65 h]", ""),
+        ("window: [0 h, 0.651 h]", ""),  # less than a sample more
     ],
 )
 def test_times_behind_the_end_of_the_recording_are_told(store: Store, tmp_path: Path, keys: str, said: str) -> None:

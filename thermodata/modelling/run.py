@@ -15,7 +15,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
 from thermodata.modelling.inputs import coarse_readings
 from thermodata.modelling.inputs.roles import find_tests, opened, resolve_roles
-from thermodata.modelling.model_file import nested
+from thermodata.modelling.model_file import nested, prediction
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.model_file.transfer import NAME
@@ -90,7 +90,8 @@ def fit(
     terms = [term.bound for response in fitted.responses for term in response.terms]
     read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
     looked_at = opened(resolve_roles(spec, data), data)
-    notes = [*said.pop("notes", []), *coarse_readings.said(data, read), *_unlocked(looked_at)]
+    of_files = dict.fromkeys(note for term in terms for note in prediction.said(term.effect))
+    notes = [*said.pop("notes", []), *coarse_readings.said(data, read), *of_files, *_unlocked(looked_at)]
     result = result.model_copy(update={**said, "notes": notes})
     if looked_at:  # first: a look that is counted for a fit that nobody kept does less harm than one that is not
         count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)
@@ -195,14 +196,37 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
 
 def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
     """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
-    findings of the model. UsageError for an unknown test."""
+    findings of the model. UsageError for a named test that is unknown, locked, or has nothing to carry over to."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
-    rows = portability(model.fitted, model.data)
-    save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     wanted = find_tests(tests, model.data, "--test")
+    rows = portability(model.fitted, model.data)
+    told = {(r.campaign, r.test) for r in rows}
+    _refuse_closed([key for key in wanted if key not in told], model)
+    save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
     return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
+
+
+def _refuse_closed(without: Sequence[tuple[str, str]], model: Loaded) -> None:
+    """UsageError for tests that were asked for and have no row."""
+    if not without:
+        return
+    names = ", ".join("/".join(key) for key in without)
+    if any(model.fitted.roles.role(key) == "locked" for key in without):
+        raise UsageError(
+            f"locked: {names}; opened only to confirm an effect, and every look is counted",
+            where="--test",
+            expected="tests that are not locked in the model",
+            got=names,
+            hint=f"thermodata confirm {model.identity} EFFECT opens the locked tests for an effect of your choice",
+        )
+    raise UsageError(
+        f"nothing to carry over to in {names}",
+        where="--test",
+        expected=f"a valid sample of {', '.join(r.name for r in model.fitted.responses)}, where the model predicts",
+        got="none",
+    )
 
 
 def orders(store: Store, spec: Model, *, method: str | None = None, base: Path | None = None) -> list[Tried]:

@@ -173,7 +173,7 @@ class Fit(Shown):
         heads = [(key, text.replace("[um]", f"[{self.unit}]")) for key, text in heads]
         fitted = [
             {"parameter": k, "value": p.value, "unit": p.unit, "range": span(self.result, k)}
-            for k, p in self.result.parameters.items()
+            for k, p in self.result.readable.items()
         ]
         columns = [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")]
         notes = "".join(f"<li>{escape(c.name)}: {escape(c.advice)}</li>" for c in self.result.checks if not c.passed)

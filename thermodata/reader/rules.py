@@ -30,6 +30,9 @@ def signal_names_are_unique_within_a_stream(recording: Recording) -> str | None:
     return None
 
 
+DTYPES = "expected 'str' for text, else numpy's name of what its numbers are: 'float64', 'int16', 'bool'"
+
+
 def every_signal_has_a_name_a_stream_and_a_dtype(recording: Recording) -> str | None:
     for signal in recording.signals:
         if not signal.name or not signal.stream:
@@ -37,10 +40,10 @@ def every_signal_has_a_name_a_stream_and_a_dtype(recording: Recording) -> str | 
         if signal.dtype != "str":
             try:
                 kind = np.dtype(signal.dtype).kind
-            except TypeError:
-                return f"signal '{signal.name}' declares dtype {signal.dtype!r}, which numpy does not know"
-            if kind not in "biuf":
-                return f"signal '{signal.name}' declares dtype {signal.dtype!r}; numbers, bool or 'str' are allowed"
+            except (TypeError, ValueError, SyntaxError):
+                kind = None
+            if kind is None or kind not in "biuf":
+                return f"signal '{signal.name}' declares dtype {signal.dtype!r}; {DTYPES}"
     return None
 
 

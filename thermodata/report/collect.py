@@ -58,7 +58,7 @@ def collect(store: Store, ref: str) -> ReportData:
         unit=next((r.unit for r in loaded.fitted.responses), "um"),
         effects=tuple(t.id for t in loaded.fitted.responses[0].terms) if responses else (),
         created=_created(store, stored.model),
-        parameters=result.parameters,
+        parameters=result.readable,
         scores=by_role(result.scores),
         checks=result.checks,
         before=before,

@@ -27,8 +27,7 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
     if scores:
         parts.append(scores_text(result.scores))
     parameters = [
-        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(result, k)}
-        for k, p in result.parameters.items()
+        {"parameter": k, "value": p.value, "unit": p.unit, "range": span(result, k)} for k, p in result.readable.items()
     ]
     if parameters:
         parts.append(

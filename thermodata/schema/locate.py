@@ -36,7 +36,7 @@ def located(error: ThermodataError, path: Path) -> ThermodataError:
 
 def placed(error: ThermodataError, path: Path) -> ThermodataError:
     """The same error with file and line, if its `where` begins with a place of the file, such as `calibrations.jump_z`:
-    of the refused word (`got`) where that stands below it; the error as it is where it doesn't."""
+    of the refused word (`got`) where that stands below it, as a value or a key; the error as it is where it doesn't."""
     dotted, comma, rest = (error.where or "").partition(", ")
     try:
         document = read_document(path)
@@ -48,7 +48,13 @@ def placed(error: ThermodataError, path: Path) -> ThermodataError:
     word = (error.got or "").strip("'")
     below = [p for p in document.line if p[: len(place)] == place and p != place]
     refused = [p for p in below if _plain(at_place(document.data, p)) and str(at_place(document.data, p)) == word]
+    refused += [p for p in below if word in _keys(p[-1])]
     return error.at(document.where(next(iter(refused), place)) + comma + rest)
+
+
+def _keys(key: str | int) -> list[str]:
+    """'[D25, D63]' stands for both."""
+    return [one.strip() for one in str(key).removeprefix("[").removesuffix("]").split(",")]
 
 
 def _place(document: Document, word: str, effect: re.Match[str] | None) -> Place | None:

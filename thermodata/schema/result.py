@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from pydantic import BaseModel, ConfigDict
+
+SAMPLE = ".sample_s"  # behind the id of an effect whose coefficients are parameters
+_COEFFICIENT = re.compile(r"\.([ab]\d+|sample_s)$")
 
 
 class Result(BaseModel):
@@ -83,13 +88,14 @@ class FitResult(Result):
     parent: id of the version before
     campaigns: ids
     response: name or names
-    parameters: effect.parameter -> value with its interval
+    parameters: effect.parameter -> value with its interval; of method arx the time constants, the gain at rest, and the
+        coefficients a0 ... over b0 ... at sample_s
     scores: a row a test, response and phase
     checks: what the fit says of itself
     before: of add: the parent's scores
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
-    notes: in sentences: temperatures that are read in coarse steps and drawn through them; of add: which second lags
-        were taken in and why
+    notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
+        without a value; of add: which second lags were taken in and why
     """
 
     model: str
@@ -107,3 +113,13 @@ class FitResult(Result):
     @property
     def responses(self) -> list[str]:
         return [self.response] if isinstance(self.response, str) else self.response
+
+    @property
+    def readable(self) -> dict[str, Parameter]:
+        """The parameters without the coefficients of functions, which say nothing in three digits."""
+        functions = {name.removesuffix(SAMPLE) for name in self.parameters if name.endswith(SAMPLE)}
+        return {
+            name: parameter
+            for name, parameter in self.parameters.items()
+            if not (name.rpartition(".")[0] in functions and _COEFFICIENT.search(name))
+        }

@@ -15,11 +15,20 @@ from thermodata.modelling.inputs.phases import runs
 from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedTerm, fit_mask
+from thermodata.modelling.terms.identified import Identified
 from thermodata.plugin import Bool1D, Effect, Float1D
 from thermodata.view.dataset import TestData
 
 FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample
 FEWEST_WINDOWS = 4  # fewer are gaps of a record
+
+
+class ArxFunction(GivenFunction):
+    """A function as ARX found it."""
+
+    def __init__(self, a: Sequence[float], b: Sequence[float], sample_s: float, where: str) -> None:
+        super().__init__(a, b, sample_s, where=where)
+        self.identified = Identified(tuple(map(float, a)), tuple(map(float, b)), sample_s)
 
 
 def placeholder(term: BoundTerm) -> BoundTerm:
@@ -73,8 +82,8 @@ def identify_arx(
         )
     coefficients = np.linalg.lstsq(x, y, rcond=None)[0]
     try:
-        function = GivenFunction(
-            [*np.zeros(delay), *coefficients[nb : nb + na]], [1.0, *-coefficients[:nb]], step_s(tests[0]), where=term.id
+        function = ArxFunction(
+            [*np.zeros(delay), *coefficients[nb : nb + na]], [1.0, *-coefficients[:nb]], step_s(tests[0]), term.id
         )
     except SpecError as error:
         raise UsageError(

@@ -38,13 +38,16 @@ BACK = 14.49 / 12.0  # of the noise, where a line through three samples goes bac
 START_S = 300.0  # the start value is a mean of at most this, while the driver does not move
 
 
-def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str]) -> Drivers:
-    """binding: role -> channel name or expression ("T_a - T_b"). UsageError where the test lacks a channel."""
+def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str], name: str | None = None) -> Drivers:
+    """binding: role -> channel name or expression ("T_a - T_b"). name: of the effect in its model. UsageError where the
+    test lacks a channel, or a driver has no valid sample in it."""
     values: dict[str, Float1D] = {}
     valid: dict[str, Bool1D] = {}
     quantity = {need.role: need.quantity for need in effect.needs}
     for role, text in binding.items():
         raw, good, relative = evaluate(test, text)
+        if not good.any():
+            raise _nothing_valid(test, text, f"effect '{name or effect.name}', driver '{role}'")
         if quantity.get(role) == "position":  # an effect that names position means the coordinate
             relative = False
         values[role], valid[role] = prepare(raw, good, step_s(test), relative)
@@ -87,6 +90,25 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         raw = np.asarray(values, dtype=np.float64)
         relative = relative and not tree.logical  # a condition is a state: zero is off
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
+
+
+def _nothing_valid(test: TestData, text: str, where: str) -> UsageError:
+    names = names_of(text)
+    counts = {name: int(np.count_nonzero(_good(test, name))) for name in names}
+    together = int(np.count_nonzero(np.logical_and.reduce([_good(test, name) for name in names])))
+    each = ", ".join(f"{n} valid in {k} of {len(test.t_s)} samples" for n, k in counts.items())
+    if together:
+        got, hint = f"{each}, and no number comes of them", "divide by nothing that stays zero"
+    else:
+        got = each if not all(counts.values()) else f"{each}, and never at once"
+        hint = "thermodata quality tells which samples are flagged, and why"
+    return UsageError(
+        f"the driver '{text}' has no valid sample in test '{test.campaign}/{test.test}'",
+        where=where + ("" if text.isidentifier() else f", expression '{text}'"),
+        expected="a number at one time at least",
+        got=got,
+        hint=f"{hint}; where the effect does not act, name the tests in which it does: tests: [...]",
+    )
 
 
 def prepare(raw: Float1D, good: Bool1D, step: float, relative: bool) -> tuple[Float1D, Bool1D]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import cast
 
@@ -35,8 +36,15 @@ def refuse_unknown_effects(spec: Model) -> None:
                 raise error.at(f"model '{spec.name}', effect '{name}'") from error
 
 
-def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
-    """The plugin's effect, or one of the two that the model file itself spells out."""
+def make_effect(
+    spec: EffectSpec,
+    where: str,
+    base: Path | None,
+    response: Mapping[str, str] | None = None,
+    unit: str | None = None,
+) -> Effect:
+    """The plugin's effect, or one of the two that the model file itself spells out. response: campaign -> the channel
+    that it acts on, in `unit`."""
     if spec.effect == transfer.NAME:
         function = transfer.given(spec.fixed, where)
         if function is not None:
@@ -49,7 +57,7 @@ def make_effect(spec: EffectSpec, where: str, base: Path | None) -> Effect:
     if spec.effect == prediction.NAME:
         if spec.file is None:
             raise SpecError("an effect 'prediction' needs 'file'", where=where, expected="file: theirs.csv")
-        return cast(Effect, prediction.read_prediction((base or Path()) / spec.file))
+        return cast(Effect, prediction.read_prediction((base or Path()) / spec.file, response, unit))
     for key, owner in _OWNED.items():
         if getattr(spec, key) is not None:
             hint = f"an effect is called by 'id: {spec.name}'" if key == "name" else None

@@ -61,7 +61,10 @@ def model_output(spec: EffectSpec, channel: str, campaigns: tuple[str, ...], fit
             expected=f"campaigns: [{', '.join(dict.fromkeys((*campaigns, *inside.campaign_ids)))}]",
             got=f"without {', '.join(missing)}",
         )
-    responses = fit(inside).responses
+    try:
+        responses = fit(inside).responses
+    except SpecError as error:  # its places are those of another file
+        raise error.at(f"model '{inside.name}', {error.where}") from None
     same = [r for r in responses if r.name == channel] or list(responses)
     if len(same) > 1:
         raise SpecError(

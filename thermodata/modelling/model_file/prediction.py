@@ -1,26 +1,44 @@
-"""Another program's prediction as an effect: a CSV file with the columns test, t_s, predicted, as `predict --out`
-writes them too."""
+"""Another program's prediction as an effect, interpolated from its file onto the grid of a test."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from thermodata.errors import SpecError, nearest
+from thermodata.errors import SpecError
+from thermodata.modelling.model_file.prediction_file import Rows, read_rows
 from thermodata.modelling.terms.of_tests import OfTests
-from thermodata.plugin import Float1D, Float2D, Gain
-from thermodata.reader.text import split_unit
+from thermodata.plugin import Effect, Float1D, Float2D, Gain
+from thermodata.schema.counted import counted
 from thermodata.view.dataset import TestData
 
 NAME = "prediction"
-_COLUMNS = ("test", "t_s", "predicted")
+
+
+class Series(NamedTuple):
+    """Of one test. t_s: increasing [s], shape (n,); y: shape (n,), NaN where the file has a time and no value."""
+
+    t_s: Float1D
+    y: Float1D
+
+    def at(self, t_s: Float1D) -> Float1D:
+        """On straight lines between rows that have a value, relative to the first of these; NaN elsewhere."""
+        known = np.isfinite(self.y)
+        t, y = self.t_s[known], self.y[known]
+        out = np.interp(t_s, t, y - y[0], left=np.nan, right=np.nan)
+        # a value held beyond the rows, or a line across an empty one, would score as if it had been predicted
+        last = len(self.t_s) - 1
+        before = np.clip(np.searchsorted(self.t_s, t_s, side="right") - 1, 0, last)
+        after = np.clip(np.searchsorted(self.t_s, t_s), 0, last)
+        return np.where(known[before] & known[after], out, np.nan)
 
 
 class Prediction(OfTests):
-    """Interpolated onto the grid; NaN outside the times that the file covers. Its gain is 1 unless freed."""
+    """NaN outside the times that the file covers, and beside its rows without a value. Its gain is 1 unless freed.
+    notes: what whoever reads the fit should know of the file."""
 
     name = NAME
     family = "prediction"
@@ -28,8 +46,8 @@ class Prediction(OfTests):
     source = "the file"
     gains = (Gain("gain", "1", (0.0, float("inf")), "any", "factor on the prediction"),)
 
-    def __init__(self, tables: Mapping[str, tuple[Float1D, Float1D]]) -> None:
-        self.tables = tables
+    def __init__(self, tables: Mapping[str, Series], notes: tuple[str, ...] = ()) -> None:
+        self.tables, self.notes = tables, notes
 
     def has(self, test: TestData) -> bool:
         return self._key(test) is not None
@@ -39,68 +57,58 @@ class Prediction(OfTests):
         key = self._key(test)
         if key is None:
             raise SpecError(f"the prediction file has no test '{test.test}'", expected=", ".join(self.tables))
-        t, y = self.tables[key]
-        out = np.interp(test.t_s, t, y - y[0], left=0.0)
-        # past its end a prediction says nothing; a held value would score as if it did
-        return np.where(test.t_s <= t[-1], out, np.nan).reshape(-1, 1)
+        return self.tables[key].at(test.t_s).reshape(-1, 1)
 
     def _key(self, test: TestData) -> str | None:
         return next((k for k in (f"{test.campaign}/{test.test}", test.test) if k in self.tables), None)
 
 
-def read_prediction(path: Path) -> Prediction:
-    """Columns test, t_s [s from the test's start], predicted [the response's unit]; units may stand in brackets behind
-    the names, and a campaign before the test as campaign/test, or in a column of its own. SpecError with the line
-    where a value is no number, or of another response than those before."""
-    tables: dict[str, tuple[list[float], list[float]]] = {}
-    response: str | None = None
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = csv.DictReader(file)
-            names = {split_unit(n)[0].strip().lower(): n for n in rows.fieldnames or []}
-            if "t" in names:
-                names.setdefault("t_s", names["t"])
-            for column in _COLUMNS:
-                if column not in names:
-                    close = nearest(column, list(names))
-                    raise SpecError(
-                        f"no column '{column}'",
-                        where=str(path),
-                        expected=", ".join(_COLUMNS),
-                        got=", ".join(names),
-                        hint=f"rename '{close}'" if close else None,
-                    )
-            for row in rows:
-                try:
-                    t, y = float(row[names["t_s"]]), float(row[names["predicted"]])
-                except (TypeError, ValueError):
-                    raise SpecError("not a number", where=f"{path}:{rows.line_num}", got=str(row)) from None
-                own = row[names["response"]] if "response" in names else None
-                response = own if response is None else response
-                if own != response:
-                    raise SpecError(
-                        "a prediction file is of one response",
-                        where=f"{path}:{rows.line_num}",
-                        expected=str(response),
-                        got=str(own),
-                        hint="write a file for each: one effect reads one",
-                    )
-                prefix = f"{row[names['campaign']]}/" if "campaign" in names else ""
-                table = tables.setdefault(prefix + row[names["test"]], ([], []))
-                table[0].append(t)
-                table[1].append(y)
-    except FileNotFoundError:
+def said(effect: Effect) -> tuple[str, ...]:
+    """The notes of a prediction; of any other effect none."""
+    return effect.notes if isinstance(effect, Prediction) else ()
+
+
+def read_prediction(path: Path, channels: Mapping[str, str] | None = None, unit: str | None = None) -> Prediction:
+    """The file as an effect on one response. channels: campaign -> the response's channel there; unit: the response's.
+
+    SpecError with the line where a value is no number, a test has two values at one time, a row is of another response
+    or the header in a unit of another kind; and where no row has a value."""
+    rows = read_rows(path, channels, unit)
+    empty = sorted(n for own in rows.values() for y, n in zip(own.y, own.line, strict=True) if not np.isfinite(y))
+    count = sum(len(own.y) for own in rows.values())
+    if len(empty) == count:
         raise SpecError(
-            "no such prediction file",
-            where=str(path.parent),
-            expected=f"a CSV file with the columns {', '.join(_COLUMNS)}; its path counts from the model file",
-            got=path.name,
-            hint="thermodata predict MODEL CAMPAIGN --out FILE.csv writes one",
-        ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
-    series: dict[str, tuple[Float1D, Float1D]] = {}
-    for test, (times, values) in tables.items():
-        order = np.argsort(np.asarray(times), kind="stable")
-        series[test] = (np.asarray(times)[order], np.asarray(values)[order])
-    return Prediction(series)
+            "no row of the prediction file has a value",
+            where=f"{path}:{empty[0] if empty else 1}",
+            expected="numbers in the column 'predicted'",
+            got=f"none in {counted(count, 'row')}",
+        )
+    tables = {test: series for test, own in rows.items() if np.isfinite((series := _series(own, test, path)).y).any()}
+    return Prediction(tables, _notes(path, empty, count, [test for test in rows if test not in tables]))
+
+
+def _series(rows: Rows, test: str, path: Path) -> Series:
+    order = np.argsort(np.asarray(rows.t_s), kind="stable")
+    t, y, lines = np.asarray(rows.t_s)[order], np.asarray(rows.y)[order], np.asarray(rows.line)[order]
+    again = np.diff(t, prepend=np.nan) == 0
+    differs = np.flatnonzero(again & ~np.isclose(y, np.roll(y, 1), rtol=1e-12, atol=0.0, equal_nan=True))
+    if len(differs):
+        i = int(differs[0])
+        raise SpecError(
+            f"two predictions of test '{test}' at one time",
+            where=f"{path}:{lines[i]}",
+            expected=f"{y[i - 1]:g} as at line {lines[i - 1]}, or another time than {t[i]:g} s",
+            got=f"{y[i]:g}",
+            hint="keep one of the two rows",
+        )
+    return Series(t[~again], y[~again])
+
+
+def _notes(path: Path, empty: list[int], count: int, lost: list[str]) -> tuple[str, ...]:
+    if not empty:
+        return ()
+    tests = f"; nothing is left of {', '.join(lost)}" if lost else ""
+    return (
+        f"{path.name}: {len(empty)} of {counted(count, 'row', 'has', 'have')} no predicted value (the first at line "
+        f"{empty[0]}): between them and the rows beside them the model says nothing, and nothing counts{tests}",
+    )

@@ -16,6 +16,7 @@ from thermodata.modelling.model_file import nested, prediction, shaped, transfer
 from thermodata.modelling.model_file.driver_quantity import refuse_another_quantity
 from thermodata.modelling.model_file.make_effect import make_effect, refuse_unknown_effects
 from thermodata.modelling.model_file.own_units import in_own_units
+from thermodata.modelling.model_file.possible_values import refuse_impossible, refuse_no_name, refuse_unknown_groups
 from thermodata.modelling.model_file.said_conditions import refuse_unsaid_of
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.nuisance import known_weights
@@ -51,7 +52,7 @@ def resolve(
                 names[first],
                 by_campaign[first][names[first]].unit,
                 names,
-                bind_terms(spec.effects, data, by_campaign, base, names[first], fit_inside),
+                bind_terms(spec.effects, data, by_campaign, names, base, fit_inside),
                 {n: i.unit for infos in by_campaign.values() for n, i in infos.items()},
                 spec.weights,
             )
@@ -140,22 +141,27 @@ def bind_terms(
     effects: Sequence[EffectSpec],
     data: Dataset,
     by_campaign: Mapping[str, Mapping[str, ChannelInfo]],
+    response: Mapping[str, str],
     base: Path | None = None,
-    channel: str = "",
     fit_inside: nested.FitInside | None = None,
 ) -> tuple[BoundTerm, ...]:
+    """The effects that act on a response. response: campaign -> its channel."""
     ids = term_ids(effects)
+    campaign, channel = next(iter(response.items()))
+    unit = _unit_of(by_campaign[campaign].get(channel))
     terms = []
-    for name, given in zip(ids, effects, strict=True):
+    for i, (name, given) in enumerate(zip(ids, effects, strict=True)):
         if given.acts_on is not None and channel not in _first_names(given.acts_on, by_campaign):
             continue
+        place = f"effects[{i}]"
         spec = as_it_was_made(given)
         if spec.effect == nested.NAME:
+            refuse_no_name(spec, place)
             effect: Effect = cast(
                 Effect, nested.model_output(spec, channel, tuple(by_campaign), _fitter(fit_inside), name)
             )
         else:
-            effect = make_effect(spec, name, base)
+            effect = make_effect(spec, name, base, response, unit)
         if spec.also:
             effect = cast(Effect, shaped.Shaped(effect, spec.also, f"effect '{name}': also"))
         bound_by = _where_it_is(
@@ -177,8 +183,10 @@ def bind_terms(
         for key in [*spec.fixed, *spec.start, *spec.bounds, *shared]:
             if key not in known and not (spec.effect == transfer.NAME and transfer.is_coefficient(key)):
                 raise unknown_name("parameter", key, known, where=f"effect '{name}'")
-        u, y = (_unit_of(by_campaign[first].get(n)) for n in (bound_by[first].get("u", ""), channel))
-        spec = in_own_units(spec, effect, f"effect '{name}'", u, y)
+        driver = _unit_of(by_campaign[first].get(bound_by[first].get("u", "")))
+        spec = in_own_units(spec, effect, f"effect '{name}'", driver, unit)
+        refuse_impossible(given, spec, effect, place)
+        refuse_unknown_groups(spec, data, place)
         family = family_of(effect, bound_by[first], by_campaign[first])
         terms.append(BoundTerm(name, effect, spec, bound_by, family, only, calibrate, seen_at))
     return tuple(terms)

@@ -68,7 +68,7 @@ class BoundTerm:
         if kept is None or kept[0] is not test:
             if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
-            drivers = make_drivers(test, self.effect, self.binding_of(test))
+            drivers = make_drivers(test, self.effect, self.binding_of(test), self.id)
             kept = self._drivers[id(test)] = (test, drivers, with_lead(drivers))
         return kept
 

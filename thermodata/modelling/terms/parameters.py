@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from thermodata.calibration.expression import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
+from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param
-from thermodata.schema.result import Parameter
+from thermodata.schema.result import SAMPLE, Parameter
 
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
 
@@ -24,8 +25,13 @@ def parameters(responses: Sequence[FittedResponse]) -> dict[str, Parameter]:
 
 
 def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Parameter]:
-    """'effect.parameter' of one term; parameters that groups share appear once."""
+    """'effect.parameter' of one term; parameters that groups share appear once. Of a function that was identified by
+    its coefficients, its time constants and its gain at rest before these."""
     by_name: dict[str, Parameter] = {}
+    function = identified(term.effect)
+    taus = () if function is None else function.taus_min
+    for number, tau in enumerate(taus, 1):
+        by_name[f"{term.id}.tau" + (f"_{number}" if len(taus) > 1 else "")] = Parameter(value=tau, unit="min")
     for group, values in term.groups.items():
         tag = f"[{group}]" if group else ""
         for param in term.effect.params:
@@ -40,8 +46,20 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             unit = gain_unit(response, term, gain.unit)
             if f"{term.id}.{gain.name}{tag}" in by_name and term.bound.spec.one_gain:
                 continue
-            by_name[f"{term.id}.{gain.name}{tag}"] = _told(values.gains[gain.name], unit, interval(gain.name, values))
+            value = values.gains[gain.name]
+            if function is not None:
+                value, unit = value * function.gain_at_rest, gain_unit(response, term, "um/u")
+            by_name[f"{term.id}.{gain.name}{tag}"] = _told(value, unit, interval(gain.name, values))
+    if function is not None:
+        by_name |= _coefficients(function, term.id, gain_unit(response, term, "um/u"))
     return by_name
+
+
+def _coefficients(function: Identified, name: str, unit: str) -> dict[str, Parameter]:
+    """As `fixed` of a transfer function takes them."""
+    found = {f"{name}.a{i}": Parameter(value=a, unit=unit) for i, a in enumerate(function.a)}
+    found |= {f"{name}.b{i}": Parameter(value=b, unit="1") for i, b in enumerate(function.b)}
+    return {**found, name + SAMPLE: Parameter(value=function.step_s, unit="s")}
 
 
 def name_of(term: FittedTerm, group: str, param: Param) -> str:

@@ -37,8 +37,7 @@ def _bounds(term: FittedTerm) -> list[Check]:
                             value=value,
                             threshold=end,
                             passed=False,
-                            advice=f"{param.meaning} stands at its bound {_with_unit(end, param)}: another effect may "
-                            f"be behind it, or the bound is wrong{_wider(param, end)}",
+                            advice=f"{param.meaning} {_stands(value, end, param)}: {_why(term, param, end, low)}",
                         )
                     )
     return rows
@@ -63,6 +62,19 @@ def _undetermined(term: FittedTerm) -> list[Check]:
                     )
                 )
     return rows
+
+
+def _stands(value: float, end: float, param: Param) -> str:
+    """Where it can be read off that the value is another one than its bound, how near it lies."""
+    if abs(value - end) <= AT_BOUND * abs(end):
+        return f"stands at its bound {_with_unit(end, param)}"
+    return f"is {value:.3g}, as good as its bound {_with_unit(end, param)}"
+
+
+def _why(term: FittedTerm, param: Param, end: float, low: float) -> str:
+    if param.name in term.bound.spec.also and end == low:
+        return f"these tests show none; leave {param.name} out of 'also'"
+    return f"another effect may be behind it, or the bound is wrong{_wider(param, end)}"
 
 
 def _with_unit(value: float, param: Param) -> str:

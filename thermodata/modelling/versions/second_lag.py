@@ -178,4 +178,6 @@ def second_of(spec: EffectSpec, fitted: FittedTerm, ids: Sequence[str], span_s: 
     shortest, longest = (s / SECONDS[param.unit] for s in span_s)
     bounds = {**spec.bounds, param.name: (min(param.lower, shortest), max(param.upper, longest))}
     number = next(k for k in range(2, len(ids) + 3) if f"{fitted.id}_lag{k}" not in ids)
-    return spec.model_copy(update={"id": f"{fitted.id}_lag{number}", "fixed": held, "bounds": bounds})
+    start = {name: value for name, value in spec.start.items() if name != param.name}  # that of the first lag
+    changes = {"id": f"{fitted.id}_lag{number}", "fixed": held, "start": start, "bounds": bounds}
+    return spec.model_copy(update=changes)

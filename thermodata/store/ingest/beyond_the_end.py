@@ -7,13 +7,19 @@ from thermodata.schema.campaign import Test
 _MORE = 1.001  # an end that is written as it was planned is not behind the end
 
 
-def beyond_the_end(test: Test, duration_s: float | None) -> list[str]:
-    """Sentences for the summary of an ingest. duration_s: of the test [s]; None where nothing tells it."""
+def beyond_the_end(test: Test, duration_s: float | None, step_s: float = 0.0) -> list[str]:
+    """Sentences for the summary of an ingest. duration_s: of the test [s]; None where nothing tells it. step_s: from
+    one sample to the next, as the last one stands for what follows [s]."""
     if not duration_s:
         return []
     begin = test.window[0] if test.window is not None else 0.0
     end = begin + duration_s
     said = []
+    if test.window is not None and test.window[1] - begin > max(_MORE * duration_s, duration_s + 2 * step_s):
+        said.append(
+            f"{test.id}: the window ends at {_hours(test.window[1])}, and the last sample in it is at {_hours(end)}: "
+            "the test is taken to there"
+        )
     if "over" in test.zero.model_fields_set and test.zero.over > _MORE * duration_s:
         said.append(
             f"{test.id}: zero is the mean over {_hours(test.zero.over)}, and the test lasts {_hours(duration_s)}: "

@@ -24,7 +24,7 @@ from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.losses import Losses, loss_row
 from thermodata.store.ingest.other_units import other_units
-from thermodata.store.ingest.tidy_rows import count, duration_s, tidy_rows
+from thermodata.store.ingest.tidy_rows import count, duration_s, step_s, tidy_rows
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of
@@ -257,7 +257,7 @@ def _add_rows(layer: TidyLayer, tidied: _Tidied, calibrations: Mapping[str, Cali
     _add(layer, test, "quality_event", [e for rows in tidied.events.values() for e in rows])
     lasts_s = duration_s(plan, files)
     _add(layer, test, "test", [catalogue_rows.test_row(plan, tidied.where, lasts_s)])
-    note.notes += beyond_the_end(plan.test, lasts_s)
+    note.notes += beyond_the_end(plan.test, lasts_s, step_s(files))
     _add(layer, test, "machine", [catalogue_rows.machine_row(plan.campaign, plan)])
     _add(layer, test, "source", catalogue_rows.source_rows(plan, clocks))
     _add(layer, test, "channel", catalogue_rows.channel_rows(plan, calibrations))

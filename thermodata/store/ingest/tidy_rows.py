@@ -86,3 +86,10 @@ def duration_s(plan: TestPlan, files: Sequence[Row]) -> float | None:
         return float(min(b - a, max(ends.values())))
     wanted = [ends[s.name] for s in plan.reference if s.name in ends] or list(ends.values())
     return max(wanted, default=None)
+
+
+def step_s(files: Sequence[Row]) -> float:
+    """From one sample to the next in the stream that goes on longest [s]; 0 where nothing tells it."""
+    parts = [(meta_of(r)["to_s"], r["rows"]) for r in files if r["layer"] == "tidy" and r["part"] == "test"]
+    ends, rows = max(parts, default=(0.0, 0))
+    return float(ends / (rows - 1)) if rows > 1 else 0.0

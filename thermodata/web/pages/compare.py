@@ -230,7 +230,7 @@ def _roles(scores: list[list[Score]], responses: Sequence[str]) -> list[tuple[st
 
 def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:
     """(name, those of the results that have it)."""
-    names = dict.fromkeys(name for result in results for name in result.parameters)
+    names = dict.fromkeys(name for result in results for name in result.readable)
     return [(name, [result if name in result.parameters else None for result in results]) for name in names]
 
 
