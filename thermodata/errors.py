@@ -7,6 +7,9 @@ from copy import copy
 from difflib import get_close_matches
 from typing import Any, Self
 
+INTERRUPTED = 130
+"""Exit code of what Ctrl-C ended, as shells have it: 128 and the number of the signal."""
+
 
 class ThermodataError(Exception):
     """Base of every error that a user is meant to read.

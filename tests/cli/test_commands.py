@@ -141,7 +141,7 @@ def test_the_store_may_stand_after_the_command_or_in_the_environment(
             4,
             "error: the store is busy\nwhere: s\nexpected: a turn, got: 60 s\ntry: again\n",
         ),
-        (KeyboardInterrupt(), 1, "error: interrupted\n"),
+        (KeyboardInterrupt(), 130, "error: interrupted\n"),
         (
             PermissionError(13, "Permission denied", "x.tdms"),
             1,

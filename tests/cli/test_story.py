@@ -14,6 +14,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+import thermodata
+
 from .conftest import TESTS, Said, lag, write_campaign
 
 Say = Callable[..., Said]
@@ -348,6 +350,30 @@ def test_responses_in_several_units_are_told_each_in_its_own(say: Say, tmp_path:
     assert "next:" not in say("--store", store, "ingest", path).err
     assert "[um]" not in said.out.replace("dZ [um]", "")
     assert "[*] in the unit of the row's response: dZ [um], T_nut_Z [K]" in said.out
+    base = said.out.split()[1]
+
+    assert say("--store", store, "add", base, "lag:spindle_speed", "--plain").code == 0
+    told = json.loads(say("--store", store, "history", "baseline", "--json").out)
+    for version in told:
+        scores = json.loads(say("--store", store, "compare", version["model"], "--json").out)["scores"]
+        for each in version["responses"]:
+            of = [s for s in scores if (s["response"], s["phase"]) == (each["response"], "all")]
+            assert each["rmse_um"] == pytest.approx(rmse(of))
+            assert each["calibration_rmse_um"] == pytest.approx(rmse([s for s in of if s["role"] == "calibration"]))
+        # micrometres stay micrometres: kelvins have no part in them
+        assert [(e["response"], e["unit"]) for e in version["responses"]] == [("dZ", "um"), ("T_nut_Z", "K")]
+        assert (version["rmse_um"], version["unit"]) == (version["responses"][0]["rmse_um"], "um")
+    lines = [line.split() for line in say("--store", store, "history", "baseline").out.splitlines()]
+    assert {(n, u) for n in ("dZ", "T_nut_Z") for u in ("um", "K") for words in lines if {n, u} <= set(words)} == {
+        ("dZ", "um"),
+        ("T_nut_Z", "K"),
+    }
+    (newest, _) = thermodata.open(store).models()
+    assert (newest["unit"], newest["calibration_um"]) == ("um", pytest.approx(told[-1]["calibration_rmse_um"]))
+
+
+def rmse(scores: list[dict[str, Any]]) -> float:
+    return float(np.sqrt(np.average([s["rmse_um"] ** 2 for s in scores], weights=[s["n"] for s in scores])))
 
 
 def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_counted(say: Say, tmp_path: Path) -> None:

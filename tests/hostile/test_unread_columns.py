@@ -101,3 +101,33 @@ def test_what_no_channel_reads_is_told_so_by_quality_too(lab: Lab) -> None:
     assert "got 'Logged'; no channel reads that column" in lab("quality").out
     assert lab.ingest({"T1": T1, "end": {"signal": "End Of File", "quantity": "state"}}).code == 3
     assert "no channel reads that column" not in lab("quality").out
+
+
+def test_what_a_file_lost_is_told_once_for_all_tests_that_are_cut_from_it(lab: Lab) -> None:
+    rows = [f"{60 * i},{20 + i / 10}" for i in range(120)]
+    rows[3] = "180,2x"
+    lab.write("raw/long.csv", "time [s],T [degC]\n" + "\n".join(rows) + "\n")
+    tests = [
+        {"id": name, "files": {"log": "raw/long.csv"}, "window": window}
+        for name, window in (("early", ["0 h", "1 h"]), ("late", ["1 h", "2 h"]))
+    ]
+    channel = {"T1": {"signal": "T", "quantity": "temperature", "at": "hall"}}
+    for _ in range(2):  # the second time from what was noted
+        said = lab.ingest(channel, tests=tests)
+        assert said.code == 3
+        (line,) = [line for line in said.out.splitlines() if "2x" in line]
+        assert "times:" not in line
+        assert "(early, late, log, raw/long.csv" in line
+    told = json.loads(lab("ingest", lab.folder / "campaign.yaml", "--json").out)["losses"]
+    assert [(row["test"], row["tests"], row["file"]) for row in told] == [("early", ["early", "late"], "raw/long.csv")]
+    (line,) = [line for line in lab("quality").out.splitlines() if "2x" in line]
+    assert "times:" not in line
+    assert "(early, late, log, raw/long.csv" in line
+
+
+def test_a_file_of_two_tests_that_nobody_can_read_is_told_once(lab: Lab) -> None:
+    lab.write("raw/long.csv", b"\x00\x01 nothing")
+    tests = [{"id": name, "files": {"log": "raw/long.csv"}} for name in ("early", "late")]
+    lab.ingest({"T1": T1}, tests=tests)
+    told = json.loads(lab("ingest", lab.folder / "campaign.yaml", "--json").out)["losses"]
+    assert [row["tests"] for row in told if row["file"] == "raw/long.csv"] == [["early", "late"]]

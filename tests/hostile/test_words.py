@@ -152,7 +152,19 @@ def test_an_effect_that_makes_a_model_worse_is_said(after: float, worse: bool) -
         model="m", name="m", parent=None, campaigns=["c"], response="dZ", parameters={}, checks=[],
         scores=[score("verification", after)], before=[score("verification", 3.61)],
     )  # fmt: skip
-    assert (made_worse(result) is not None) is worse
+    assert (made_worse(result, {}) is not None) is worse
+
+
+def test_a_response_that_gets_worse_is_said_in_its_own_unit_beside_one_that_gets_better() -> None:
+    before, after = {"dZ": 9.0, "T_nut": 0.2}, {"dZ": 3.0, "T_nut": 0.4}
+    result = FitResult(
+        model="m", name="m", parent=None, campaigns=["c"], response=["dZ", "T_nut"], parameters={}, checks=[],
+        scores=[score("verification", e).model_copy(update={"response": n}) for n, e in after.items()],
+        before=[score("verification", e).model_copy(update={"response": n}) for n, e in before.items()],
+    )  # fmt: skip
+    said = str(made_worse(result, {"dZ": "um", "T_nut": "K"}))
+    assert "worse with it: T_nut verification 0.2 -> 0.4 K;" in said
+    assert "dZ" not in said
 
 
 @pytest.mark.parametrize("kind", ["link", "external", "virtual"])

@@ -129,6 +129,23 @@ def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec:
     assert other.notes[1:] == ["verification tests stay fitted (in-sample), for they helped to choose what is left"]
 
 
+def test_what_is_removed_is_a_version_of_its_own_whatever_was_fitted_before(store: Store, spec: Spec) -> None:
+    base = run.fit(store, spec("spindle_bearing", name="paths"))
+    one = run.add(store, base.model, "feed_screw:T_nut", plain=True)
+    both = run.add(store, one.model, "ambient_frame:T_hall", plain=True)
+    other = run.add(store, base.model, "ambient_frame:T_hall", plain=True)
+    removed = remove(store, both.model, "feed_screw")  # the effects of `other`, come to another way
+    assert removed.parameters == other.parameters
+    assert removed.model not in (other.model, base.model)
+    assert find_model(store, "paths").model == removed.model
+    assert [m.model for m in model_chain(store, removed.model)] == [m.model for m in (base, one, both, removed)]
+    assert [m.model for m in model_chain(store, other.model)] == [base.model, other.model]
+    # what is fitted, added or removed again is the same version, and its name leads past it
+    said = f"this model was fitted before: {one.model} is its name, 'paths' is the newer version {removed.model}"
+    assert run.add(store, base.model, "feed_screw:T_nut", plain=True).notes == [said]
+    assert not find_model(store, one.model).result.notes
+
+
 def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spec: Spec) -> None:
     # without its coolant the rest of this model is wrong in a way that a second lag of the speed's heat can use
     parent = run.fit(store, spec({"effect": "lag", "drivers": {"u": "speed"}}, name="speed"))

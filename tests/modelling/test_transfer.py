@@ -21,6 +21,7 @@ from thermodata.modelling.predictions.score import scores
 from thermodata.plugin import Float1D
 from thermodata.schema.load import parse_model
 from thermodata.schema.model import EffectSpec
+from thermodata.schema.printed import WithUnit
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
@@ -282,6 +283,23 @@ def test_g_times_a_given_function(fine: Dataset, spec: Spec) -> None:
 
 
 @pytest.mark.parametrize(
+    "printed",
+    [
+        ({"a0": 0.0003, "b0": 1.0, "b1": -0.9997}, {"sample_s": 60.0}, {"sample_s": "1 min"}),
+        ({"num0": 1.0, "den0": 1.0, "den1": 1.0}, {"time_s": 3600.0}, {"time_s": "1 h"}),
+    ],
+)
+def test_times_of_a_given_function_take_units(fine: Dataset, spec: Spec, printed: tuple[dict[str, Any], ...]) -> None:
+    function, *times = printed
+    effect = {"effect": "transfer_function", "drivers": {"u": "T"}}
+    plain, with_unit, none = (
+        fit_model(spec(effect | {"fixed": function | {"gain": 1.0} | time}), fine) for time in (*times, {})
+    )
+    assert scores(plain, fine, "m") == scores(with_unit, fine, "m")
+    assert scores(plain, fine, "m") != scores(none, fine, "m")
+
+
+@pytest.mark.parametrize(
     ("fixed", "says"),
     [
         ({"a0": 1.0, "a2": 1.0, "b0": 1.0}, "hole"),
@@ -290,6 +308,8 @@ def test_g_times_a_given_function(fine: Dataset, spec: Spec) -> None:
         ({"num0": 1.0, "den0": 1.0, "den1": -3.0}, "not stable"),
         ({"num0": 1.0, "num1": 1.0, "num2": 1.0, "den0": 1.0, "den1": 2.0}, "more numerator"),
         ({"a0": 1.0, "b0": 1.0, "sample_s": 0.0}, "sample time"),
+        ({"a0": 1.0, "b0": 1.0, "sample_s": WithUnit("3 um")}, "'sample_s' has another unit"),
+        ({"a0": WithUnit("1 um"), "b0": 1.0}, "'a0' has another unit"),
     ],
 )
 def test_coefficients_that_make_no_function_are_refused(fixed: dict[str, float], says: str) -> None:

@@ -6,6 +6,7 @@ import html
 import json
 import re
 import shutil
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.notebook.fitted import Fit
 from thermodata.notebook.opened import OpenStore
+from thermodata.view.store_view import FlaggedValuesWarning
 
 from ..cli.conftest import write_campaign
 
@@ -106,6 +108,30 @@ def test_predictions_of_a_campaign(better: Fit) -> None:
     assert "RMSE" in made.summary()
     with pytest.raises(UsageError, match="no folder, campaign file or campaign"):
         better.predict("nothing")
+
+
+def test_what_can_not_be_predicted_is_left_out_with_a_word(better: Fit, made: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "march"
+    folder.mkdir()
+    rows = [line.split(",") for line in (made / "raw" / "heat1.csv").read_text().splitlines()]
+    at = rows[0].index("T_bearing [degC]")
+    (folder / "run_1.csv").write_text("".join(",".join(r[:at] + r[at + 1 :]) + "\n" for r in rows))
+    none = better.predict(folder)
+    assert (len(none), none.to_arrow_table().num_rows, len(none.df())) == (0, 0, 0)
+    assert any(why.startswith("march/run_1: ") for why in none.left_out)
+    assert none.summary() == "\nleft out: ".join(["no test can be predicted", *none.left_out])
+    assert all(why in html.unescape(none.html()) for why in none.left_out)
+    assert none.plot().charts == {}
+
+
+def test_flagged_values_are_told_in_python_too(store: OpenStore) -> None:
+    mean = "select avg(value) from temperature"
+    with pytest.warns(FlaggedValuesWarning, match="'where valid\\(flag\\)' leaves out what does not count") as told:
+        store.sql(mean)
+    assert [w.filename for w in told] == [__file__]  # where the query stands
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        store.sql(f"{mean} where valid(flag)"), store.signal("small", "day1", "T_hall").df()
 
 
 def test_residual_tests(better: Fit) -> None:

@@ -138,3 +138,19 @@ def test_a_model_file_says_what_it_expects(wrong: str, where: str, expected: str
         parse_model("\n".join(lines.values()) + "\n", "m.yaml")
     assert f"({where})" in (caught.value.where or "")
     assert expected in (caught.value.expected or "")
+
+
+@pytest.mark.parametrize(
+    ("more", "written_by_the_program"),
+    [("in_sampl: true", {"in_sample", "taken_back"}), ("effects: [{x: 1}]", {"inside"})],
+)
+def test_keys_that_only_the_program_writes_are_read_and_never_offered(
+    more: str, written_by_the_program: set[str]
+) -> None:
+    model = "schema: thermodata/model/1\nname: m\ncampaign: c\nresponse: {axis: Z, at: tcp}\n"
+    with pytest.raises(SpecError) as caught:
+        parse_model(model + more)
+    offered = str(caught.value.expected).removeprefix("one of ").split(", ")
+    assert {"effect", "effects"} & set(offered)
+    assert not written_by_the_program & {*offered, *str(caught.value.hint).split("'")}
+    assert parse_model(f"{model}in_sample: true\ntaken_back: abc\neffects: [{{effect: model, inside: {{}}}}]").in_sample

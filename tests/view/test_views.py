@@ -411,6 +411,21 @@ def test_findings_and_history(build: Build) -> None:
     ]
 
 
+@pytest.mark.parametrize("view", ["candidate", "diagnosis"])
+def test_what_is_of_several_campaigns_is_found_by_each_and_counted_once(build: Build, view: str) -> None:
+    b = build()
+    for campaign in ("one", "two", "other"):
+        b.test(campaign, "day", role="verification")
+    b.model("both", "both", campaigns=["one", "two"])
+    b.finding("both", view, {"rank": 1, "id": "x", "effect": "lag", "response": "dZ", "verdict": "effect"}, rank=1)
+    store = b.store()
+    assert sql(store, f"select campaign, campaigns from {view}") == [(None, ["one", "two"])]
+    for campaign, found in (("one", 1), ("two", 1), ("other", 0)):
+        assert sql(store, f"select count(*) from {view} where list_contains(campaigns, '{campaign}')") == [(found,)]
+    joined = f"select t.campaign, t.test from {view} join test t on list_contains(campaigns, t.campaign) order by all"
+    assert sql(store, joined) == [("one", "day"), ("two", "day")]
+
+
 def test_views_follow_the_tables(own: Store) -> None:
     with own.write() as con:
         con.execute("delete from file where test = 'a'")

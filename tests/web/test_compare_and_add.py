@@ -15,6 +15,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling.seen.residual_tests import autocorrelation
+from thermodata.report.glossary import IN_SAMPLE
 from thermodata.store import Store
 from thermodata.store.keep.check import check_store
 from thermodata.view.models import model_rows
@@ -58,8 +59,18 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert limits[0] == limits[1]
     assert "How the error fell" in text
     assert f'href="/compare?model={first.model}">Undo' in text
+    # day1 was kept out of the first version's fit, and helped to choose the effect of the second
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", text)]
+    cells = {re.sub("<[^>]+>", "", row[0]): row[2:4] for row in rows if len(row) > 4 and "/test?" in row[0]}
+    assert {test: ["in-sample" in cell for cell in each] for test, each in cells.items()} == {
+        "heat1": [False, False],
+        "heat2": [False, False],
+        "day1": [False, True],
+    }
+    assert re.search(r"verification [\d.]+ → [\d.]+ \(in-sample\) ", text)
+    assert f"in-sample: {IN_SAMPLE}" in html.unescape(text)
     # undone is only left: both versions are there
-    assert writer.get(f"/compare?model={first.model}").status == 200
+    assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
 
 
 def test_what_fails_is_told_as_in_a_terminal(writer: Client) -> None:

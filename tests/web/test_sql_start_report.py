@@ -38,6 +38,13 @@ def test_what_is_refused_is_said_beside_the_query(reader: Client, tmp_path: Path
     assert reader.get("/sql/exe?q=select+1").status == 400
 
 
+def test_a_query_of_flagged_values_is_told_beside_its_rows(reader: Client) -> None:
+    mean = quote("select avg(value) from temperature")
+    said = "The values are of flagged samples too"
+    assert said in reader.get(f"/sql?q={mean}").text
+    assert said not in reader.get(f"/sql?q={mean}{quote(' where valid(flag)')}").text
+
+
 def test_the_views_stand_beside_with_their_units(reader: Client) -> None:
     text = reader.get("/sql").text
     assert "<summary>temperature</summary>" in text

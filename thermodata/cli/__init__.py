@@ -5,6 +5,8 @@ from __future__ import annotations
 import gc
 from collections.abc import Sequence
 
+from thermodata.errors import INTERRUPTED
+
 _NEW_OBJECTS = 50_000  # that may hold others, before one looks for rings among them
 
 
@@ -21,7 +23,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         import sys
 
         sys.stderr.write("error: interrupted\n")
-        return 1
+        return INTERRUPTED
 
 
 __all__ = ["main"]

@@ -13,7 +13,7 @@ import click
 
 from thermodata.cli.common import known_failure
 from thermodata.cli.interrupting import noticing_interrupts
-from thermodata.errors import ThermodataError, unknown_name
+from thermodata.errors import INTERRUPTED, ThermodataError, unknown_name
 from thermodata.version import __version__
 
 # Section of the help -> command -> module. The order is the order of the work.
@@ -124,9 +124,9 @@ def run(argv: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return code if isinstance(code, int) else 0
         except (KeyboardInterrupt, click.Abort):
-            return _fail("interrupted", 1)
+            return _fail("interrupted", INTERRUPTED)
         except Exception as error:
-            return _fail("interrupted", 1) if interrupted() else _failed(error)
+            return _fail("interrupted", INTERRUPTED) if interrupted() else _failed(error)
 
 
 def _failed(error: Exception) -> int:

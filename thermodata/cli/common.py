@@ -88,10 +88,10 @@ def known_failure(error: Exception) -> ThermodataError | None:
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
     """A text that says um, in the unit of the response: a model may be one of temperatures. Of responses in several
     units each row is in its own, and a line below says which."""
+    from thermodata.view.response_units import response_units
+
     names = [response] if isinstance(response, str) else response
-    query = "select distinct channel, unit from channel where list_contains($names, channel) order by all"
-    found = session.view().sql(query, {"names": names}).fetchall()
-    units = {str(name): "K" if unit == "degC" else str(unit) for name, unit in found}
+    units = response_units(session.store(), names)
     each = set(units.values())
     # headings keep their width, or the columns below would not stand under them
     if len(each) > 1:

@@ -129,10 +129,9 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     base = fit(store, load_model(folder / "model.yaml"), base=folder)
     effects = sorted({key.split(".")[0] for key in base.parameters})
-    step.line(
-        f"{', '.join(effects)}; error {number(pooled(base.scores, 'calibration'))} um in calibration, "
-        f"{number(pooled(base.scores, 'verification'))} um in verification"
-    )
+    errors = (pooled(base.scores, role, responses=base.responses) for role in ("calibration", "verification"))
+    fitted, kept_out = map(number, errors)
+    step.line(f"{', '.join(effects)}; error {fitted} um in calibration, {kept_out} um in verification")
 
     step.title(4, "compare: where it fails")
     from thermodata.diagnosis.run import diagnose
@@ -156,12 +155,12 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     if found.next_test:
         step.line(f"next test: {found.next_test}")
 
-    model, before, after = base.model, pooled(base.scores), None
+    model, before, after = base.model, pooled(base.scores, responses=base.responses), None
     if claims:
         step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
         for claim in claims:
             better = add(store, model, claim.id)
-            model, after = better.model, pooled(better.scores)
+            model, after = better.model, pooled(better.scores, responses=base.responses)
         step.line(
             f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"
         )

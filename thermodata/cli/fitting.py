@@ -173,6 +173,7 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import add
     from thermodata.store.base.counting import watched
+    from thermodata.view.response_units import response_units
 
     store = session.store()
     with counting_line() as tell, watched(tell):
@@ -185,7 +186,7 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     )
     for note in result.notes:
         session.say(note)
-    worse = made_worse(result)
+    worse = made_worse(result, response_units(store, result.responses, result.campaigns))
     if worse is not None:
         session.say(worse)
 

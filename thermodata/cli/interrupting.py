@@ -12,17 +12,17 @@ from types import FrameType
 from typing import TypeVar
 
 T = TypeVar("T")
+_pressed = {"came": False, "unheard": False}
 
 
 @contextmanager
 def noticing_interrupts() -> Iterator[Callable[[], bool]]:
     """Gives a function that tells whether SIGINT came since. KeyboardInterrupt is raised as ever; DuckDB makes a
     RuntimeError of it, and who opens a file or a catalogue may take that for damage."""
-    came = False
+    _pressed.update(came=False, unheard=False)
 
     def notice(number: int, frame: FrameType | None) -> None:
-        nonlocal came
-        came = True
+        _pressed.update(came=True, unheard=True)
         signal.default_int_handler(number, frame)
 
     ours = (
@@ -32,10 +32,18 @@ def noticing_interrupts() -> Iterator[Callable[[], bool]]:
     if ours:
         signal.signal(signal.SIGINT, notice)
     try:
-        yield lambda: came
+        yield lambda: _pressed["came"]
     finally:
         if ours:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def heed() -> None:
+    """KeyboardInterrupt where Ctrl-C was pressed and work goes on: a library may swallow what is raised in an import of
+    its own. For places where progress is told, which nobody does who is on the way out."""
+    if _pressed["unheard"] and threading.current_thread() is threading.main_thread():
+        _pressed["unheard"] = False
+        raise KeyboardInterrupt
 
 
 def interruptible(items: Iterator[T], interrupt: Callable[[], None]) -> Iterator[T]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -58,22 +59,20 @@ def predict_command(
     left out.
     """
     from thermodata.cli.progress import progress_line
-    from thermodata.draft.known.to_predict import data_of
+    from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
-    from thermodata.modelling.predictions.predict import predict
     from thermodata.modelling.run import load
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
     loaded = load(store, resolve(store, model))
-    with progress_line() as line, data_of(store, loaded.fitted, target, session.say, line) as (data, empty):
-        chosen = _chosen(data, tests, dict(_pair(c) for c in conditions))
-        made, left_out = predict(loaded.fitted, chosen)
-    left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
+    given = dict(_pair(c) for c in conditions)
+    with progress_line() as line:
+        made, left_out = predictions_of(
+            store, loaded.fitted, target, session.say, line, tests, lambda data: _under(data, given)
+        )
     for reason in left_out:
         session.say(f"left out: {reason}")
-    if not made and not left_out:
-        raise UsageError("no test can be predicted", where=target, got="no test")
     if made and out is not None and kind is not None:
         write_table(made, out, kind)
     if as_csv and not session.as_json:
@@ -114,21 +113,22 @@ def _row(p: Predicted) -> dict[str, Any]:
 def _text(rows: list[dict[str, Any]], made: list[Predicted], out: Path | None) -> str:
     if not made:
         return "no test can be predicted"
-    unit = made[0].unit
+    several = {key for key in ("response", "unit") if len({r[key] for r in rows}) > 1}
+    unit = "" if "unit" in several else f" [{made[0].unit}]"
     shown = [
         {**r, "length": duration(r["hours"] * 3600), "known": f"{100 * r['known']:.0f} %", "rmse": r["rmse"]}
         for r in rows
     ]
     columns = [("campaign", "campaign"), ("test", "test")]
-    columns += [("response", "response")] if len({r["response"] for r in rows}) > 1 else []
+    columns += [(key, key) for key in ("response", "unit") if key in several]
     columns += [
         ("length", "length"),
-        ("low", f"lowest [{unit}]"),
-        ("high", f"highest [{unit}]"),
-        ("end", f"at the end [{unit}]"),
+        ("low", f"lowest{unit}"),
+        ("high", f"highest{unit}"),
+        ("end", f"at the end{unit}"),
         ("known", "drivers known"),
     ]
-    columns += [("rmse", f"RMSE, where measured [{unit}]")] if any(r["rmse"] is not None for r in rows) else []
+    columns += [("rmse", f"RMSE, where measured{unit}")] if any(r["rmse"] is not None for r in rows) else []
     text = table(shown, columns)
     return text if out is None else f"{text}\n\n{out}"
 
@@ -143,17 +143,12 @@ def _pair(text: str) -> tuple[str, str | float]:
         return name.strip().removeprefix("conditions."), value.strip()
 
 
-def _chosen(data: Dataset, tests: tuple[str, ...], conditions: dict[str, str | float]) -> Dataset:
-    from thermodata.errors import unknown_name
-
-    known = [t.test for t in data.tests]
-    for name in tests:
-        if name not in known:
-            raise unknown_name("test", name, known)
-    machine = conditions.pop("machine", None)
-    kept = tuple(
-        replace(t, conditions={**t.conditions, **conditions}, machine=t.machine if machine is None else str(machine))
+def _under(data: Dataset, conditions: Mapping[str, str | float]) -> Dataset:
+    """The tests with these conditions beside their own, or in place of them; 'machine' is the machine's."""
+    more = {name: value for name, value in conditions.items() if name != "machine"}
+    machine = conditions.get("machine")
+    tests = (
+        replace(t, conditions={**t.conditions, **more}, machine=t.machine if machine is None else str(machine))
         for t in data.tests
-        if not tests or t.test in tests
     )
-    return replace(data, tests=kept)
+    return replace(data, tests=tuple(tests))

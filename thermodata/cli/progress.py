@@ -9,8 +9,9 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
+from thermodata.cli.interrupting import heed
 from thermodata.store.base.counting import Tell
-from thermodata.store.ingest.progress import Progress, TextProgress
+from thermodata.store.ingest.progress import Progress
 
 _FORMAT = "{percentage:3.0f} %|{bar:20}| {postfix}, {remaining} left"
 
@@ -54,6 +55,7 @@ class Line:
         self.bar.n = at
 
     def _show(self) -> None:
+        heed()
         elapsed = max(self.bar.format_dict["elapsed"], 1e-6)
         self.bar.set_postfix_str(
             f"{self.files}/{self.total} files, {self.bar.n / 1e6 / elapsed:.1f} MB/s, "
@@ -61,6 +63,22 @@ class Line:
             refresh=False,
         )
         self.bar.update(0)
+
+
+class Heeding:
+    """Says nothing, and lets Ctrl-C through."""
+
+    def begin(self, files: int, size_bytes: int) -> None:
+        heed()
+
+    def samples(self, count: int) -> None:
+        heed()
+
+    def done(self, path: str, size_bytes: int) -> None:
+        heed()
+
+    def say(self, text: str) -> None:
+        heed()
 
 
 def _columns() -> int:
@@ -75,7 +93,7 @@ def _columns() -> int:
 def progress_line(quiet: bool = False) -> Iterator[Progress]:
     """A line on stderr, gone at the end; nothing where stderr is no terminal, or quiet."""
     if quiet or not sys.stderr.isatty():
-        yield TextProgress(lambda _: None)
+        yield Heeding()
         return
     bar = _bar(_FORMAT)
     try:
@@ -85,15 +103,16 @@ def progress_line(quiet: bool = False) -> Iterator[Progress]:
 
 
 @contextmanager
-def counting_line(quiet: bool = False) -> Iterator[Tell | None]:
-    """A line on stderr for work that is counted: done of all, how many a second, time left. None where stderr is no
+def counting_line(quiet: bool = False) -> Iterator[Tell]:
+    """A line on stderr for work that is counted: done of all, how many a second, time left. Nothing where stderr is no
     terminal, or quiet."""
     if quiet or not sys.stderr.isatty():
-        yield None
+        yield lambda *_: heed()
         return
     bar = _bar("{percentage:3.0f} %|{bar:20}| {n_fmt}/{total_fmt} {desc}, {rate_fmt}, {remaining} left")
 
     def tell(what: str, done: int, total: int) -> None:
+        heed()
         if done == 0 or total != bar.total:
             bar.reset(total=total)
             bar.set_description_str(what, refresh=False)

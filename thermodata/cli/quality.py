@@ -118,7 +118,7 @@ def _bare(signal: str) -> str:
 
 
 def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]) -> list[str]:
-    """What could not be read or made, a line a cause. What is lost of a file of a test is one loss, of the sources that
+    """What could not be read or made, a line a cause. What is lost of a file is one loss, of the tests and sources that
     miss it."""
     from thermodata.report.causes import losses_in_words
 
@@ -128,8 +128,10 @@ def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]
         found = [{**place, **loss} for loss in json.loads(row["losses"] or "[]")]
         found += [{**place, "reason": p} for p in row["meta"].get("problems", [])]
         for loss in found:
-            key = json.dumps([loss.get(k) for k in ("campaign", "test", "file", "where", "reason")])
-            one = once.setdefault(key, {**loss, "sources": []})
+            key = json.dumps([loss.get(k) for k in ("campaign", "file", "where", "reason")])
+            one = once.setdefault(key, {**loss, "tests": [], "sources": []})
+            if row["test"] and row["test"] not in one["tests"]:
+                one["tests"].append(row["test"])
             signal = loss.get("signal")
             read = signal is None or (row["campaign"], row["test"], row["source"], _bare(signal)) in signals
             if row["source"] and row["source"] not in one["sources"] and (read or not row["test"]):
@@ -137,6 +139,6 @@ def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]
     for one in once.values():
         if one.get("signal") and one["test"] and not one["sources"]:
             one["reason"] += "; no channel reads that column"
-    names = {str(n) for x in once.values() for n in (x["test"], *x["sources"]) if n}
+    names = {str(n) for x in once.values() for n in (*x["tests"], *x["sources"])}
     lines = losses_in_words(list(once.values()), names)
     return ["losses\n" + "\n".join(f"  - {line}" for line in lines)] if lines else []

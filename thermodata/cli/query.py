@@ -44,14 +44,11 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
             raise UsageError("no query", hint='thermodata sql "select * from test"')
         query = sys.stdin.read()
     view = session.view()
-    relation = view.sql(query)
+    relation = view.sql(query, tell=session.say)
     unverified = view.verify(query)
     if unverified is not None:
         session.say(unverified)
     columns: list[str] = list(relation.columns)
-    flagged = view.values_that_do_not_count(query, columns)
-    if flagged is not None:
-        session.say(flagged)
 
     def batches(rows: Any) -> Iterator[list[tuple[Any, ...]]]:
         return interruptible(_batches(rows), relation.interrupt)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -161,7 +162,7 @@ def _lathe(
     which = f"{set_name(sealed)} seeds {used.start} to {used.stop - 1}"
     click.echo(which, err=True)
     with counting_line() as tell:
-        told = None if tell is None else lambda done, total: tell("machines", done, total)
+        told = partial(tell, "machines")
         trials = run(stratum or tuple(STRATA), used, jobs=jobs, rivals=rivals, out=out, tell=told)
     summary, stated, goals = rows(trials), reliability(trials), overall(trials)
     if picture is not None and stated:
@@ -212,8 +213,7 @@ def _gantry(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int
     with counting_line() as tell:
         for trial in benchmark(hide or choices, range(first_seed, first_seed + seeds), logged=logged):
             trials.append(plain(trial.to_json()))
-            if tell is not None:
-                tell("machines", len(trials), total)
+            tell("machines", len(trials), total)
     summary = marks(trials)
     session.answer(
         {"summary": summary, "trials": trials},

@@ -17,6 +17,11 @@ from thermodata.view.rows import with_units
 _SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
 
 
+_TEXTS, _NUMBERS = ("campaign", "test", "response"), ("t_s", "predicted", "measured")
+_COLUMNS = [*((n, "string") for n in _TEXTS), *((n, "double") for n in _NUMBERS), ("known", "bool")]
+"""Of a table without rows."""
+
+
 def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> Any:
     """pyarrow table, one row a test, response and time: predicted, measured (null where there is none), known, and
     c__EFFECT, its share. unit_in_names: 'predicted [um]'."""
@@ -38,11 +43,11 @@ def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> A
             **{f"c__{e}": p.contributions.get(e, nothing) for e in effects},
         }
         parts.append(pa.table(columns))
-    table = pa.concat_tables(parts)
+    table = pa.concat_tables(parts) if parts else pa.schema(_COLUMNS).empty_table()
     units = sorted({p.unit for p in predictions})
     # rows of several units have none in common
-    of = dict.fromkeys((n for n in table.column_names if n[:3] in ("pre", "mea", "c__")), units[0])
-    named = {"t_s": "s", **(of if len(units) == 1 else {})}
+    named = {n: unit for unit in units for n in table.column_names if n[:3] in ("pre", "mea", "c__")}
+    named = {"t_s": "s", **(named if len(units) == 1 else {})}
     if not unit_in_names or len(units) != 1:
         table = table.replace_schema_metadata({b"thermodata.unit": json.dumps(units).encode()})
         return with_units(table, named)

@@ -44,11 +44,13 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     spec, notes = parent.spec.model_copy(update={"effects": effects}), [f"removed: {', '.join(gone)}"]
     earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]
     if earlier:
-        spec = earlier[-1].spec.model_copy(update={"taken_back": parent.model})
+        spec = earlier[-1].spec
         notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
     elif spec.in_sample:
         notes.append("verification tests stay fitted (in-sample), for they helped to choose what is left")
-    return fit(store, spec, parent=parent.model, before=before, notes=notes)
+    # a version of its own, whatever was fitted before: it comes of this parent, and the name leads to it
+    own = spec.model_copy(update={"taken_back": parent.model})
+    return fit(store, own, parent=parent.model, before=before, notes=notes)
 
 
 def _alike(one: Model, other: Model) -> bool:

@@ -79,7 +79,7 @@ def fit(
     **said: list[str],
 ) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
-    `notes` of the result."""
+    `notes` of the result, which say as well where the model's name leads to a newer version."""
     from thermodata.store.catalogue.looks import count_locked_look
     from thermodata.store.catalogue.models import save_fit
 
@@ -102,7 +102,17 @@ def fit(
         predictions=prediction_tables(fitted, data),
         data_version=data.data_version,
     )
-    return result
+    return result.model_copy(update={"notes": [*result.notes, *_led_past(store, result)]})
+
+
+def _led_past(store: Store, result: FitResult) -> list[str]:
+    """What was fitted before keeps its place among the versions, and its name leads to the newest of them."""
+    from thermodata.store.catalogue.models import find_model
+
+    newest = find_model(store, result.name).model
+    if newest == result.model:
+        return []
+    return [f"this model was fitted before: {result.model} is its name, '{result.name}' is the newer version {newest}"]
 
 
 def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:

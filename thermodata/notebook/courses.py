@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from thermodata.modelling.predictions.predict import Predicted
     from thermodata.view.predictions import Prediction
+
+
+NOTHING = "no test can be predicted"
 
 
 class Contributions(Shown):
@@ -137,10 +141,16 @@ class Predictions(Shown, Sequence["Predicted"]):
 
     def summary(self) -> str:
         left = "".join(f"\nleft out: {why}" for why in self.left_out)
-        return f"{table(self._rows(), self._COLUMNS)}{left}"
+        return f"{table(self._rows(), self._COLUMNS) if self.made else NOTHING}{left}"
 
     def html(self) -> str:
-        return html_table(self._rows(), self._COLUMNS, f"predictions of {self.model}")
+        left = "".join(f"<li>left out: {escape(why)}</li>" for why in self.left_out)
+        made = (
+            html_table(self._rows(), self._COLUMNS, f"predictions of {self.model}")
+            if self.made
+            else f"<p>{NOTHING}</p>"
+        )
+        return made + (f"<ul>{left}</ul>" if left else "")
 
     def plot(self) -> Plot:
         """A chart a test: the prediction, and the measurement where there is one."""

@@ -109,18 +109,13 @@ class Fit(Shown):
 
     def predict(self, target: Path | str) -> Predictions:
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
-        UsageError where none of its tests can be predicted."""
-        from thermodata.draft.known.to_predict import data_of
-        from thermodata.modelling.predictions.predict import predict
+        What can't be predicted is left out, with the reason in `left_out`. UsageError where there is no test."""
+        from thermodata.draft.known.to_predict import predictions_of
         from thermodata.modelling.run import load
 
         lost = list[str]()
         fitted = load(self.store, self.id).fitted
-        with data_of(self.store, fitted, os.fspath(target), lost.append) as (data, empty):
-            made, left_out = predict(fitted, data)
-        left_out += [f"{name}: nothing in its logs is read by the model" for name in empty]
-        if not made:
-            raise UsageError("no test can be predicted", where=str(target), got="; ".join(left_out) or "no test")
+        made, left_out = predictions_of(self.store, fitted, os.fspath(target), lost.append)
         return Predictions(self.id, made, [*left_out, *lost])
 
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:
@@ -264,7 +259,9 @@ def compared(store: Store, refs: Sequence[str]) -> Comparison:
 
 def history_of(store: Store, ref: str) -> Listed:
     """The versions that led to a model, as `thermodata history` lists them."""
-    from thermodata.report.fit_text import HISTORY
+    from thermodata.report.fit_text import history_table
     from thermodata.report.history import history_rows
 
-    return Listed(history_rows(store, ref), HISTORY)
+    rows = history_rows(store, ref)
+    shown, columns = history_table(rows)
+    return Listed(rows, columns, shown=shown)

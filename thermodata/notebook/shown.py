@@ -33,10 +33,18 @@ class Shown(ABC):
 
 
 class Listed(Shown, Sequence[dict[str, Any]]):
-    """Rows as the command's --json has them, shown in the command's columns."""
+    """Rows as the command's --json has them, shown in the command's columns. shown: the rows of the command's table,
+    where these are others."""
 
-    def __init__(self, rows: Iterable[Mapping[str, Any]], columns: Iterable[Column], title: str = "") -> None:
+    def __init__(
+        self,
+        rows: Iterable[Mapping[str, Any]],
+        columns: Iterable[Column],
+        title: str = "",
+        shown: Sequence[Mapping[str, Any]] | None = None,
+    ) -> None:
         self.rows, self.columns, self.title = [dict(row) for row in rows], list(columns), title
+        self._shown = self.rows if shown is None else shown
 
     def __getitem__(self, index: Any) -> Any:
         return self.rows[index]
@@ -51,11 +59,11 @@ class Listed(Shown, Sequence[dict[str, Any]]):
         return pandas.DataFrame(self.rows)
 
     def summary(self) -> str:
-        text = table(self.rows, self.columns)
+        text = table(self._shown, self.columns)
         return f"{self.title}\n\n{text}" if self.title else text
 
     def html(self) -> str:
-        return html_table(self.rows, self.columns, self.title)
+        return html_table(self._shown, self.columns, self.title)
 
 
 def html_table(rows: Sequence[Mapping[str, Any]], columns: Iterable[Column], title: str = "") -> str:

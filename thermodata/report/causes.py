@@ -112,6 +112,7 @@ def _span(lines: Sequence[str]) -> str:
 def said_at_ingest(summary: Mapping[str, Any]) -> dict[str, list[str]]:
     """'losses' and 'notes' of an ingest's summary, a line a cause."""
     names = {str(x[k]) for x in summary["losses"] for k in ("test", "source") if x.get(k)}
+    names |= {str(name) for x in summary["losses"] for name in x.get("tests") or ()}
     return {
         "losses": losses_in_words(summary["losses"], names),
         "notes": notes_in_words(summary["notes"], names | _heads(summary["notes"])),
@@ -126,7 +127,8 @@ def _heads(notes: Sequence[str]) -> set[str]:
 
 def _place(loss: Mapping[str, Any]) -> str:
     sources = ", ".join(loss.get("sources") or [s for s in [loss.get("source")] if s])
-    told = (loss.get("test"), sources or None, loss.get("file"), loss.get("where"))
+    tests = _listed(loss.get("tests") or [t for t in [loss.get("test")] if t])
+    told = (tests or None, sources or None, loss.get("file"), loss.get("where"))
     parts = [str(part) for part in told if part is not None]
     share = f", {100 * loss['fraction']:.2g} % of the file" if loss.get("fraction") else ""
     return f" ({', '.join(parts)}{share})" if parts else ""
@@ -137,7 +139,9 @@ def _short(loss: Mapping[str, Any]) -> str:
 
 
 def _others(places: Sequence[str]) -> str:
-    if not places:
-        return ""
+    return f"; also in {_listed(places)}" if places else ""
+
+
+def _listed(places: Sequence[str]) -> str:
     more = f" and {len(places) - MOST_PLACES} more" if len(places) > MOST_PLACES else ""
-    return f"; also in {', '.join(places[:MOST_PLACES])}{more}"
+    return f"{', '.join(places[:MOST_PLACES])}{more}"

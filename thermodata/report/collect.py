@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from thermodata.report.data import ReportData, TestPart
-from thermodata.report.history import versions
+from thermodata.report.history import chain_units, versions
 from thermodata.report.parts import by_role, parts_of
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
@@ -38,6 +38,7 @@ def collect(store: Store, ref: str) -> ReportData:
     diagnosis = load_diagnosis(store, stored.model)
     reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
     responses = tuple(r.name for r in loaded.fitted.responses)
+    units = chain_units(store, chain)
     # curves, scores and parameters are of one fit; what was kept may be of data that have changed since
     result = make_result(loaded.fitted, loaded.data, stored.model)
     lacking = {m.model: some for m in chain[:-1] if (some := not_installed(m.spec))}
@@ -62,7 +63,8 @@ def collect(store: Store, ref: str) -> ReportData:
         checks=result.checks,
         before=before,
         tests=tuple(by_role(parts_of(loaded.fitted, loaded.data, conditions))),
-        versions=versions(chain, scores),
+        versions=versions(chain, units, scores),
+        units=units,
         diagnosis=diagnosis,
         reason=reason,
         weak=weak_spots_of(loaded, (reason, diagnosis)),

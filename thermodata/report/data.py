@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,6 +10,7 @@ from thermodata.modelling.seen.as_system import Seen
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.result import Check, Parameter, Score
+from thermodata.view.response_units import told_together
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +51,21 @@ class TestPart:
 
 
 @dataclass(frozen=True, slots=True)
+class ResponseError:
+    """One response's RMSE in a version, over the open tests and by role, in `unit`."""
+
+    response: str
+    unit: str
+    all_um: float | None
+    calibration_um: float | None
+    verification_um: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class Version:
-    """One version of the model. added: the effect that it has more than its parent. *_um: pooled RMSE [um].
-    removed: the effect that its parent has more. in_sample: whether its verification tests were fitted too."""
+    """One version of the model. added: the effect that it has more than its parent. *_um: RMSE over the responses in
+    the unit of the first, which is `unit`. removed: the effect that its parent has more. in_sample: whether its
+    verification tests were fitted too. responses: the errors of each."""
 
     model: str
     name: str
@@ -62,6 +76,8 @@ class Version:
     stale: bool = False
     removed: str | None = None
     in_sample: bool = False
+    unit: str = "um"
+    responses: tuple[ResponseError, ...] = ()
 
     @property
     def change(self) -> str:
@@ -74,7 +90,8 @@ class ReportData:
     """A model, its scores and curves, and what was diagnosed.
 
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
-    versions: oldest first. looks: how often each locked test was opened. calibrations: rows of the catalogue's table.
+    units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
+    test was opened. calibrations: rows of the catalogue's table.
     weak: weak spots by response. first: the tests as the first version foretells them, for the scale of residuals;
     empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; stale: they changed
     since the model was kept. as_stored: of each earlier version that can't be run, why, and what is told of it.
@@ -103,6 +120,12 @@ class ReportData:
     stale: bool = False
     systems: tuple[Seen, ...] = ()
     as_stored: tuple[str, ...] = ()
+    units: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def told_together(self) -> list[str]:
+        """The responses that errors of the whole page are of: those in `unit`."""
+        return told_together(self.responses, self.units)
 
     @property
     def added(self) -> str | None:

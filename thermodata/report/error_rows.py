@@ -63,8 +63,8 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
             if claims:
                 return ErrorRow("locked", before, after, True, "")
             return ErrorRow("locked", None, before, True, f"{after:.3g} {data.unit} with what is claimed")
-    after = pooled(data.scores, "locked")
-    return None if after is None else ErrorRow("locked", pooled(data.before, "locked"), after, True, "")
+    before, after = _of_role(data, "locked")
+    return None if after is None else ErrorRow("locked", before, after, True, "")
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
@@ -78,8 +78,13 @@ def _left_out_row(data: ReportData) -> ErrorRow | None:
     return None
 
 
+def _of_role(data: ReportData, role: str) -> tuple[float | None, float | None]:
+    before, after = (pooled(some, role, responses=data.told_together) for some in (data.before, data.scores))
+    return before, after
+
+
 def _role_row(data: ReportData, role: str) -> ErrorRow | None:
-    before, after = pooled(data.before, role), pooled(data.scores, role)
+    before, after = _of_role(data, role)
     if after is None:
         return None
     in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)

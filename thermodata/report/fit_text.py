@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from thermodata.report.glossary import IN_SAMPLE, explained
@@ -16,18 +17,6 @@ if TYPE_CHECKING:
     from thermodata.schema.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak
 
-HISTORY = (
-    ("name", "name"),
-    ("model", "model"),
-    ("added", "added"),
-    ("removed", "removed"),
-    ("rmse_um", "RMSE [um]"),
-    ("calibration_rmse_um", "calibration [um]"),
-    ("verification_rmse_um", "verification [um]"),
-    ("in_sample", "in-sample"),
-    ("stale", "stale"),
-)
-"""The columns of `report.collect.history_rows`."""
 _RISES = 1.005  # an error that rises by less is the same
 
 
@@ -119,7 +108,19 @@ def compare_text(results: list[FitResult]) -> str:
 def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     """The versions of a model, as rows of `report.history.history_rows`."""
     told = f"\n\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
-    return table(chain, HISTORY) + told
+    return table(*history_table(chain)) + told
+
+
+def history_table(chain: Sequence[Mapping[str, Any]]) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:
+    """(rows, columns) that show rows of `report.history.history_rows`: one a version and response."""
+    rows = [{**row, **one} for row in chain for one in row["responses"]]
+    several = {key for key in ("response", "unit") if len({row[key] for row in rows}) > 1}
+    unit = "" if "unit" in several or not rows else f" [{rows[0]['unit']}]"
+    columns = [("name", "name"), ("model", "model"), ("added", "added"), ("removed", "removed")]
+    columns += [(key, key) for key in ("response", "unit") if key in several]
+    columns += [("rmse_um", f"RMSE{unit}"), ("calibration_rmse_um", f"calibration{unit}")]
+    columns += [("verification_rmse_um", f"verification{unit}"), ("in_sample", "in-sample"), ("stale", "stale")]
+    return rows, columns
 
 
 def differences_text(found: Sequence[TestDifference], results: Sequence[FitResult]) -> str:
@@ -186,8 +187,7 @@ def before_after_text(result: FitResult) -> str:
     names = list(dict.fromkeys(s.response for s in result.scores))
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         for name in names:  # responses may be in several units
-            a, b = ([s for s in some if s.response == name] for some in (result.before or [], result.scores))
-            was, now = pooled(a, role), pooled(b, role)
+            was, now = (pooled(some, role, responses=[name]) for some in (result.before or [], result.scores))
             pool = {"before": was, "rmse_um": now, "change": change(was, now)}
             rows.append({"test": "all", "role": role, "response": name, **pool})
     columns = [
@@ -202,13 +202,15 @@ def before_after_text(result: FitResult) -> str:
     return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
 
 
-def made_worse(result: FitResult) -> str | None:
-    """A warning where an added effect raised the error of a role; None where it did not."""
+def made_worse(result: FitResult, units: Mapping[str, str]) -> str | None:
+    """A warning where an added effect raised the error of a role, response by response; None where it did not. units:
+    of the responses' errors."""
     found = []
-    for role in ("verification", "calibration"):
-        before, after = pooled(result.before or [], role), pooled(result.scores, role)
+    for role, name in product(("verification", "calibration"), result.responses):
+        before, after = (pooled(some, role, responses=[name]) for some in (result.before or [], result.scores))
         if before is not None and after is not None and after > before * _RISES:
-            found.append(f"{role} {before:.3g} -> {after:.3g} um")
+            whose = f"{name} " if len(result.responses) > 1 else ""
+            found.append(f"{whose}{role} {before:.3g} -> {after:.3g} {units.get(name, 'um')}")
     if not found:
         return None
     return (

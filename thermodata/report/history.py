@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.data import Version
+from thermodata.report.data import ResponseError, Version
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Score
+from thermodata.view.response_units import response_units, told_together
 
 if TYPE_CHECKING:
     from thermodata.store import Store
     from thermodata.store.catalogue.models import StoredModel
 
 
-def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None = None) -> tuple[Version, ...]:
-    """The chain as rows, oldest first, with what each version added to the one before it, or removed. scored: the
-    scores of each, those that were kept with it where None."""
+def versions(
+    chain: Sequence[StoredModel], units: Mapping[str, str], scored: Sequence[list[Score]] | None = None
+) -> tuple[Version, ...]:
+    """The chain as rows, oldest first, with what each version added to the one before it, or removed. units: of the
+    responses' errors. scored: the scores of each, those that were kept with it where None."""
     from thermodata.modelling.model_file.resolve import term_ids
 
     made: list[Version] = []
@@ -36,17 +39,18 @@ def versions(chain: Sequence[StoredModel], scored: Sequence[list[Score]] | None 
         )
         gone = [words[name] for name in known if name not in ids]
         scores = scored[i] if scored is not None else m.result.scores
+        names = m.result.responses
         made.append(
             Version(
                 m.model,
                 m.name,
                 ", ".join(fresh) or None,
-                pooled(scores, "calibration", "verification"),
-                pooled(scores, "calibration"),
-                pooled(scores, "verification"),
+                *_errors(scores, told_together(names, units)),
                 m.stale,
                 ", ".join(gone) or None,
                 any(s.role != base_role(s.role) for s in scores),
+                units.get(names[0], "um"),
+                tuple(ResponseError(n, units.get(n, "um"), *_errors(scores, [n])) for n in names),
             )
         )
         words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
@@ -59,21 +63,43 @@ def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
     from thermodata.store.catalogue.models import model_chain
 
     chain = model_chain(store, ref)
+    units = chain_units(store, chain)
     return [
         {
             "model": v.model,
             "name": v.name,
             "parent": m.parent,
             "added": v.added,
-            "rmse_um": v.all_um,
-            "calibration_rmse_um": v.calibration_um,
-            "verification_rmse_um": v.verification_um,
+            **_named(v),
             "stale": v.stale,
             "removed": v.removed,
             "in_sample": v.in_sample,
+            "unit": v.unit,
+            "responses": [{"response": r.response, "unit": r.unit, **_named(r)} for r in v.responses],
         }
-        for v, m in zip(versions(chain), chain, strict=True)
+        for v, m in zip(versions(chain, units), chain, strict=True)
     ]
+
+
+def chain_units(store: Store, chain: Sequence[StoredModel]) -> dict[str, str]:
+    """The units of the errors of all responses that versions of a chain have."""
+    names = dict.fromkeys(name for m in chain for name in m.result.responses)
+    return response_units(store, list(names), {c for m in chain for c in m.spec.campaign_ids})
+
+
+def _errors(scores: list[Score], of: Sequence[str]) -> tuple[float | None, float | None, float | None]:
+    """Over the open tests, of calibration, of verification."""
+    roles = (("calibration", "verification"), ("calibration",), ("verification",))
+    every, calibration, verification = (pooled(scores, *some, responses=of) for some in roles)
+    return every, calibration, verification
+
+
+def _named(one: Version | ResponseError) -> dict[str, float | None]:
+    return {
+        "rmse_um": one.all_um,
+        "calibration_rmse_um": one.calibration_um,
+        "verification_rmse_um": one.verification_um,
+    }
 
 
 def _parted_by(spec: EffectSpec) -> str:

@@ -7,6 +7,8 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
     from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
     from thermodata.schema.result import Score
 
@@ -63,10 +65,16 @@ def base_role(role: str) -> str:
     return role.partition(" ")[0]
 
 
-def pooled(scores: list[Score], *roles: str) -> float | None:
-    """Root mean square [um] over whole tests of these roles (none named: all), each sample counted once."""
+def pooled(scores: Iterable[Score], *roles: str, responses: Collection[str]) -> float | None:
+    """Root mean square over whole tests of these roles (none named: all), each sample counted once. responses: in one
+    unit, which it is in."""
     rows = [
-        s for s in scores if s.phase == "all" and s.rmse_um is not None and (not roles or base_role(s.role) in roles)
+        s
+        for s in scores
+        if s.phase == "all"
+        and s.rmse_um is not None
+        and s.response in responses
+        and (not roles or base_role(s.role) in roles)
     ]
     n = sum(s.n for s in rows)
     return math.sqrt(sum(s.n * (s.rmse_um or 0.0) ** 2 for s in rows) / n) if n else None

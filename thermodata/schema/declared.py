@@ -6,7 +6,7 @@ import re
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationInfo, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, JsonValue, ValidationInfo, model_validator
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.quantity import linear_conversion, split_value, value_in
@@ -16,6 +16,10 @@ Value = str | float | int
 Direction = Literal["+X", "-X", "+Y", "-Y", "+Z", "-Z", "+A", "-A", "+B", "-B", "+C", "-C"]
 
 STORED = {"stored": True}  # validation context of what model_dump_json wrote: plain numbers in canonical units
+
+
+# what the program itself writes into a file that it keeps: read again, and never offered to who writes one by hand
+NOT_TYPED: dict[str, JsonValue] = {"readOnly": True}
 
 
 class WrongKeyError(ValueError):

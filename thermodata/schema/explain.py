@@ -9,7 +9,7 @@ from typing import Any, TypeVar, get_args
 from pydantic import BaseModel, ValidationError
 
 from thermodata.errors import SpecError, nearest
-from thermodata.schema.declared import WrongKeyError, WrongValueError
+from thermodata.schema.declared import NOT_TYPED, WrongKeyError, WrongValueError
 from thermodata.schema.explain_types import missed, wanted
 from thermodata.schema.lines import Document, Place, at_place, dotted_place
 
@@ -218,7 +218,8 @@ def _keys_at(model: type[BaseModel], place: Place, tags: tuple[str, ...]) -> set
         if named:
             models = found
     chosen = [m for m in models if m.__name__ in tags or _kind_of(m) in tags] or models
-    return {info.alias or name for m in chosen for name, info in m.model_fields.items()}
+    fields = [(name, info) for m in chosen for name, info in m.model_fields.items()]
+    return {info.alias or name for name, info in fields if info.json_schema_extra != NOT_TYPED}
 
 
 def _kind_of(model: type[BaseModel]) -> str | None:

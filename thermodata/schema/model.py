@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PlainSerializer, field_validator, model_validator
 
 from thermodata.schema.campaign import Seconds, Strict
-from thermodata.schema.declared import WrongKeyError, WrongValueError
+from thermodata.schema.declared import NOT_TYPED, WrongKeyError, WrongValueError
 from thermodata.schema.printed import NumberOrUnit, PrintedNumber
 
 # a model written as JSON is a model file again, and there a time has a unit
@@ -68,7 +68,8 @@ class EffectSpec(Strict):
     groups: values of gain_by that have one gain: {[D25, D63]: k1, D100: k2}
     one_gain: one factor g for each value of gain_by, over all gains of the effect
     shared: parameters that all groups of gain_by share; by default all; none: a function of its own for each
-    fixed: parameter or gain -> value, in the effect's unit or with one: {tau: 18 min}
+    fixed: parameter or gain -> value, in the effect's unit or with one: {tau: 18 min}; of a transfer function its
+        coefficients as printed, and sample_s
     start: parameter -> where its search starts
     bounds: parameter -> [lower, upper], in the effect's unit
     file: of a prediction: CSV with the columns test, t_s [s], predicted, or as `predict --out` writes it
@@ -101,7 +102,7 @@ class EffectSpec(Strict):
     name: str | None = None
     gain: float | str | None = None
     parts: list[str] | None = None
-    inside: dict[str, Any] | None = None
+    inside: dict[str, Any] | None = Field(default=None, json_schema_extra=NOT_TYPED)
 
     @field_validator("groups", mode="before")
     @classmethod
@@ -150,7 +151,7 @@ class Model(Strict):
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
-    taken_back: set by remove: id of the version in which all that was added since is taken out again
+    taken_back: set by remove: id of the version that an effect was taken out of
     notes: free text
     """
 
@@ -166,8 +167,8 @@ class Model(Strict):
     weights: dict[str, Annotated[float, Field(ge=0)]] = {}
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
-    in_sample: bool = False
-    taken_back: str | None = None
+    in_sample: bool = Field(default=False, json_schema_extra=NOT_TYPED)
+    taken_back: str | None = Field(default=None, json_schema_extra=NOT_TYPED)
     notes: str = ""
 
     @field_validator("response")

@@ -103,3 +103,7 @@ class FitResult(Result):
     before: list[Score] | None = None
     added: list[str] | None = None
     notes: list[str] = []
+
+    @property
+    def responses(self) -> list[str]:
+        return [self.response] if isinstance(self.response, str) else self.response

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 class ModelRow:
     """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file,
     terms: their ids there, as predictions name them.
-    calibration_um, verification_um: RMSE over tests of the role, in `unit`. verdict: of its diagnosis, None where it
+    calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
+    first. verdict: of its diagnosis, None where it
     has none."""
 
     model: str
@@ -43,15 +44,20 @@ class ModelRow:
 
 
 _MODELS = """
-with e as (select model, max(version) as version, max(rmse_um_calibration) as calibration,
-                  max(rmse_um_verification) as verification from history group by model),
-d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model),
-u as (select m.model, min(c.unit) as unit from model m, channel c
-      where list_contains(m.campaigns, c.campaign) and list_contains(string_split(m.response, ', '), c.channel)
-      group by m.model)
+with u as (select m.model, c.channel as response, min(c.unit) as unit from model m, channel c
+           where list_contains(m.campaigns, c.campaign)
+           and list_contains(string_split(m.response, ', '), c.channel) group by all),
+first as (select m.model, u.unit from model m left join u
+          on u.model = m.model and u.response = string_split(m.response, ', ')[1]),
+e as (select h.model, max(h.version) as version,
+             max(h.rmse_um_calibration) filter (u.unit is not distinct from f.unit) as calibration,
+             max(h.rmse_um_verification) filter (u.unit is not distinct from f.unit) as verification
+      from history h join first f on f.model = h.model
+      left join u on u.model = h.model and u.response = h.response group by h.model),
+d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model)
 select m.model, m.name, coalesce(e.version, 1) as version, m.parent, m.created_at, m.stale, m.campaigns, m.response,
        coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
-from model m left join e on e.model = m.model left join d on d.model = m.model left join u on u.model = m.model
+from model m left join e on e.model = m.model left join d on d.model = m.model left join first u on u.model = m.model
 order by m.created_at desc, m.rowid desc"""
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import warnings
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     import duckdb
 
     from thermodata.view.dataset import Dataset
+
+
+class FlaggedValuesWarning(UserWarning):
+    """A query takes values of samples that do not count in means."""
 
 
 class StoreView:
@@ -39,10 +44,17 @@ class StoreView:
         """The store's folder."""
         return self.store.path
 
-    def sql(self, query: str, params: Sequence[Any] | dict[str, Any] | None = None) -> Rows:
+    def sql(
+        self,
+        query: str,
+        params: Sequence[Any] | dict[str, Any] | None = None,
+        *,
+        tell: Callable[[str], object] | None = None,
+    ) -> Rows:
         """The relation of a query over the store's tables, views and macros (docs/architecture.md#tables-and-views).
 
-        params: values of `?` or `$name`. UsageError where DuckDB refuses the query, with its reason;
+        params: values of `?` or `$name`. tell: is told where the query takes flagged values and asks for no flag; by
+        default that is a `FlaggedValuesWarning`. UsageError where DuckDB refuses the query, with its reason;
         StoreError where a file is gone.
         """
         import duckdb
@@ -69,6 +81,11 @@ class StoreView:
             raise UsageError("the query fails", got=str(error).strip(), hint=hint) from error
         if relation is None:
             raise UsageError("the query gives no table", expected="SELECT, FROM, DESCRIBE or SHOW", got=query)
+        flagged = self.values_that_do_not_count(query, relation.columns)
+        if flagged is not None and tell is not None:
+            tell(flagged)
+        elif flagged is not None:
+            warnings.warn(flagged, FlaggedValuesWarning, stacklevel=2)
         return Rows(relation, lambda: column_units(con, self._known_units(con), query, relation), con.interrupt)
 
     def _known_units(self, con: duckdb.DuckDBPyConnection) -> Known:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.errors import UsageError
+from thermodata.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
+    from thermodata.modelling.predictions.predict import Predicted
     from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.store import Store
     from thermodata.store.ingest.progress import Progress
@@ -44,6 +46,32 @@ def data_of(
     with tempfile.TemporaryDirectory(prefix="thermodata-predict-") as folder:
         passing, campaign = _ingested(say, progress, store, fitted, path, Path(folder))
         yield _loaded(passing, campaign, fitted.spec.step)
+
+
+def predictions_of(
+    store: Store,
+    fitted: FittedModel,
+    target: str,
+    say: Callable[[str], object],
+    progress: Progress | None = None,
+    tests: Collection[str] = (),
+    under: Callable[[Dataset], Dataset] = lambda data: data,
+) -> tuple[list[Predicted], list[str]]:
+    """(predictions, why tests are left out), of all tests of the target or of those named. under: gives them other
+    conditions. UsageError for an unknown test, and where there is none."""
+    from thermodata.modelling.predictions.predict import predict
+
+    with data_of(store, fitted, target, say, progress) as (data, empty):
+        known = [t.test for t in data.tests]
+        for name in tests:
+            if name not in known:
+                raise unknown_name("test", name, known)
+        chosen = replace(data, tests=tuple(t for t in data.tests if not tests or t.test in tests))
+        made, left_out = predict(fitted, under(chosen))
+    left_out += [f"{name}: nothing in its logs is read by the model" for name in empty if not tests]
+    if not made and not left_out:
+        raise UsageError("no test can be predicted", where=target, got="no test")
+    return made, left_out
 
 
 def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:

@@ -15,22 +15,13 @@ def in_own_units(
     """What is fixed, started or bounded with a unit, in the effect's own. driver, response: units of what a gain 'um/u'
     is of, where they are known. SpecError for a unit of another kind."""
     units = {p.name: p.unit for p in effect.params} | {g.name: g.unit for g in effect.gains}
+    units |= getattr(effect, "constants", {})
     if driver is not None and response is not None:
         of_both = f"{_difference(response)}/{_difference(driver)}"
         units |= {g.name: of_both for g in effect.gains if g.unit == "um/u"}
 
     def own(name: str, value: float) -> float:
-        if not isinstance(value, WithUnit):
-            return value
-        try:
-            return value_in(value.text, units.get(name, "1"))
-        except UsageError as error:
-            raise SpecError(
-                f"'{name}' has another unit",
-                where=where,
-                expected=f"{units.get(name, '1')}, or what converts to it",
-                got=value.text,
-            ) from error
+        return in_unit(name, value, units.get(name, "1"), where)
 
     return spec.model_copy(
         update={
@@ -39,6 +30,18 @@ def in_own_units(
             "bounds": {n: (own(n, low), own(n, high)) for n, (low, high) in spec.bounds.items()},
         }
     )
+
+
+def in_unit(name: str, value: float, unit: str, where: str | None) -> float:
+    """A value of a model file in this unit; SpecError where its own is of another kind."""
+    if not isinstance(value, WithUnit):
+        return value
+    try:
+        return value_in(value.text, unit)
+    except UsageError as error:
+        raise SpecError(
+            f"'{name}' has another unit", where=where, expected=f"{unit}, or what converts to it", got=value.text
+        ) from error
 
 
 def _difference(unit: str) -> str:

@@ -16,6 +16,7 @@ from thermodata.effect.lag import lag, lags, step_of
 from thermodata.effect.law import Law
 from thermodata.errors import SpecError
 from thermodata.modelling.model_file.digits import refuse_lost_digits
+from thermodata.modelling.model_file.own_units import in_unit
 from thermodata.modelling.model_file.transfer_law import free_law, given_law
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
 
@@ -24,6 +25,8 @@ MOST = 4
 DIRECT = "direct"  # the gain of what follows at once, without a lag
 SOURCE = "[horejs2010], [ljung1999]: y(k) = [a0 u(k) + a1 u(k-1) + ... - b1 y(k-1) - ...] / b0"
 _ANY = (Need("u", "*"),)
+CONSTANTS = {"sample_s": "s", "time_s": "s"}
+"""What `fixed` says of a given function beside its coefficients, and the unit of each."""
 _COEFFICIENT = re.compile(r"^(a|b|num|den)(\d+)$")
 _INF = float("inf")
 
@@ -96,6 +99,7 @@ class GivenFunction:
     needs = _ANY
     params: tuple[Param, ...] = ()
     gains = (Gain("gain", "1", (0.0, _INF), "any", "factor on the printed function"),)
+    constants = CONSTANTS
 
     def __init__(
         self,
@@ -161,6 +165,9 @@ class GivenFunction:
 def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction | None:
     """The function that `fixed` spells out (a0, a1, b0, b1, ... or num0, den0, ...), or None where it doesn't."""
     lists: dict[str, dict[int, float]] = {}
+    fixed = {
+        name: in_unit(name, v, CONSTANTS.get(name, "1"), where) for name, v in fixed.items() if is_coefficient(name)
+    }
     for name, value in fixed.items():
         hit = _COEFFICIENT.match(name)
         if hit:
@@ -183,7 +190,7 @@ def given(fixed: Mapping[str, float], where: str | None = None) -> GivenFunction
 
 def is_coefficient(name: str) -> bool:
     """Whether a key of `fixed` belongs to a given function rather than to a parameter."""
-    return name in ("sample_s", "time_s") or _COEFFICIENT.match(name) is not None
+    return name in CONSTANTS or _COEFFICIENT.match(name) is not None
 
 
 def _run(numbers: Mapping[int, float]) -> list[float]:

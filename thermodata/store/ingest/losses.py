@@ -32,10 +32,11 @@ def loss_row(
     file: str | None = None,
     loss: Loss | None = None,
 ) -> dict[str, Any]:
-    """A loss as the summary tells it; times in seconds of the file's own clock. sources: all that miss what was lost,
-    `source` the first of them; several may read one file."""
+    """A loss as the summary tells it; times in seconds of the file's own clock. tests, sources: all that miss what was
+    lost, `test` and `source` the first of them; several may read one file."""
     return {
         "test": test,
+        "tests": [] if test is None else [test],
         "source": source,
         "sources": [] if source is None else [source],
         "file": file,
@@ -54,6 +55,22 @@ def add_unread(losses: Losses, reason: str, *, test: str, source: str, file: str
         losses.append(loss_row(reason, test=test, source=source, file=file))
     elif source not in before["sources"]:
         before["sources"].append(source)
+
+
+def told_once(losses: Iterable[dict[str, Any]]) -> Losses:
+    """What a file lost, once for all tests that are cut from it. Each row is a new one; what is of no file stays."""
+    once: Losses = []
+    of_files: dict[tuple[Any, ...], dict[str, Any]] = {}
+    for row in losses:
+        first = of_files.get((row["file"], row["where"], row["reason"])) if row["file"] else None
+        if first is None:
+            own = [row["test"]] if row["test"] else []  # an earlier version noted no list
+            once.append({**row, "tests": list(row.get("tests", own)), "sources": list(row.get("sources", []))})
+            of_files[row["file"], row["where"], row["reason"]] = once[-1]
+        else:
+            first["tests"] += [row["test"]] if row["test"] and row["test"] not in first["tests"] else []
+            first["sources"] += [s for s in row.get("sources", []) if s not in first["sources"]]
+    return once
 
 
 def _by_place(losses: Losses) -> dict[tuple[Any, Any, Any], dict[str, Any]]:
@@ -92,7 +109,7 @@ def tell(
 ) -> None:
     """Says of a test what a file lost. unread: signals that the source's channels do not read; own: of the test; every:
     of all tests; again: the file was told of before, and what its other sources did not miss may be missed now. A loss
-    is told once of a file of the test, with all sources that miss it, whether these read it alike or each in its own
+    is told once of a file, with all tests and sources that miss it, whether these read it alike or each in its own
     way."""
     told = _by_place(own.losses)
     for loss in (x for r in raws for x in r.losses):
@@ -109,3 +126,7 @@ def tell(
             for said in noted:
                 said.notes.remove(note)
             own.losses.append(loss_row(loss.reason, test=test, source=source, file=file, loss=loss))
+        else:
+            of_others = (_by_place(said.losses).get((file, loss.where, loss.reason)) for said in every)
+            for row in (row for row in of_others if row is not None and test not in row["tests"]):
+                row["tests"].append(test)

@@ -23,7 +23,7 @@ from thermodata.store.ingest.empty_channels import nothing_brought
 from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
-from thermodata.store.ingest.losses import loss_row
+from thermodata.store.ingest.losses import loss_row, told_once
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest
 from thermodata.store.ingest.same_content import same_content
@@ -177,7 +177,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     planned = Planned(campaign, path.absolute(), rows, calibration_rows, versions)
     losses = [
         *raw_layer.said[""].losses,
-        *(dict(row) for note in notes.values() for row in note.losses),  # lines are of this campaign file
+        *told_once(row for note in notes.values() for row in note.losses),  # lines are of this campaign file
         *tidy_layer.losses,
         *raw_layer.empty_sources(list(notes.values())),
         *nothing_brought(campaign, notes),

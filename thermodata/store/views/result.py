@@ -50,9 +50,10 @@ _NUMBERS = (
     "locked_rmse_um_before",
     "locked_rmse_um_after",
 )
-# what is of a whole model belongs to its campaign, where that is one
-_OWN = """coalesce(nullif(campaign, ''), (select m.campaigns[1] from model m
-         where m.model = finding.model and len(m.campaigns) = 1)) as campaign, nullif(test, '') as test, model"""
+# what is of a whole model belongs to its campaign, where that is one; a row a campaign would count it several times
+_CAMPAIGNS = "(select m.campaigns from model m where m.model = finding.model)"
+_OWN = f"""coalesce(nullif(campaign, ''), case when len({_CAMPAIGNS}) = 1 then {_CAMPAIGNS}[1] end) as campaign,
+       nullif(test, '') as test, model"""
 CANDIDATE = f"""create view candidate as
 select {_OWN}, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payload->>'$.id' as id,
        payload->>'$.effect' as effect, payload->>'$.family' as family,
@@ -60,7 +61,7 @@ select {_OWN}, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payl
        {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
        cast(payload->'$.beside' as varchar[]) as beside,
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
-       payload->>'$.why' as why, {_ASKED} as response
+       payload->>'$.why' as why, {_ASKED} as response, {_CAMPAIGNS} as campaigns
 from finding where kind = 'candidate'"""
 
 ARTEFACT = f"""create view artefact as
@@ -74,7 +75,7 @@ DIAGNOSIS = f"""create view diagnosis as
 select {_OWN}, payload->>'$.response' as response, payload->>'$.verdict' as verdict,
        cast(payload->>'$.noise_um' as double) as noise_um, cast(payload->>'$.rmse_um' as double) as rmse_um,
        cast(payload->>'$.explainable' as double) as explainable, payload->>'$.next_test' as next_test,
-       payload, created_at
+       payload, created_at, {_CAMPAIGNS} as campaigns
 from finding where kind = 'diagnosis'"""
 
 # a model without tests of a role has NULL there; several tests pool by their samples
@@ -110,7 +111,8 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
 from finding where kind = 'portability'"""
 
 _OF_RESPONSE = "[um], or in the response's unit where that is no displacement"
-_CAMPAIGN = "of the model; NULL where it has several"
+_CAMPAIGN = "of the model; NULL where it has several: these stand in campaigns"
+_EACH = "all of the model: join test t on list_contains(campaigns, t.campaign)"
 _TEST = "NULL: it is of all open tests of the model together"
 SCORE_COMMENTS = {
     "fit": "[%] free run, not clipped",
@@ -127,6 +129,7 @@ _COMMENTS = {
     "candidate": {
         "campaign": _CAMPAIGN,
         "test": _TEST,
+        "campaigns": _EACH,
         "p_value": "[1]",
         "beside": "ids of what stands in the model too where errors are told; empty: in the user's own model",
         "rmse_um_before": _OF_RESPONSE,
@@ -140,6 +143,7 @@ _COMMENTS = {
     "diagnosis": {
         "campaign": _CAMPAIGN,
         "test": _TEST,
+        "campaigns": _EACH,
         "noise_um": _OF_RESPONSE,
         "rmse_um": _OF_RESPONSE,
         "explainable": "[1] largest fall of the squared error that a candidate gives",

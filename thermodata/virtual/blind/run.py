@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from itertools import groupby
+from multiprocessing import active_children
 from pathlib import Path
 from typing import Any
 
@@ -55,11 +58,26 @@ def run(
             for stratum, seed in pairs:
                 take(one(stratum, seed, rivals))
     else:
-        with ProcessPoolExecutor(jobs) as pool:
+        with _processes(jobs) as pool:
             for future in as_completed([pool.submit(several, pairs, rivals) for pairs in sharing_heat(left)]):
                 for trial in future.result():
                     take(trial)
     return sorted(found, key=lambda t: (strata.index(t["stratum"]), t["seed"]))
+
+
+@contextmanager
+def _processes(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes to which Ctrl-C, which a terminal sends to all of them, says nothing: it is for who waits for them, and
+    ends them with what they have begun."""
+    others = set(active_children())
+    with ProcessPoolExecutor(jobs, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+        try:
+            yield pool
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in set(active_children()) - others:
+                process.terminate()
+            raise
 
 
 def sharing_heat(pairs: Sequence[Pair]) -> Iterator[list[Pair]]:

@@ -6,7 +6,6 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.errors import UsageError
-from thermodata.report.words import number, pooled
 from thermodata.store.catalogue.models import find_model, load_diagnosis
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import pair
@@ -33,6 +32,5 @@ def show(request: Request) -> Response:
         name=candidate.id if candidate else name,
         candidate=candidate,
         unit="um",
-        now=number(pooled(model.result.scores, "calibration", "verification")),
         pair=pair,
     )

@@ -18,7 +18,8 @@ from thermodata.modelling.compare.differences import Course, between, over_tests
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
-from thermodata.report.history import versions
+from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.history import chain_units, versions
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
@@ -27,6 +28,7 @@ from thermodata.view.contributions import Contributions, contributions, open_tes
 from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import Prediction, residual_courses, residual_strips
 from thermodata.view.residuals import Key, against, predicted_tests, residuals
+from thermodata.view.response_units import response_units, told_together
 from thermodata.web.command import command
 from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
@@ -48,6 +50,7 @@ class Line:
     phase: str
     errors: tuple[float | None, ...]
     differences: tuple[Difference | None, ...] = ()  # of each but the pinned one to it
+    in_sample: tuple[bool, ...] = ()  # in which models the test was fitted though it is no calibration test
 
     @property
     def differs(self) -> bool:
@@ -73,7 +76,9 @@ def show(request: Request) -> Response:
     newest = chosen[-1]
     parts = residuals(store, newest.model, predicted_tests(store, newest.model), str(response))
     over = given.get("over", "")
-    chain = versions(model_chain(store, newest.model))
+    stored = model_chain(store, newest.model)
+    chain = versions(stored, chain_units(store, stored))
+    together = told_together(pinned.responses, response_units(store, pinned.responses, pinned.campaigns))
     names = test_names(keys)
     shown = _shown_test(store, models, pinned.model, given.get("test", ""), lines, keys)
     beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
@@ -93,10 +98,11 @@ def show(request: Request) -> Response:
         hidden=sum(not line.differs for line in lines) if only else 0,
         only=only,
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
-        roles=_roles([r.scores for r in results]),
-        over_roles=_over_roles(lines, courses),
+        roles=_roles([r.scores for r in results], together),
+        over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
+        in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
         waterfall=_waterfall(chain),
         undo=_undo(chosen[-1], models),
@@ -165,8 +171,22 @@ def _lines(scores: list[list[Score]]) -> list[Line]:
         for s in each
         if s.phase == "all"
     }
-    known = [{(s.campaign, s.test, s.response, s.phase): s.rmse_um for s in each} for each in scores]
-    return [Line(k[0], k[1], role, k[2], k[3], tuple(e.get(k) for e in known)) for k, role in keys.items()]
+    known = [{(s.campaign, s.test, s.response, s.phase): s for s in each} for each in scores]
+    found = {key: [each.get(key) for each in known] for key in keys}
+    return [
+        Line(
+            *key[:2],
+            role,
+            *key[2:],
+            tuple(s.rmse_um if s else None for s in found[key]),
+            in_sample=tuple(s is not None and _in_sample(s) for s in found[key]),
+        )
+        for key, role in keys.items()
+    ]
+
+
+def _in_sample(score: Score) -> bool:
+    return score.role != base_role(score.role)
 
 
 def _with_differences(lines: list[Line], courses: Sequence[Mapping[Course, Float1D]]) -> list[Line]:
@@ -189,9 +209,23 @@ def _over_roles(
     ]
 
 
-def _roles(scores: list[list[Score]]) -> list[tuple[str, list[float | None]]]:
+def _of_responses(courses: Mapping[Course, Float1D], responses: Sequence[str]) -> dict[Course, Float1D]:
+    return {key: course for key, course in courses.items() if key[2] in responses}
+
+
+def _roles(scores: list[list[Score]], responses: Sequence[str]) -> list[tuple[str, list[tuple[float | None, bool]]]]:
+    """(role, of each model its error, and whether tests of the role were fitted though they are no calibration)."""
     names = dict.fromkeys(base_role(s.role) for each in scores for s in each)
-    return [(role, [pooled(each, role) for each in scores]) for role in names]
+    return [
+        (
+            role,
+            [
+                (pooled(each, role, responses=responses), any(_in_sample(s) for s in each if base_role(s.role) == role))
+                for each in scores
+            ],
+        )
+        for role in names
+    ]
 
 
 def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult | None]]]:

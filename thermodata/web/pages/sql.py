@@ -16,6 +16,7 @@ from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.view.sandbox.ask import Form, Limits, Table, ask, stream
+from thermodata.view.store_view import StoreView
 from thermodata.web.command import command
 from thermodata.web.render import desk_of, page
 
@@ -55,6 +56,7 @@ def show(request: Request) -> Response:
         status=400 if error else 200,
         sql=query,
         table=table,
+        flagged=_flagged(store, query, table),
         error=error,
         numbers=numbers,
         x=x,
@@ -81,6 +83,12 @@ def take(request: Request) -> Response:
 
 def _bytes(pieces: Iterator[bytes]) -> Iterator[bytes]:
     yield from pieces
+
+
+def _flagged(store: Store, query: str, table: Table | None) -> str | None:
+    """What `thermodata sql` says of a query that takes flagged values."""
+    columns = [name for name, _ in table.columns] if table else []
+    return StoreView(store).values_that_do_not_count(query, columns) if table else None
 
 
 def _short(query: str) -> str:

@@ -1,0 +1,26 @@
+"""The units in which a model's responses are told, and which of them have an error together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+_UNITS = """select distinct channel, unit from channel
+where list_contains($names, channel) and ($campaigns is null or list_contains($campaigns, campaign)) order by all"""
+
+
+def response_units(store: Store, names: Sequence[str], campaigns: Collection[str] | None = None) -> dict[str, str]:
+    """response -> unit of its errors (K of a temperature), of those that the campaigns (None: any) have."""
+    given = {"names": list(names), "campaigns": None if campaigns is None else list(campaigns)}
+    with store.reader() as con:
+        found = con.execute(_UNITS, given).fetchall()
+    units = {str(name): "K" if unit == "degC" else str(unit) for name, unit in found}
+    return {name: units[name] for name in names if name in units}
+
+
+def told_together(names: Sequence[str], units: Mapping[str, str]) -> list[str]:
+    """The responses whose errors are one error: those in the unit of the first."""
+    return [name for name in names if units.get(name) == units.get(names[0])]
