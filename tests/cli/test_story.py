@@ -33,7 +33,20 @@ SCORE = {
     "max_um",
     "n",
 }
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
+FIT = {
+    "model",
+    "name",
+    "parent",
+    "campaigns",
+    "response",
+    "parameters",
+    "scores",
+    "checks",
+    "before",
+    "added",
+    "notes",
+    "lost",
+}
 
 
 @pytest.fixture

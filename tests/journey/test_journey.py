@@ -22,7 +22,20 @@ import pytest
 from thermodata.cli import main
 from thermodata.virtual import Truth, simulate
 
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
+FIT = {
+    "model",
+    "name",
+    "parent",
+    "campaigns",
+    "response",
+    "parameters",
+    "scores",
+    "checks",
+    "before",
+    "added",
+    "notes",
+    "lost",
+}
 PARAMETER = {"value", "unit", "low", "high"}
 SCORE = {
     "model",

@@ -51,21 +51,32 @@ class TestPart:
 
 
 @dataclass(frozen=True, slots=True)
+class Errors:
+    """RMSE over the open tests and by role."""
+
+    all_um: float | None = None
+    calibration_um: float | None = None
+    verification_um: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class ResponseError:
-    """One response's RMSE in a version, over the open tests and by role, in `unit`."""
+    """One response's errors in a version, in `unit`. own: over all tests that the version predicts; common: over those
+    that all versions predict."""
 
     response: str
     unit: str
-    all_um: float | None
-    calibration_um: float | None
-    verification_um: float | None
+    own: Errors
+    common: Errors
 
 
 @dataclass(frozen=True, slots=True)
 class Version:
     """One version of the model. added: the effect that it has more than its parent. *_um: RMSE over the responses in
-    the unit of the first, which is `unit`. removed: the effect that its parent has more. in_sample: whether its
-    verification tests were fitted too. responses: the errors of each."""
+    the unit of the first, which is `unit`, and over the tests that all versions predict; own: over all that this one
+    does. removed: the effect that its parent has more. in_sample: whether its verification tests were fitted too.
+    responses: the errors of each. lost: tests, as campaign/test, that the version before predicts for a response of
+    both, and this one does not. tests: how many it predicts; compared: how many all versions do."""
 
     model: str
     name: str
@@ -78,6 +89,10 @@ class Version:
     in_sample: bool = False
     unit: str = "um"
     responses: tuple[ResponseError, ...] = ()
+    own: Errors = Errors()
+    lost: tuple[str, ...] = ()
+    tests: int = 0
+    compared: int = 0
 
     @property
     def change(self) -> str:

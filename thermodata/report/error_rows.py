@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from thermodata.modelling.compare.common import on_common
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import beside, claims_of
@@ -79,8 +80,9 @@ def _left_out_row(data: ReportData) -> ErrorRow | None:
 
 
 def _of_role(data: ReportData, role: str) -> tuple[float | None, float | None]:
-    before, after = (pooled(some, role, responses=data.told_together) for some in (data.before, data.scores))
-    return before, after
+    """Over the tests that both versions predict; of the last alone, over all of its own, where there is none."""
+    before, after = (pooled(some, role, responses=data.told_together) for some in on_common([data.before, data.scores]))
+    return (before, after) if after is not None else (None, pooled(data.scores, role, responses=data.told_together))
 
 
 def _role_row(data: ReportData, role: str) -> ErrorRow | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
+from thermodata.report.lost import lost_sentence
 from thermodata.report.verdict import causes, claims_of, listed, verdict_sentence
 from thermodata.report.words import change, number
 
@@ -46,6 +47,7 @@ def sentences(data: ReportData) -> list[str]:
     # the verdict that nothing is missing has that figure already
     said = row is not None and number(row.after) in headline(data)
     lines = [] if said else [error_sentence(data)]
+    lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     for claim in claims:
         # ids stay as they are typed

@@ -19,6 +19,7 @@ from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
+from thermodata.report.lost import lost_of_versions
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import beside, probability, told, verdict_sentence
@@ -66,6 +67,7 @@ def render(data: ReportData) -> str:
         styles=styles,
         **page_values(_figures(data, styles, spots)),
         waterfall=waterfall(data.versions),
+        lost=typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),
         faults=log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
         heat=heat,
         probability_text=probability_text,

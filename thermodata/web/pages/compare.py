@@ -13,13 +13,16 @@ from starlette.responses import Response
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
+from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.difference import Difference
 from thermodata.modelling.compare.differences import Course, between, over_tests
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, versions
+from thermodata.report.lost import lost_of_compared, lost_of_versions
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
@@ -98,13 +101,15 @@ def show(request: Request) -> Response:
         hidden=sum(not line.differs for line in lines) if only else 0,
         only=only,
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
-        roles=_roles([r.scores for r in results], together),
+        roles=_roles(on_common([r.scores for r in results]), together),
+        compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
         in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
         waterfall=_waterfall(chain),
+        lost=capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         undo=_undo(chosen[-1], models),
         autocorrelation=script_json(_correlated(parts).as_json()) if parts else None,
         over=over,
