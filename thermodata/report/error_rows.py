@@ -90,7 +90,9 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     if after is None:
         return None
     in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
-    note = "fitted too by now: they took part in the choice" if in_sample else ""
+    overlap = any(c.name.startswith("overlap:") for c in data.checks)
+    why = "some hold samples of calibration tests" if overlap else "they took part in the choice"
+    note = f"fitted too by now: {why}" if in_sample else ""
     if role == "calibration":
         return ErrorRow("fitted", before, after, False, "calibration tests")
     return ErrorRow("verification", before, after, not in_sample, note)
