@@ -80,11 +80,12 @@ class Fit(Shown):
         """A row a test, response and phase, by free-run simulation."""
         return Listed((s.model_dump() for s in self.result.scores), _SCORES)
 
-    def diagnose(self) -> Verdict[Fit]:
-        """Which effect is missing; from the store where that was asked before, and nothing has changed since."""
+    def diagnose(self, response: str | None = None) -> Verdict[Fit]:
+        """Which effect is missing; from the store where that was asked before, and nothing has changed since. response:
+        of which, where the model has several; by default of that of which most is left."""
         from thermodata.diagnosis.run import diagnose
 
-        return Verdict(self, diagnose(self.store, self.id))
+        return Verdict(self, diagnose(self.store, self.id, response=response))
 
     def confirm(self, candidate: str | int) -> Confirmation:
         """Opens the locked tests for an effect of your choice, by rank or id; the look is counted."""

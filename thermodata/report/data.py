@@ -26,7 +26,8 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class TestPart:
-    """One response in one test, on a uniform grid of step_s from start_s [s]; all arrays have shape (n,).
+    """One response in one test, on a uniform grid of step_s from start_s [s]; all arrays have shape (n,). unit: in
+    which it is measured (None: in that of its errors, which is K of a temperature).
 
     lanes: operating state (speed, feed, flags); drivers: what the effects were given. phases: name -> (from, to) [s].
     """
@@ -48,6 +49,7 @@ class TestPart:
     conditions: dict[str, Any] = field(default_factory=dict)
     phases: dict[str, tuple[float, float]] = field(default_factory=dict)
     predicted_sd: Float1D | None = None  # by the uncertainty of the parameters
+    unit: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +138,10 @@ class ReportData:
     systems: tuple[Seen, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+
+    def unit_of(self, found: Diagnosis | str | None) -> str:
+        """Of a response, or of the one that was diagnosed."""
+        return self.units.get(found.response if isinstance(found, Diagnosis) else found or "", self.unit)
 
     @property
     def told_together(self) -> list[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
@@ -46,13 +45,16 @@ def versions(
         gone = [words[name] for name in known if name not in ids]
         names = m.result.responses
         together = told_together(names, units)
+        shown = _errors(common[i], together)
         lost = lost_tests(every[i - 1], every[i]) if i else []
         made.append(
             Version(
                 m.model,
                 m.name,
                 ", ".join(fresh) or None,
-                *astuple(_errors(common[i], together)),
+                shown.all_um,
+                shown.calibration_um,
+                shown.verification_um,
                 m.stale,
                 ", ".join(gone) or None,
                 any(s.role != base_role(s.role) for s in every[i]),

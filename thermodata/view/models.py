@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.schema.terms import ids_of
 from thermodata.store.base.connection import fetch
+from thermodata.view.response_units import error_unit
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -78,7 +79,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
         bool(r["stale"]),
         tuple(r["campaigns"]),
         tuple(r["response"].split(", ")),
-        "K" if r["unit"] == "degC" else r["unit"],  # of an error
+        error_unit(r["unit"]),
         tuple(e["effect"] for e in effects),
         tuple(ids_of((e["effect"], e.get("id")) for e in effects)),
         r["calibration"],
