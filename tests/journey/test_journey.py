@@ -59,6 +59,8 @@ DIAGNOSIS = {
     "noise_um",
     "noise_over_s",
     "chance",
+    "responses",
+    "by_choice",
     "rmse_um",
     "fitted_rmse_um",
     "locked_rmse_um",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -21,8 +22,8 @@ class ModelRow:
     """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file,
     terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
-    first. verdict: of its diagnosis, None where it
-    has none."""
+    first. verdict: of its diagnosis, None where it has none. label: its name and version, and its id where another
+    model has these too."""
 
     model: str
     name: str
@@ -38,10 +39,7 @@ class ModelRow:
     calibration_um: float | None
     verification_um: float | None
     verdict: str | None
-
-    @property
-    def label(self) -> str:
-        return f"{self.name} {self.version}"
+    label: str
 
 
 _MODELS = """
@@ -66,10 +64,15 @@ def model_rows(store: Store) -> list[ModelRow]:
     """All models of the store."""
     with store.reader() as con:
         rows = fetch(con, _MODELS)
-    return [_row(r, json.loads(r["spec"]).get("effects", [])) for r in rows]
+    often = Counter(_label(r) for r in rows)
+    return [_row(r, json.loads(r["spec"]).get("effects", []), often[_label(r)] > 1) for r in rows]
 
 
-def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
+def _label(r: dict[str, Any]) -> str:
+    return f"{r['name']} {r['version']}"
+
+
+def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> ModelRow:
     return ModelRow(
         r["model"],
         r["name"],
@@ -85,6 +88,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
         r["calibration"],
         r["verification"],
         r["verdict"],
+        f"{_label(r)} ({r['model'][:6]})" if again else _label(r),
     )
 
 

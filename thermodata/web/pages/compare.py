@@ -39,6 +39,7 @@ from thermodata.web.render import desk_of, page
 
 BINS = 120
 _MOST_LAG_S = 6 * 3600.0
+_LISTED = 12  # the newest models, which stand there to be ticked; older ones are folded up
 _SAME = 0.005  # of the pinned error: less is no difference
 
 
@@ -93,6 +94,8 @@ def show(request: Request) -> Response:
         title="Compare",
         command=command(desk.store_path, "compare", *(m.model for m in chosen)),
         models=models,
+        listed=[m for i, m in enumerate(models) if i < _LISTED or m in chosen],
+        older=[m for m in models[_LISTED:] if m not in chosen],
         chosen=chosen,
         pinned=pinned,
         newest=newest,
@@ -254,7 +257,7 @@ def _maps(
             f"Residual of {response} by {model.label} over every test",
             Axis("share of the test", "%"),
             model.unit,
-            [test for _, test in keys],
+            list(test_names(keys).values()),
             values,
             [BINS] * len(keys),
             0.0,
