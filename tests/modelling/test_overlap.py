@@ -127,7 +127,7 @@ def test_where_the_shared_samples_lie_counts_from_the_test_and_ignores_its_histo
     data = load_dataset(store, "c", 60.0)
 
     def shared(one: str, other: str) -> tuple[float, float] | None:
-        from thermodata.view.recorded import shared_samples
+        from thermodata.view.shared_samples import shared_samples
 
         a, b = (test_of(data.tests, name) for name in (one, other))
         return shared_samples(a, b, "dZ")

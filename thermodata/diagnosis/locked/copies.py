@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
-from thermodata.view.recorded import shared_samples
+from thermodata.view.shared_samples import shared_samples
 
 LEAST_SAMPLES = 30  # that are equal to the last digit, and not all one value
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from thermodata.modelling.inputs.roles import Key, Roles
 from thermodata.schema.result import Check
 from thermodata.view.dataset import Dataset, TestData
-from thermodata.view.recorded import shared_samples
+from thermodata.view.shared_samples import shared_samples
 
 
 @dataclass(frozen=True, slots=True)
