@@ -33,7 +33,20 @@ SCORE = {
     "max_um",
     "n",
 }
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
+FIT = {
+    "model",
+    "name",
+    "parent",
+    "campaigns",
+    "response",
+    "parameters",
+    "scores",
+    "checks",
+    "before",
+    "added",
+    "notes",
+    "lost",
+}
 
 
 @pytest.fixture
@@ -296,6 +309,8 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "noise_um",
         "noise_over_s",
         "chance",
+        "responses",
+        "by_choice",
         "rmse_um",
         "fitted_rmse_um",
         "locked_rmse_um",

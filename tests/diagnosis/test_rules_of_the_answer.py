@@ -22,6 +22,7 @@ from thermodata.diagnosis.verdict.suspect import Suspect
 from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.ranking import Ranked
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.errors import UsageError
 from thermodata.report.verdict import beside
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown
@@ -541,3 +542,14 @@ def test_the_response_with_the_largest_share_left_is_asked_about(spec: Model) ->
 
     assert answering.worst_response(Fitted([left(0.3), left(0.31)], spec), tests) == 1  # type: ignore[arg-type]
     assert answering.worst_response(Fitted([left(0.31), left(0.3)], spec), tests) == 0  # type: ignore[arg-type]
+    assert answering.shares_left(Fitted([left(0.25)], spec), tests) == [pytest.approx(0.25)]  # type: ignore[arg-type]
+
+
+def test_a_response_that_is_named_is_asked_about(spec: Model) -> None:
+    tests, wave = [a_test("a", 50)], np.sin(np.arange(50))
+    two = Fitted([Response({"a": 10.0 * wave}), Response({"a": wave})], spec)
+    two.responses[0].name, two.responses[1].name = "dZ", "dY"  # type: ignore[misc]
+    assert answering.response_index(two, tests, None) == 0  # type: ignore[arg-type]
+    assert answering.response_index(two, tests, "dY") == 1  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match="no response 'dX'"):
+        answering.response_index(two, tests, "dX")  # type: ignore[arg-type]

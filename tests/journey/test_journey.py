@@ -22,7 +22,20 @@ import pytest
 from thermodata.cli import main
 from thermodata.virtual import Truth, simulate
 
-FIT = {"model", "name", "parent", "campaigns", "response", "parameters", "scores", "checks", "before", "added", "notes"}
+FIT = {
+    "model",
+    "name",
+    "parent",
+    "campaigns",
+    "response",
+    "parameters",
+    "scores",
+    "checks",
+    "before",
+    "added",
+    "notes",
+    "lost",
+}
 PARAMETER = {"value", "unit", "low", "high"}
 SCORE = {
     "model",
@@ -46,6 +59,8 @@ DIAGNOSIS = {
     "noise_um",
     "noise_over_s",
     "chance",
+    "responses",
+    "by_choice",
     "rmse_um",
     "fitted_rmse_um",
     "locked_rmse_um",

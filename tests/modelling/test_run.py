@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -12,7 +14,12 @@ from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
+from thermodata.report.collect import collect
+from thermodata.report.error_rows import error_rows
+from thermodata.report.fit_text import before_after_text, history_text
+from thermodata.report.headline import sentences
 from thermodata.report.history import history_rows
+from thermodata.report.words import pooled
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec
@@ -26,11 +33,16 @@ from .conftest import CHANNELS, EFFECTS, TRUTH, Spec
 
 @pytest.fixture(scope="module")
 def store(world: Dataset, tmp_path_factory: pytest.TempPathFactory) -> Store:
-    folder = tmp_path_factory.mktemp("campaign")
+    return stored(world, tmp_path_factory.mktemp("campaign"))
+
+
+def stored(world: Dataset, folder: Path, without: Mapping[str, str] = MappingProxyType({})) -> Store:
+    """A store of the tests. without: test -> channel that its log lacks."""
     (folder / "raw").mkdir()
     for test in world.tests:
-        lines = [";".join(["t [s]", *CHANNELS])]
-        table = np.column_stack([test.t_s, *(test.values[n] for n in CHANNELS)])
+        names = [n for n in CHANNELS if n != without.get(test.test)]
+        lines = [";".join(["t [s]", *names])]
+        table = np.column_stack([test.t_s, *(test.values[n] for n in names)])
         lines += [";".join(f"{v:.6f}" for v in row) for row in table]
         (folder / "raw" / f"{test.test}.csv").write_text("\n".join(lines) + "\n")
     units = {"displacement": "um", "temperature": "degC", "rotational_speed": "rpm", "state": "1"}
@@ -136,6 +148,37 @@ def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec:
     other = remove(store, grown.model, "spindle_bearing")
     assert {s.role for s in other.scores} == {"calibration", "verification (in-sample)"}
     assert other.notes[1:] == ["verification tests stay fitted (in-sample), for they helped to choose what is left"]
+
+
+def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    lost = next(t.test for t in world.tests if t.role == "calibration")
+    store = stored(world, tmp_path, without={lost: "T_nut"})
+    parent = run.fit(store, spec("spindle_bearing", name="some"))
+    grown = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    assert [(t.test, t.response, t.why) for t in grown.lost or []] == [(lost, "dZ", "no driver for feed_screw")]
+    kept = [s for s in parent.scores if s.test != lost]
+    before = pooled(kept, "calibration", responses=["dZ"])
+    assert before != pytest.approx(pooled(parent.scores, "calibration", responses=["dZ"]), rel=0.01)
+    n = len(world.tests) - sum(t.role in ("locked", "none") for t in world.tests)
+    said = f"1 of {n} tests is lost, for this version can't predict it: c/{lost} (no driver for feed_screw)"
+    # the command and the notebook
+    text = before_after_text(grown)
+    assert text.splitlines()[0].startswith(f"{said}; before and after are over the {n - 1} that both predict")
+    (row,) = (line.split() for line in text.splitlines() if line.split()[:3] == ["-", "all", "calibration"])
+    assert float(row[3]) == pytest.approx(before, rel=0.01)
+    # the versions: own errors keep their keys
+    first, last = history_rows(store, grown.model)
+    assert first["common"]["calibration_rmse_um"] == pytest.approx(before)
+    assert first["calibration_rmse_um"] == pytest.approx(pooled(parent.scores, "calibration", responses=["dZ"]))
+    assert (first["lost"], last["lost"], first["tests"], last["tests"]) == ([], [f"c/{lost}"], n, n - 1)
+    assert history_text([first, last]).startswith(
+        f"1 test lost with {grown.model}: c/{lost}; errors are over the {n - 1}"
+    )
+    # the report
+    data = collect(store, grown.model)
+    assert next(r for r in error_rows(data) if r.word == "fitted").before == pytest.approx(before)
+    assert data.versions[0].calibration_um == pytest.approx(before)
+    assert any(line.startswith(said) for line in sentences(data))
 
 
 def test_what_is_removed_is_a_version_of_its_own_whatever_was_fitted_before(store: Store, spec: Spec) -> None:

@@ -25,7 +25,7 @@ def test_parts_of_one_test_are_told_apart() -> None:
 
 
 def test_tests_of_one_name_in_two_campaigns_are_no_parts() -> None:
-    assert names_of_pieces([left_out("head", 0, 2), left_out("head", 0, 2, "d")]) == ["head", "head"]
+    assert names_of_pieces([left_out("head", 0, 2), left_out("head", 0, 2, "d")]) == ["c/head", "d/head"]
 
 
 def test_courses_are_named_so_too() -> None:

@@ -88,6 +88,7 @@ def known_failure(error: Exception) -> ThermodataError | None:
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
     """A text that says um, in the unit of the response: a model may be one of temperatures. Of responses in several
     units each row is in its own, and a line below says which."""
+    from thermodata.report.words import in_unit
     from thermodata.view.response_units import response_units
 
     names = [response] if isinstance(response, str) else response
@@ -100,7 +101,7 @@ def in_units_of(session: Session, response: str | list[str], text: str) -> str:
     if not each or "um" in each:
         return text
     unit = each.pop()
-    return re.sub(r"(?<=\d )um\b", unit, text.replace("[um]", f"[{unit}]".ljust(4)))
+    return in_unit(text.replace("[um]", f"[{unit}]".ljust(4)), unit)
 
 
 def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:

@@ -157,10 +157,13 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
 
     model, before, after = base.model, pooled(base.scores, responses=base.responses), None
     if claims:
+        from thermodata.modelling.compare.common import on_common
+
         step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
         for claim in claims:
             better = add(store, model, claim.id)
-            model, after = better.model, pooled(better.scores, responses=base.responses)
+            model = better.model
+        before, after = (pooled(some, responses=base.responses) for some in on_common([base.scores, better.scores]))
         step.line(
             f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"
         )

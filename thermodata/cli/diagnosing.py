@@ -13,32 +13,35 @@ from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 @command("diagnose")
 @click.argument("model", required=False, shell_complete=completing.models)
 @click.option("--top", default=8, show_default=True, type=click.IntRange(1), help="Most candidates of the table.")
-def diagnose_command(session: Session, model: str | None, top: int) -> None:
+@click.option("--response", metavar="CHANNEL", help="Of a model with several: ask of this one.")
+def diagnose_command(session: Session, model: str | None, top: int, response: str | None) -> None:
     """Say which physical effect MODEL misses.
 
     Or that none is missing, that what MODEL has can be refined, or that these tests can't tell.
 
     A candidate is claimed only if all evidence holds; locked tests are opened only for what is claimed or likely, and
-    counted. Of the newest model where none is named.
+    counted. Of the newest model where none is named. Of a model with several responses one is asked, that of which the
+    largest share is left, or --response; whose ranks the last answer has, add and confirm take.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.diagnosis.run import diagnose, kept_diagnosis
 
     store = session.store()
     ref = resolve(store, model, session)
-    found = kept_diagnosis(store, ref)
+    found = kept_diagnosis(store, ref, response)
     if found is not None:
         click.echo("from the store: model, data, effects and rules are as they were", err=True)
     else:
         with counting_line() as tell:
-            found = diagnose(store, ref, tell)
+            found = diagnose(store, ref, tell, response)
     session.answer(found, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
 
 
 @command("confirm")
 @click.argument("model", shell_complete=completing.models)
 @click.argument("candidate", shell_complete=completing.candidates)
-def confirm_command(session: Session, model: str, candidate: str) -> None:
+@click.option("--response", metavar="CHANNEL", help="Of a model with several: by default that which was diagnosed.")
+def confirm_command(session: Session, model: str, candidate: str, response: str | None) -> None:
     """Open the locked tests for an effect of your own choice.
 
     CANDIDATE is its rank or id, as diagnose printed them, or any effect:channels. MODEL is fitted to all open tests
@@ -47,7 +50,7 @@ def confirm_command(session: Session, model: str, candidate: str) -> None:
     from thermodata.diagnosis.run import confirm_choice
 
     store = session.store()
-    result, known = confirm_choice(store, resolve(store, model), candidate)
+    result, known = confirm_choice(store, resolve(store, model), candidate, response)
     if known:
         click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
     session.answer(result, lambda: in_units_of(session, result.response, confirmed_text(result)))

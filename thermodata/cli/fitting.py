@@ -251,10 +251,11 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...]) ->
 
     store = session.store()
     rows = [plain(row) for row in transfer(store, resolve(store, model), tests)]
-    several = len({row["response"] for row in rows}) > 1
-    session.answer(
-        rows,
-        lambda: table(
+    names = list(dict.fromkeys(str(row["response"]) for row in rows))
+    several = len(names) > 1
+
+    def text() -> str:
+        told = table(
             rows,
             [
                 ("campaign", "campaign"),
@@ -272,5 +273,7 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...]) ->
                 ("verdict", "class"),
                 ("why", "x for"),
             ],
-        ),
-    )
+        )
+        return in_units_of(session, names, told)
+
+    session.answer(rows, text)

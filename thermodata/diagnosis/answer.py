@@ -25,10 +25,11 @@ from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
+from thermodata.errors import unknown_name
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis
+from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis, ResponseLeft
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -59,11 +60,14 @@ def answer(
     *,
     left_on_locked: Mapping[str, float] | None = None,
     ends: Ends = UNKNOWN,
+    name: str | None = None,
 ) -> Answer:
-    """Diagnose the response that the model predicts worst; locked tests are opened once, for what is claimed
-    or likely. left_on_locked: response -> their error, where it is known already. ends: how logs begin and end."""
+    """Diagnose the response that is named, else the one of which most is left; locked tests are opened once, for what
+    is claimed or likely. left_on_locked: response -> their error, where it is known already. ends: how logs begin and
+    end."""
     tests = fitted.tests(data)
-    index = worst_response(fitted, tests)
+    shares = shares_left(fitted, tests)
+    index = response_index(fitted, tests, name)
     response = fitted.responses[index]
     usable = [t for t in tests if response.can_predict(t)]
     asked_of = sound(fitted, index, data, usable, library, ends)
@@ -109,6 +113,10 @@ def answer(
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),
+        "responses": [
+            ResponseLeft(response=r.name, left=left) for r, left in zip(fitted.responses, shares, strict=True)
+        ],
+        "by_choice": name is not None,
     }
     return Answer(found.model_copy(update=beside), opened.looks)
 
@@ -120,18 +128,33 @@ def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
     return frozenset[tuple[str, str]]().union(*found) if found and len(found) == len(tests) else None
 
 
+def response_index(fitted: FittedModel, tests: Sequence[TestData], name: str | None) -> int:
+    """The number of the named response, of the worst one where none is named. UsageError for an unknown one."""
+    if name is None:
+        return worst_response(fitted, tests)
+    names = [response.name for response in fitted.responses]
+    if name not in names:
+        raise unknown_name("response", name, names, where=f"model '{fitted.spec.name}'")
+    return names.index(name)
+
+
 def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
     """The number of the response with the largest share of its variance left."""
-    left = []
+    return int(np.argmax([-1.0 if left is None else left for left in shares_left(fitted, tests)]))
+
+
+def shares_left(fitted: FittedModel, tests: Sequence[TestData]) -> list[float | None]:
+    """Of each response the share of its variance, test by test, that is left."""
+    left: list[float | None] = []
     for response in fitted.responses:
-        over, under = 0.0, 1e-300
+        over, under = 0.0, 0.0
         for test in tests:
             if response.can_predict(test) and (m := response.mask(test)).any():
                 y, r = response.measured(test)[m], response.residual(test)[m]
                 over += float(np.sum((r - r.mean()) ** 2))
                 under += float(np.sum((y - y.mean()) ** 2))
-        left.append(over / under)
-    return int(np.argmax(left))
+        left.append(over / under if under > 0 else None)
+    return left
 
 
 def _diagnosis(

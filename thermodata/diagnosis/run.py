@@ -9,7 +9,7 @@ import hashlib
 import json
 from typing import TYPE_CHECKING
 
-from thermodata.diagnosis.answer import answer, worst_response
+from thermodata.diagnosis.answer import answer, response_index
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Fits, confirm
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 59
+RULES_VERSION = 60
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -46,62 +46,81 @@ def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
     return hashlib.sha256(json.dumps(made_from).encode()).hexdigest()
 
 
-def kept_diagnosis(store: Store, ref: str) -> Diagnosis | None:
+def kept_diagnosis(store: Store, ref: str, response: str | None = None) -> Diagnosis | None:
     """The answer that the store holds to this question; None where model, data, effects or rules have changed since."""
-    from thermodata.store.catalogue.models import kept_answer
-
     model = load(store, ref)
-    text = kept_answer(store, model.identity, "diagnose", _key(model, left_on_locked(store, model)))
-    return None if text is None else Diagnosis.model_validate_json(text)
+    return _kept(store, model, response, _key(model, left_on_locked(store, model)))
 
 
-def diagnose(store: Store, ref: str, tell: Tell | None = None) -> Diagnosis:
+def _kept(store: Store, model: Loaded, response: str | None, key: str) -> Diagnosis | None:
+    """What was asked for last is the model's diagnosis, whose ranks `add` takes."""
+    from thermodata.store.catalogue.models import kept_answer, load_diagnosis, save_diagnosis
+
+    text = kept_answer(store, model.identity, _question(response), key)
+    found = None if text is None else Diagnosis.model_validate_json(text)
+    latest = load_diagnosis(store, model.identity) if found is not None else None
+    if found is not None and latest is not None and latest.response != found.response:
+        save_diagnosis(store, model.identity, found)
+    return found
+
+
+def _question(response: str | None) -> str:
+    return "diagnose" if response is None else f"diagnose {response}"
+
+
+def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | None = None) -> Diagnosis:
     """Which effect is missing in a model of the store (an id, a unique prefix or a name).
 
-    tell: is told how many candidates are done, of how many."""
+    tell: is told how many candidates are done, of how many. response: of which of the model's, by default of that of
+    which most is left."""
     from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import keep_answer, kept_answer, save_diagnosis
+    from thermodata.store.catalogue.models import keep_answer, save_diagnosis
 
     model = load(store, ref)
     left = left_on_locked(store, model)
     key = _key(model, left)
-    kept = kept_answer(store, model.identity, "diagnose", key)
+    kept = _kept(store, model, response, key)
     if kept is not None:
-        return Diagnosis.model_validate_json(kept)
+        return kept
     with watched(tell):
         ends = ends_of_logs(store, model)
-        outcome = answer(model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends)
+        outcome = answer(
+            model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends, name=response
+        )
     found = outcome.diagnosis
     for look in outcome.looks:
         count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
     save_diagnosis(store, model.identity, found)
-    keep_answer(store, model.identity, "diagnose", key, found.model_dump_json())
+    keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
     return found
 
 
-def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confirmed, bool]:
+def confirm_choice(store: Store, ref: str, candidate: str | int, response: str | None = None) -> tuple[Confirmed, bool]:
     """(what the locked tests say of an effect that the user chose, whether that was known already).
 
-    candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. Opening the lock is counted, but for an
+    candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. response: by default that of the stored
+    diagnosis. Opening the lock is counted, but for an
     answer that the store holds. UsageError: no such candidate, or no locked test that both models can predict.
     """
     from thermodata.store.catalogue.looks import count_locked_look, locked_looks
-    from thermodata.store.catalogue.models import keep_answer, kept_answer
+    from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
 
     model = load(store, ref)
     tests = model.fitted.tests(model.data)
-    index = worst_response(model.fitted, tests)
-    response = model.fitted.responses[index]
-    chosen = _chosen(model, response, chosen_id(store, model.identity, candidate))
+    asked = load_diagnosis(store, model.identity) if response is None else None
+    index = response_index(model.fitted, tests, asked.response if asked is not None else response)
+    of = model.fitted.responses[index]
+    chosen = _chosen(model, of, chosen_id(store, model.identity, candidate))
     name, key = chosen.id, _key(model)
-    kept = kept_answer(store, model.identity, f"confirm {name}", key)
+    question = f"confirm {name}" if len(model.fitted.responses) == 1 else f"confirm {name} of {of.name}"
+    kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
         known = as_held(Confirmed.model_validate_json(kept))
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
-    usable = [t for t in tests if response.can_predict(t)]
+    usable = [t for t in tests if of.can_predict(t)]
     asked_of = sound(model.fitted, index, model.data, usable, effects(), ends_of_logs(store, model))
-    again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, response.name)}
-    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if response.can_predict(t) and t.key not in again]
+    again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, of.name)}
+    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if of.can_predict(t) and t.key not in again]
     if not locked:
         raise UsageError(
             "no locked test to confirm on",
@@ -122,7 +141,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
     samples = {s.key: s.rows for s in confirmation.shapes}
     found = Confirmed(
         model=model.identity,
-        response=response.name,
+        response=of.name,
         candidate=name,
         holds=None,
         locked_rmse_um_before=confirmation.before,
@@ -146,7 +165,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int) -> tuple[Confir
         put_right=told(put_right),
     )
     result = held(found, None if shape is None else shape.holds)
-    keep_answer(store, model.identity, f"confirm {name}", key, result.model_dump_json())
+    keep_answer(store, model.identity, question, key, result.model_dump_json())
     return result, False
 
 

@@ -15,6 +15,7 @@ from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
+from thermodata.report.lost import lost_sentence
 from thermodata.report.words import change
 
 if TYPE_CHECKING:
@@ -79,11 +80,12 @@ class Fit(Shown):
         """A row a test, response and phase, by free-run simulation."""
         return Listed((s.model_dump() for s in self.result.scores), _SCORES)
 
-    def diagnose(self) -> Verdict[Fit]:
-        """Which effect is missing; from the store where that was asked before, and nothing has changed since."""
+    def diagnose(self, response: str | None = None) -> Verdict[Fit]:
+        """Which effect is missing; from the store where that was asked before, and nothing has changed since. response:
+        of which, where the model has several; by default of that of which most is left."""
         from thermodata.diagnosis.run import diagnose
 
-        return Verdict(self, diagnose(self.store, self.id))
+        return Verdict(self, diagnose(self.store, self.id, response=response))
 
     def confirm(self, candidate: str | int) -> Confirmation:
         """Opens the locked tests for an effect of your choice, by rank or id; the look is counted."""
@@ -177,8 +179,10 @@ class Fit(Shown):
         ]
         columns = [("parameter", "parameter"), ("value", "value"), ("unit", "unit"), ("range", "95 %")]
         notes = "".join(f"<li>{escape(c.name)}: {escape(c.advice)}</li>" for c in self.result.checks if not c.passed)
+        lost = lost_sentence(self.result.before or [], self.result.scores, self.result.checks)
         return (
-            html_table(rows, heads, f"{self.name} {self.id}")
+            (f"<p>{escape(lost)}</p>" if lost else "")
+            + html_table(rows, heads, f"{self.name} {self.id}")
             + html_table(fitted, columns)
             + (f"<p>worth a look</p><ul>{notes}</ul>" if notes else "")
         )
@@ -259,9 +263,9 @@ def compared(store: Store, refs: Sequence[str]) -> Comparison:
 
 def history_of(store: Store, ref: str) -> Listed:
     """The versions that led to a model, as `thermodata history` lists them."""
-    from thermodata.report.fit_text import history_table
+    from thermodata.report.fit_text import history_lost, history_table
     from thermodata.report.history import history_rows
 
     rows = history_rows(store, ref)
     shown, columns = history_table(rows)
-    return Listed(rows, columns, shown=shown)
+    return Listed(rows, columns, history_lost(rows), shown=shown)

@@ -59,9 +59,9 @@ class OpenStore(StoreView):
 
         return Listed((asdict(m) for m in model_rows(self.store)), _MODELS)
 
-    def diagnose(self, model: str | None = None) -> Verdict[Fit]:
+    def diagnose(self, model: str | None = None, response: str | None = None) -> Verdict[Fit]:
         """Which effect a model misses."""
-        return self.model(model).diagnose()
+        return self.model(model).diagnose(response)
 
     def add(self, candidate: str | int, model: str | None = None, *, plain: bool = False) -> Fit:
         """A new version of a model with an effect more: a rank or id of its diagnosis, or any 'effect:channels'."""

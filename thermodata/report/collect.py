@@ -55,7 +55,7 @@ def collect(store: Store, ref: str) -> ReportData:
         campaigns=stored.spec.campaign_ids,
         machine=_machines(loaded),
         responses=responses,
-        unit=next((r.unit for r in loaded.fitted.responses), "um"),
+        unit=next((units[name] for name in responses if name in units), "um"),
         effects=tuple(t.id for t in loaded.fitted.responses[0].terms) if responses else (),
         created=_created(store, stored.model),
         parameters=result.readable,

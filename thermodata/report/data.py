@@ -26,7 +26,8 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class TestPart:
-    """One response in one test, on a uniform grid of step_s from start_s [s]; all arrays have shape (n,).
+    """One response in one test, on a uniform grid of step_s from start_s [s]; all arrays have shape (n,). unit: in
+    which it is measured (None: in that of its errors, which is K of a temperature).
 
     lanes: operating state (speed, feed, flags); drivers: what the effects were given. phases: name -> (from, to) [s].
     """
@@ -48,24 +49,36 @@ class TestPart:
     conditions: dict[str, Any] = field(default_factory=dict)
     phases: dict[str, tuple[float, float]] = field(default_factory=dict)
     predicted_sd: Float1D | None = None  # by the uncertainty of the parameters
+    unit: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """RMSE over the open tests and by role."""
+
+    all_um: float | None = None
+    calibration_um: float | None = None
+    verification_um: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class ResponseError:
-    """One response's RMSE in a version, over the open tests and by role, in `unit`."""
+    """One response's errors in a version, in `unit`. own: over all tests that the version predicts; common: over those
+    that all versions predict."""
 
     response: str
     unit: str
-    all_um: float | None
-    calibration_um: float | None
-    verification_um: float | None
+    own: Errors
+    common: Errors
 
 
 @dataclass(frozen=True, slots=True)
 class Version:
     """One version of the model. added: the effect that it has more than its parent. *_um: RMSE over the responses in
-    the unit of the first, which is `unit`. removed: the effect that its parent has more. in_sample: whether its
-    verification tests were fitted too. responses: the errors of each."""
+    the unit of the first, which is `unit`, and over the tests that all versions predict; own: over all that this one
+    does. removed: the effect that its parent has more. in_sample: whether its verification tests were fitted too.
+    responses: the errors of each. lost: tests, as campaign/test, that the version before predicts for a response of
+    both, and this one does not. tests: how many it predicts; compared: how many all versions do."""
 
     model: str
     name: str
@@ -78,6 +91,10 @@ class Version:
     in_sample: bool = False
     unit: str = "um"
     responses: tuple[ResponseError, ...] = ()
+    own: Errors = Errors()
+    lost: tuple[str, ...] = ()
+    tests: int = 0
+    compared: int = 0
 
     @property
     def change(self) -> str:
@@ -121,6 +138,10 @@ class ReportData:
     systems: tuple[Seen, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+
+    def unit_of(self, found: Diagnosis | str | None) -> str:
+        """Of a response, or of the one that was diagnosed."""
+        return self.units.get(found.response if isinstance(found, Diagnosis) else found or "", self.unit)
 
     @property
     def told_together(self) -> list[str]:

@@ -9,6 +9,7 @@ from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import PARTS, explained
 from thermodata.report.left_over import noise_words
 from thermodata.report.log_faults import log_faults
+from thermodata.report.of_response import of_response
 from thermodata.report.table import table
 from thermodata.report.verdict import beside, explainable, in_parts, probability, put_right, told, verdict_sentence
 from thermodata.report.words import duration, heat_lines, number
@@ -87,12 +88,17 @@ def times(n: int) -> str:
     return "once" if n == 1 else f"{n} times"
 
 
+def _asked(found: Diagnosis) -> str:
+    said = of_response(found)
+    return f"{said}; --response asks of another" if said else ""
+
+
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
     left = f"error on left-out tests {number(found.rmse_um)} um"
     locked = "" if found.locked_rmse_um is None else f"on locked tests {number(found.locked_rmse_um)} um"
     figures = [left, locked, noise_words(found), explainable(found)]
-    parts = [f"{verdict_sentence(found)}\n{', '.join(filter(None, figures))}"]
+    parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
         parts.append(_candidates_text(found.candidates[:top], found.rmse_um))
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]

@@ -6,23 +6,26 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from thermodata.modelling.compare.common import on_common
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import beside, claims_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorRow:
     """One error of a model. word: of the glossary. before: without the last effect, None where there is none.
-    tested: whether the fit and the choice of effects have not seen these tests."""
+    tested: whether the fit and the choice of effects have not seen these tests. unit: of the error."""
 
     word: str
     before: float | None
     after: float
     tested: bool
     note: str
+    unit: str = "um"
 
     @property
     def meaning(self) -> str:
@@ -56,15 +59,17 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
     """Of the claims that were confirmed where all were added, or are claimed now, without and with them."""
     claims = _all_added(data)
     claimed = claims_of(data.diagnosis) if data.diagnosis and not claims else []
+    of = _of_response(data, data.reason if claims else data.diagnosis)
     for c in (*claims, *claimed):
         before, after = c.locked_rmse_um_before, c.locked_rmse_um_after
         if after is not None and before is not None:
             # what is claimed, but not added, is no error of this model yet: its own is the one before
             if claims:
-                return ErrorRow("locked", before, after, True, "")
-            return ErrorRow("locked", None, before, True, f"{after:.3g} {data.unit} with what is claimed")
+                return ErrorRow("locked", before, after, True, of.note, of.unit)
+            note = f"{after:.3g} {of.unit} with what is claimed"
+            return ErrorRow("locked", None, before, True, "; ".join(filter(None, [of.note, note])), of.unit)
     before, after = _of_role(data, "locked")
-    return None if after is None else ErrorRow("locked", before, after, True, "")
+    return None if after is None else ErrorRow("locked", before, after, True, "", data.unit)
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
@@ -72,15 +77,29 @@ def _left_out_row(data: ReportData) -> ErrorRow | None:
     # errors beside other candidates are of no model that anybody has
     left = data.reason.rmse_um if data.reason else None
     if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
-        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "")
+        of = _of_response(data, data.reason)
+        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, of.note, of.unit)
     if data.diagnosis and data.diagnosis.rmse_um is not None:
-        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, "")
+        of = _of_response(data, data.diagnosis)
+        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, of.note, of.unit)
     return None
 
 
+@dataclass(frozen=True, slots=True)
+class _Of:
+    note: str
+    unit: str
+
+
+def _of_response(data: ReportData, found: Diagnosis | None) -> _Of:
+    """What a diagnosis tells is of one response, where the other errors are of several."""
+    return _Of(f"of {found.response}" if found and len(data.responses) > 1 else "", data.unit_of(found))
+
+
 def _of_role(data: ReportData, role: str) -> tuple[float | None, float | None]:
-    before, after = (pooled(some, role, responses=data.told_together) for some in (data.before, data.scores))
-    return before, after
+    """Over the tests that both versions predict; of the last alone, over all of its own, where there is none."""
+    before, after = (pooled(some, role, responses=data.told_together) for some in on_common([data.before, data.scores]))
+    return (before, after) if after is not None else (None, pooled(data.scores, role, responses=data.told_together))
 
 
 def _role_row(data: ReportData, role: str) -> ErrorRow | None:
@@ -88,7 +107,12 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     if after is None:
         return None
     in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
-    note = "fitted too by now: they took part in the choice" if in_sample else ""
+    overlap = any(c.name.startswith("overlap:") for c in data.checks)
+    why = "some hold samples of calibration tests" if overlap else "they took part in the choice"
+    note = f"fitted too by now: {why}" if in_sample else ""
+    whose = f"of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     if role == "calibration":
-        return ErrorRow("fitted", before, after, False, "calibration tests")
-    return ErrorRow("verification", before, after, not in_sample, note)
+        return ErrorRow(
+            "fitted", before, after, False, "; ".join(filter(None, ["calibration tests", whose])), data.unit
+        )
+    return ErrorRow("verification", before, after, not in_sample, "; ".join(filter(None, [note, whose])), data.unit)

@@ -48,12 +48,13 @@ def part_chart(
     def series(name: str, values: Float1D, colour: str, sd: Float1D | None = None, **more: object) -> Series:
         shown = block_mean(values, size)
         band = None if sd is None else band_95(shown, block_mean(sd, size))
-        return Series(name, unit, shown, colour, band=band, **more)  # type: ignore[arg-type]
+        own = part.unit if name in ("measured", "model") and part.unit else unit
+        return Series(name, own, shown, colour, band=band, **more)  # type: ignore[arg-type]
 
     panels: list[Panel | Strip] = [
         Panel(
             part.response,
-            unit,
+            part.unit or unit,
             [
                 series("measured", part.measured, "measured", style="points" if sparse else "line", width=1.4),
                 series("model", part.predicted, "model", part.predicted_sd, width=2.0),

@@ -5,7 +5,9 @@ from __future__ import annotations
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
+from thermodata.modelling.compare.common import on_common
 from thermodata.report.glossary import IN_SAMPLE, explained
+from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled
 
@@ -106,13 +108,22 @@ def compare_text(results: list[FitResult]) -> str:
 
 def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     """The versions of a model, as rows of `report.history.history_rows`."""
+    lost = history_lost(chain)
+    head = f"{lost}\n\n" if lost else ""
     told = f"\n\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
-    return table(*history_table(chain)) + told
+    return head + table(*history_table(chain)) + told
+
+
+def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
+    """Which tests versions lost, of rows of `report.history.history_rows`; '' where all predict the same."""
+    compared = chain[-1]["common"]["tests"] if chain else 0
+    return lost_of_chain([(row["model"], row["lost"], row["tests"]) for row in chain], compared)
 
 
 def history_table(chain: Sequence[Mapping[str, Any]]) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:
-    """(rows, columns) that show rows of `report.history.history_rows`: one a version and response."""
-    rows = [{**row, **one} for row in chain for one in row["responses"]]
+    """(rows, columns) that show rows of `report.history.history_rows`: one a version and response, with its errors over
+    the tests that all versions predict."""
+    rows = [{**row, **one, **one["common"]} for row in chain for one in row["responses"]]
     several = {key for key in ("response", "unit") if len({row[key] for row in rows}) > 1}
     unit = "" if "unit" in several or not rows else f" [{rows[0]['unit']}]"
     columns = [("name", "name"), ("model", "model"), ("added", "added"), ("removed", "removed")]
@@ -176,7 +187,8 @@ def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
 
 
 def before_after_text(result: FitResult) -> str:
-    """What an added effect did, a row a test; roles pooled below."""
+    """What an added effect did, a row a test; roles pooled below over the tests that both versions predict."""
+    common = on_common([result.before or [], result.scores])
     before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
     rows: list[dict[str, Any]] = []
     for s in result.scores:
@@ -186,7 +198,7 @@ def before_after_text(result: FitResult) -> str:
     names = list(dict.fromkeys(s.response for s in result.scores))
     for role in dict.fromkeys(base_role(row["role"]) for row in rows):
         for name in names:  # responses may be in several units
-            was, now = (pooled(some, role, responses=[name]) for some in (result.before or [], result.scores))
+            was, now = (pooled(some, role, responses=[name]) for some in common)
             pool = {"before": was, "rmse_um": now, "change": change(was, now)}
             rows.append({"test": "all", "role": role, "response": name, **pool})
     columns = [
@@ -198,15 +210,18 @@ def before_after_text(result: FitResult) -> str:
         ("rmse_um", "after [um]"),
         ("change", "change"),
     ]
-    return f"{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
+    lost = lost_sentence(result.before or [], result.scores, result.checks)
+    head = f"{lost}\n\n" if lost else ""
+    return f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
 
 
 def made_worse(result: FitResult, units: Mapping[str, str]) -> str | None:
     """A warning where an added effect raised the error of a role, response by response; None where it did not. units:
     of the responses' errors."""
     found = []
+    common = on_common([result.before or [], result.scores])
     for role, name in product(("verification", "calibration"), result.responses):
-        before, after = (pooled(some, role, responses=[name]) for some in (result.before or [], result.scores))
+        before, after = (pooled(some, role, responses=[name]) for some in common)
         if before is not None and after is not None and after > before * _RISES:
             whose = f"{name} " if len(result.responses) > 1 else ""
             found.append(f"{whose}{role} {before:.3g} -> {after:.3g} {units.get(name, 'um')}")

@@ -7,12 +7,12 @@ ERRORS = {
     "and every look is counted",
     "left-out": "each open test in turn, foretold by a fit to the others; its level is free",
     "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
-    "and say so",
+    "and say so, as do those that hold samples of a fitted test",
     "fitted": "tests that the model was fitted to: how well it bends to them, not how well it foretells",
 }
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 
-IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too"
+IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too, or hold samples of a fitted test"
 PARTS = "parts of the open tests in turn, foretold by a fit to the others"
 
 HOW = "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once."

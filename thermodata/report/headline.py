@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
+from thermodata.report.lost import lost_sentence
+from thermodata.report.of_response import of_response
 from thermodata.report.verdict import causes, claims_of, listed, verdict_sentence
-from thermodata.report.words import change, number
+from thermodata.report.words import change, in_unit, number
+from thermodata.schema.diagnosis import Diagnosis
 
 
 def headline(data: ReportData) -> str:
@@ -13,13 +16,13 @@ def headline(data: ReportData) -> str:
     claims, responses = added_claims(data), ", ".join(data.responses)
     if data.added:
         if claims:
-            return f"Missing in {responses} was {causes(claims)}"
+            return f"Missing in {data.reason.response if data.reason else responses} was {causes(claims)}"
         return f"{data.added} was added to {data.name}, and no diagnosis claims it"
     if data.diagnosis:
         claims = claims_of(data.diagnosis)
         if claims:
-            return f"{responses} misses {causes(claims)}"
-        return capital(verdict_sentence(data.diagnosis).partition("; ")[0])
+            return f"{data.diagnosis.response} misses {causes(claims)}"
+        return capital(_verdict(data, data.diagnosis).partition("; ")[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
 
 
@@ -30,9 +33,9 @@ def error_sentence(data: ReportData) -> str:
         return ""
     what = f"The error on {tests_of(row)}"
     if row.before is None:
-        return f"{what} is {number(row.after)} {data.unit}"
+        return f"{what} is {number(row.after)} {row.unit}"
     verb = "falls" if row.after < row.before else "does not fall"
-    return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {data.unit} ({change(row.before, row.after)})"
+    return f"{what} {verb}: {number(row.before)} -> {number(row.after)} {row.unit} ({change(row.before, row.after)})"
 
 
 def tests_of(row: ErrorRow) -> str:
@@ -46,6 +49,7 @@ def sentences(data: ReportData) -> list[str]:
     # the verdict that nothing is missing has that figure already
     said = row is not None and number(row.after) in headline(data)
     lines = [] if said else [error_sentence(data)]
+    lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     for claim in claims:
         # ids stay as they are typed
@@ -55,11 +59,18 @@ def sentences(data: ReportData) -> list[str]:
         if claim.equivalent:
             lines.append(f"These tests can't tell {claim.id} from {listed(claim.equivalent)}")
     if data.diagnosis and (data.added or claims_of(data.diagnosis)):
-        lines.append(("Now: " if data.added else "") + capital(verdict_sentence(data.diagnosis)))
+        lines.append(("Now: " if data.added else "") + capital(_verdict(data, data.diagnosis)))
     elif data.diagnosis:
         # its first words are the headline
-        lines.insert(0, capital(verdict_sentence(data.diagnosis).partition("; ")[2]))
+        lines.insert(0, capital(_verdict(data, data.diagnosis).partition("; ")[2]))
+    of = data.diagnosis or (data.reason if claims else None)
+    if of is not None:
+        lines.append(capital(of_response(of)))
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
+
+
+def _verdict(data: ReportData, found: Diagnosis) -> str:
+    return in_unit(verdict_sentence(found), data.unit_of(found))
 
 
 def capital(text: str) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.data import ResponseError, Version
+from thermodata.modelling.compare.common import lost_tests, on_common, predicted
+from thermodata.report.data import Errors, ResponseError, Version
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Score
@@ -20,9 +21,13 @@ def versions(
     chain: Sequence[StoredModel], units: Mapping[str, str], scored: Sequence[list[Score]] | None = None
 ) -> tuple[Version, ...]:
     """The chain as rows, oldest first, with what each version added to the one before it, or removed. units: of the
-    responses' errors. scored: the scores of each, those that were kept with it where None."""
+    responses' errors. scored: the scores of each, those that were kept with it where None. Errors are over the tests
+    that all versions predict."""
     from thermodata.modelling.model_file.resolve import term_ids
 
+    every = [m.result.scores for m in chain] if scored is None else list(scored)
+    common = on_common(every)
+    compared = min((len({key[:2] for key in predicted(some)}) for some in common), default=0)
     made: list[Version] = []
     known: dict[str, str] = {}
     words: dict[str, str] = {}
@@ -38,19 +43,29 @@ def versions(
             else []
         )
         gone = [words[name] for name in known if name not in ids]
-        scores = scored[i] if scored is not None else m.result.scores
         names = m.result.responses
+        together = told_together(names, units)
+        shown = _errors(common[i], together)
+        lost = lost_tests(every[i - 1], every[i]) if i else []
         made.append(
             Version(
                 m.model,
                 m.name,
                 ", ".join(fresh) or None,
-                *_errors(scores, told_together(names, units)),
+                shown.all_um,
+                shown.calibration_um,
+                shown.verification_um,
                 m.stale,
                 ", ".join(gone) or None,
-                any(s.role != base_role(s.role) for s in scores),
+                any(s.role != base_role(s.role) for s in every[i]),
                 units.get(names[0], "um"),
-                tuple(ResponseError(n, units.get(n, "um"), *_errors(scores, [n])) for n in names),
+                tuple(
+                    ResponseError(n, units.get(n, "um"), _errors(every[i], [n]), _errors(common[i], [n])) for n in names
+                ),
+                _errors(every[i], together),
+                tuple(dict.fromkeys(f"{t.campaign}/{t.test}" for t in lost if t.response in names)),
+                len({key[:2] for key in predicted(every[i])}),
+                compared,
             )
         )
         words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
@@ -59,7 +74,8 @@ def versions(
 
 
 def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
-    """The versions that led to a model, oldest first, as `thermodata history --json` prints them."""
+    """The versions that led to a model, oldest first, as `thermodata history --json` prints them: *rmse_um over the
+    tests that a version predicts, common over those that all do."""
     from thermodata.store.catalogue.models import model_chain
 
     chain = model_chain(store, ref)
@@ -70,12 +86,18 @@ def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
             "name": v.name,
             "parent": m.parent,
             "added": v.added,
-            **_named(v),
+            **_named(v.own),
             "stale": v.stale,
             "removed": v.removed,
             "in_sample": v.in_sample,
             "unit": v.unit,
-            "responses": [{"response": r.response, "unit": r.unit, **_named(r)} for r in v.responses],
+            "tests": v.tests,
+            "lost": list(v.lost),
+            "common": {"tests": v.compared, **_named(Errors(v.all_um, v.calibration_um, v.verification_um))},
+            "responses": [
+                {"response": r.response, "unit": r.unit, **_named(r.own), "common": _named(r.common)}
+                for r in v.responses
+            ],
         }
         for v, m in zip(versions(chain, units), chain, strict=True)
     ]
@@ -87,14 +109,12 @@ def chain_units(store: Store, chain: Sequence[StoredModel]) -> dict[str, str]:
     return response_units(store, list(names), {c for m in chain for c in m.spec.campaign_ids})
 
 
-def _errors(scores: list[Score], of: Sequence[str]) -> tuple[float | None, float | None, float | None]:
-    """Over the open tests, of calibration, of verification."""
+def _errors(scores: list[Score], of: Sequence[str]) -> Errors:
     roles = (("calibration", "verification"), ("calibration",), ("verification",))
-    every, calibration, verification = (pooled(scores, *some, responses=of) for some in roles)
-    return every, calibration, verification
+    return Errors(*(pooled(scores, *some, responses=of) for some in roles))
 
 
-def _named(one: Version | ResponseError) -> dict[str, float | None]:
+def _named(one: Errors) -> dict[str, float | None]:
     return {
         "rmse_um": one.all_um,
         "calibration_rmse_um": one.calibration_um,

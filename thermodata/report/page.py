@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,14 +20,16 @@ from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
+from thermodata.report.lost import lost_of_versions
+from thermodata.report.of_response import of_response
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import beside, probability, told, verdict_sentence
-from thermodata.report.words import base_role, change, duration, heat_lines, number, probability_text, typeset
+from thermodata.report.words import base_role, change, duration, heat_lines, in_unit, number, probability_text, typeset
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import WeakSpot
+    from thermodata.schema.diagnosis import Diagnosis, WeakSpot
     from thermodata.schema.missing_heat import MissingHeat
     from thermodata.store import Store
 
@@ -66,21 +69,26 @@ def render(data: ReportData) -> str:
         styles=styles,
         **page_values(_figures(data, styles, spots)),
         waterfall=waterfall(data.versions),
+        lost=typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),
         faults=log_faults(data.diagnosis.artefacts) if data.diagnosis else [],
         heat=heat,
         probability_text=probability_text,
         heat_names=names_of_pieces(heat.courses) if heat else [],
         heat_lines=[(what, typeset(text)) for what, text in heat_lines(heat)] if heat else [],
-        weak=[(rank, w, _box(data, w)) for rank, w in spots],
+        weak=[(rank, w, _box(data, w), _response_of(data, w)) for rank, w in spots],
         headline=typeset(headline(data)),
         sentences=[typeset(line) for line in sentences(data)],
         errors=errors,
         head=headline_error(errors),
         how=HOW,
         left=what_is_left(data),
-        verdict=typeset(capital(verdict_sentence(data.diagnosis))) if data.diagnosis else "",
-        could_hide=typeset(capital(could_hide(data.diagnosis))) if data.diagnosis else "",
-        reason=typeset(capital(verdict_sentence(data.reason))) if data.reason else "",
+        verdict=_said(data, data.diagnosis, verdict_sentence),
+        could_hide=_said(data, data.diagnosis, could_hide),
+        reason=_said(data, data.reason, verdict_sentence),
+        of_response=of_response,
+        unit_of=lambda found: typeset(data.unit_of(found)),
+        capital=capital,
+        mixed=len({data.unit_of(name) for name in data.responses}) > 1,
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
             {"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
@@ -96,11 +104,17 @@ def render(data: ReportData) -> str:
     )
 
 
+def _said(data: ReportData, found: Diagnosis | None, sentence: Callable[[Diagnosis], str]) -> str:
+    """A sentence on a diagnosis, in the unit of its response."""
+    return typeset(in_unit(capital(sentence(found)), data.unit_of(found))) if found else ""
+
+
 def ranked_spots(data: ReportData) -> list[tuple[int, WeakSpot]]:
-    """The weak spots of all responses that are worth a look, the costliest first, from 1 on."""
-    found = [w for spots in data.weak.values() for w in spots]
-    costliest = sorted(found, key=lambda w: -(w.rmse_um**2) * (w.to_s - w.from_s))[:SPOTS_SHOWN]
-    return list(enumerate(costliest, 1))
+    """The weak spots of all responses that are worth a look, the costliest first, from 1 on; those in another unit than
+    the first response's have no common cost with it, and stand behind."""
+    found = [(data.unit_of(name) != data.unit, w) for name, spots in data.weak.items() for w in spots]
+    costliest = sorted(found, key=lambda one: (one[0], -(one[1].rmse_um ** 2) * (one[1].to_s - one[1].from_s)))
+    return list(enumerate((w for _, w in costliest[:SPOTS_SHOWN]), 1))
 
 
 def _figures(
@@ -117,14 +131,14 @@ def _figures(
         made["overview"] = overview_map(data.tests, data.unit, limit, targets, "Residual of every test", note)
     heat = _heat(data)
     if heat:
-        drawn = heat_charts(heat.courses, data.unit, heat.direction is not None)
+        drawn = heat_charts(heat.courses, data.unit_of(data.diagnosis), heat.direction is not None)
         made.update({f"heat{i}": figure for i, figure in enumerate(drawn)})
     for i, seen in enumerate(data.systems):
         made.update({f"system{i}-{name}": drawn for name, drawn in system_charts(seen, styles).items()})
     most = points_for(data.tests)
     for i, part in enumerate(data.tests):
         own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
-        made[f"test{i}"] = part_chart(part, own, styles, _noise(data), data.unit, most)
+        made[f"test{i}"] = part_chart(part, own, styles, _noise(data, part.response), data.unit_of(part.response), most)
     return made
 
 
@@ -133,13 +147,18 @@ def _is_of(part: TestPart, data: ReportData, spot: WeakSpot) -> bool:
     return same and any(w is spot for w in data.weak.get(part.response, ()))
 
 
+def _response_of(data: ReportData, spot: WeakSpot) -> str:
+    return next((name for name, spots in data.weak.items() if any(w is spot for w in spots)), "")
+
+
 def _box(data: ReportData, spot: WeakSpot) -> str:
     """The id of the chart that shows it, '' where there is none."""
     return next((f"test{i}" for i, part in enumerate(data.tests) if _is_of(part, data, spot)), "")
 
 
-def _noise(data: ReportData) -> float | None:
-    return next((d.noise_um for d in (data.diagnosis, data.reason) if d and d.noise_um), None)
+def _noise(data: ReportData, response: str) -> float | None:
+    found = (d for d in (data.diagnosis, data.reason) if d and d.response == response)
+    return next((d.noise_um for d in found if d.noise_um), None)
 
 
 def _heat(data: ReportData) -> MissingHeat | None:
@@ -147,16 +166,22 @@ def _heat(data: ReportData) -> MissingHeat | None:
 
 
 def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
-    """(what, figure, note): the residual of all open tests, what of it is slow, and the noise."""
-    if not data.tests:
+    """(what, figure, note): the residual of all open tests, what of it is slow, and the noise; of the responses in the
+    unit of the first."""
+    tests = [p for p in data.tests if p.response in data.told_together]
+    if not tests:
         return []
-    step = data.tests[0].step_s
-    whole = _rms([p.residual for p in data.tests])
-    slow = _rms([block_mean(p.residual, max(1, round(SLOW_S / p.step_s))) for p in data.tests])
+    step = tests[0].step_s
+    whole = _rms([p.residual for p in tests])
+    slow = _rms([block_mean(p.residual, max(1, round(SLOW_S / p.step_s))) for p in tests])
+    of = f", of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
+    noises = ((name, _noise(data, name)) for name in data.told_together)
+    noisy, noise = next(((name, n) for name, n in noises if n is not None), ("", None))
+    length = NOISE.format(length=duration(step))
     rows = [
-        ("left over in all open tests", whole, "calibration and verification tests together"),
+        ("left over in all open tests", whole, f"calibration and verification tests together{of}"),
         (f"of it, in means of {duration(SLOW_S)}", slow, "keeps its sign for long: systematic, not noise"),
-        ("noise", _noise(data), NOISE.format(length=duration(step))),
+        ("noise", noise, f"of {noisy}: {length}" if of else length),
     ]
     return [(what, number(value), note) for what, value, note in rows if value is not None]
 
@@ -186,7 +211,7 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
     title = part.test if len(data.campaigns) == 1 else f"{part.campaign} / {part.test}"
     conditions = ", ".join(f"{k} {number(v) if isinstance(v, float) else v}" for k, v in part.conditions.items())
     length = duration(part.step_s * len(part.measured))
-    facts = f"RMSE {number(row.rmse_um)} {data.unit} · FIT {number(row.fit)} %" if row else ""
+    facts = f"RMSE {number(row.rmse_um)} {data.unit_of(part.response)} · FIT {number(row.fit)} %" if row else ""
     return {
         "part": part,
         "key": key,

@@ -101,6 +101,7 @@ def _part(
         conditions=conditions,
         phases=dict(test.phases),
         predicted_sd=deviation("predicted"),
+        unit=test.channels[response].unit if response in test.channels else None,
     )
 
 

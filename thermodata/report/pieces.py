@@ -12,9 +12,15 @@ Piece = LeftOut | CandidateCourse | HeatCourse
 
 
 def names_of_pieces(pieces: Sequence[Piece]) -> list[str]:
-    """'head' where the test stands once, 'head, 2 to 4 h' where it stands in parts; in the order given."""
+    """'head' where the test stands once, 'head, 2 to 4 h' where it stands in parts, 'campaign/head' of several
+    campaigns; in the order given."""
     often = Counter((p.campaign, p.test) for p in pieces)
-    return [p.test if often[p.campaign, p.test] == 1 else f"{p.test}, {_hours(p)}" for p in pieces]
+    several = len({p.campaign for p in pieces}) > 1
+    names = [f"{p.campaign}/{p.test}" if several else p.test for p in pieces]
+    return [
+        name if often[p.campaign, p.test] == 1 else f"{name}, {_hours(p)}"
+        for name, p in zip(names, pieces, strict=True)
+    ]
 
 
 def _hours(piece: Piece) -> str:

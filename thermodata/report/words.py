@@ -34,6 +34,11 @@ def number(value: Any, digits: int = 3) -> str:
     return f"{value:.{max(0, digits - 1 - size)}f}"
 
 
+def in_unit(text: str, unit: str | None) -> str:
+    """A text that says um, in the unit of the response that it is of (None: um): a model may be one of temperatures."""
+    return text if unit in (None, "um") else re.sub(r"(?<=\d )um\b", str(unit), text)
+
+
 def typeset(text: str) -> str:
     """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus."""
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")

@@ -101,6 +101,18 @@ class DetectionLimit(Result):
     large: bool = False
 
 
+class ResponseLeft(Result):
+    """A response of the model, and how much of it the model leaves.
+
+    response: name
+    left: share of its variance in each test that is left over by the model as it is fitted; 0 to 1, more where it is
+        worse than the mean; null where nothing counts
+    """
+
+    response: str
+    left: float | None
+
+
 class Diagnosis(Result):
     """Answer of diagnose.
 
@@ -126,6 +138,8 @@ class Diagnosis(Result):
     response_um: RMS of the response about each test's mean, in its unit
     limits: what was not claimed and could have been, the one that could hide most first; where nothing is claimed
     chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
+    responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
+    by_choice: whether the response was asked for
     """
 
     model: str
@@ -146,6 +160,8 @@ class Diagnosis(Result):
     response_um: float | None = None
     limits: list[DetectionLimit] = []
     chance: list[float] = []
+    responses: list[ResponseLeft] = []
+    by_choice: bool = False
 
 
 class TestConfirmed(Result):

@@ -56,8 +56,9 @@ class MissingHeat(Result):
     explained: share of the squared residual that it explains
     left_out: the same in parts of the tests that were left out in turn
     hours_of_day: hours (UTC) at which it is on in most of the days
-    strong_tests: ids of the tests in which it moves the response most, the strongest first
-    weak_tests: ids of the tests in which it hardly does
+    strong_tests: ids of the tests in which it moves the response most, the strongest first; campaign/test where there
+        are several campaigns
+    weak_tests: ids of the tests in which it hardly does, likewise
     goes_with: channels that it goes with, the closest first
     goes_not_with: channels that run without it, or that it does not follow
     where: what kind of body it is, and where a sensor would see it first

@@ -80,6 +80,21 @@ class Check(Result):
     advice: str
 
 
+class LostTest(Result):
+    """A test that the version before predicts, and this one does not.
+
+    campaign: id
+    test: id
+    response: name
+    why: in words; null where it is not among the model's tests any more
+    """
+
+    campaign: str
+    test: str
+    response: str
+    why: str | None = None
+
+
 class FitResult(Result):
     """Answer of fit, add and compare.
 
@@ -96,6 +111,8 @@ class FitResult(Result):
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
     notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
         without a value; of add: which second lags were taken in and why
+    lost: of add and remove: what the parent predicts and this version does not; an error before and one after are
+        comparable over the tests of both only
     """
 
     model: str
@@ -109,6 +126,7 @@ class FitResult(Result):
     before: list[Score] | None = None
     added: list[str] | None = None
     notes: list[str] = []
+    lost: list[LostTest] | None = None
 
     @property
     def responses(self) -> list[str]:

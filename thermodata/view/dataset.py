@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from thermodata.plugin import Bool1D, Float1D
+from thermodata.view.recorded import Recorded
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,8 @@ class TestData:
     values: channel -> shape (n,) float64, canonical units, mean of the valid samples of the bin (states held),
     NaN where there are none. valid: channel -> shape (n,). in_window: shape (n,), False in the history.
     conditions: numbers in canonical units or text, machine attributes included. phases: name -> (from_s, to_s).
-    start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day.
+    start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day. recorded: channel -> where
+    its samples stand in raw files.
     """
 
     __test__ = False
@@ -64,6 +66,7 @@ class TestData:
     start_unix_s: float | None = None
     machine: str = ""
     channels: Mapping[str, ChannelInfo] = field(default_factory=dict)
+    recorded: Mapping[str, Recorded] = field(default_factory=dict)
 
     @property
     def key(self) -> tuple[str, str]:

@@ -25,6 +25,7 @@ from thermodata.view.bins import Binned, Series, bin_tests
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.view.describe import channel_infos, describe_tests
 from thermodata.view.fill import bridge, hold, on_grid, reach_bins
+from thermodata.view.recorded import Recorded, recorded_channels
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -54,8 +55,9 @@ def load_dataset(
         _check_channels(channels, infos)
         only = None if channels is None else set(channels)
         binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only)
+        recorded = recorded_channels(con, wanted, {key: one.zero_ns for key, one in binned.items()})
         tests = tuple(
-            _test_data(row, binned[row["campaign"], row["test"]], infos, step_s)
+            _test_data(row, binned[row["campaign"], row["test"]], infos, recorded, step_s)
             for row in describe_tests(con, wanted)
             if (row["campaign"], row["test"]) in binned
         )
@@ -101,7 +103,11 @@ def _version(versions: Iterable[tuple[str, str]]) -> str:
 
 
 def _test_data(
-    row: Mapping[str, Any], binned: Binned, infos: Mapping[tuple[str, str], Mapping[str, ChannelInfo]], step_s: float
+    row: Mapping[str, Any],
+    binned: Binned,
+    infos: Mapping[tuple[str, str], Mapping[str, ChannelInfo]],
+    recorded: Mapping[tuple[str, str], Mapping[str, Recorded]],
+    step_s: float,
 ) -> TestData:
     size = binned.last - binned.first + 1
     if size > MAX_BINS:
@@ -134,6 +140,7 @@ def _test_data(
         start_unix_s=None if row["clock"] == "relative" else binned.zero_ns / 1e9,
         machine=row["machine"],
         channels=channels,
+        recorded=recorded.get((row["campaign"], row["test"]), {}),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.schema.terms import ids_of
 from thermodata.store.base.connection import fetch
+from thermodata.view.response_units import error_unit
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -20,8 +22,8 @@ class ModelRow:
     """version: its place in the chain of versions, 1 is the first. effects: names in the order of the model file,
     terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
-    first. verdict: of its diagnosis, None where it
-    has none."""
+    first. verdict: of its diagnosis, None where it has none. label: its name and version, and its id where another
+    model has these too."""
 
     model: str
     name: str
@@ -37,10 +39,7 @@ class ModelRow:
     calibration_um: float | None
     verification_um: float | None
     verdict: str | None
-
-    @property
-    def label(self) -> str:
-        return f"{self.name} {self.version}"
+    label: str
 
 
 _MODELS = """
@@ -65,10 +64,15 @@ def model_rows(store: Store) -> list[ModelRow]:
     """All models of the store."""
     with store.reader() as con:
         rows = fetch(con, _MODELS)
-    return [_row(r, json.loads(r["spec"]).get("effects", [])) for r in rows]
+    often = Counter(_label(r) for r in rows)
+    return [_row(r, json.loads(r["spec"]).get("effects", []), often[_label(r)] > 1) for r in rows]
 
 
-def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
+def _label(r: dict[str, Any]) -> str:
+    return f"{r['name']} {r['version']}"
+
+
+def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> ModelRow:
     return ModelRow(
         r["model"],
         r["name"],
@@ -78,12 +82,13 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]]) -> ModelRow:
         bool(r["stale"]),
         tuple(r["campaigns"]),
         tuple(r["response"].split(", ")),
-        "K" if r["unit"] == "degC" else r["unit"],  # of an error
+        error_unit(r["unit"]),
         tuple(e["effect"] for e in effects),
         tuple(ids_of((e["effect"], e.get("id")) for e in effects)),
         r["calibration"],
         r["verification"],
         r["verdict"],
+        f"{_label(r)} ({r['model'][:6]})" if again else _label(r),
     )
 
 

@@ -1,7 +1,8 @@
 """The units of a query's columns, where they are certain: columns that the query takes as they are from the store.
 
-A column is a channel, or its view says its unit in a comment ('[s] from the start of the test'; 'in channel.unit' is
-the unit of the channels that the rows are of). What is computed has none: half of a displacement may be a radius.
+A column is a channel where its table has channels for columns, or its view says its unit in a comment ('[s] from the
+start of the test'; 'in channel.unit' is the unit of the channels that the rows are of, 'in the response's unit' that of
+their errors: K of a temperature). What is computed has none: half of a displacement may be a radius.
 """
 
 from __future__ import annotations
@@ -13,21 +14,32 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from thermodata.view.response_units import error_unit
+
 if TYPE_CHECKING:
     import duckdb
 
 _IN_BRACKETS = re.compile(r"\[([^\]]+)\]")
 _OF_CHANNEL = "in channel.unit"
+_OF_RESPONSE = "in the response's unit"
+_WIDE = ("wide_", "binned", "aligned")  # tables and macros that have a column for each channel
 _NAMES = ("channel", "response")  # columns that say which channel a row is of
 
 
 @dataclass(frozen=True)
 class Known:
     """What a copy of the catalogue says. channels: channel -> its unit, None where it has several. comments: table ->
-    column -> comment."""
+    column -> comment. columns: table -> its columns. responses: of the models."""
 
     channels: Mapping[str, str | None]
     comments: Mapping[str, Mapping[str, str]]
+    columns: Mapping[str, frozenset[str]]
+    responses: frozenset[str]
+
+    def of_errors(self, response: str) -> str | None:
+        """The unit of a response's errors; None where it is not known, or several."""
+        unit = self.channels.get(response)
+        return None if unit is None else error_unit(unit)
 
 
 def known_units(con: duckdb.DuckDBPyConnection) -> Known:
@@ -36,11 +48,20 @@ def known_units(con: duckdb.DuckDBPyConnection) -> Known:
         "select channel, case when count(distinct unit) = 1 then any_value(unit) end from channel group by channel"
     ).fetchall()
     comments: dict[str, dict[str, str]] = {}
+    columns: dict[str, set[str]] = {}
     for table, column, comment in con.execute(
-        "select table_name, column_name, comment from duckdb_columns() where comment is not null"
+        "select table_name, column_name, comment from duckdb_columns()"
     ).fetchall():
-        comments.setdefault(str(table), {})[str(column)] = str(comment)
-    return Known({str(channel): unit for channel, unit in channels}, comments)
+        columns.setdefault(str(table), set()).add(str(column))
+        if comment is not None:
+            comments.setdefault(str(table), {})[str(column)] = str(comment)
+    responses = con.execute("select distinct unnest(string_split(response, ', ')) from model").fetchall()
+    return Known(
+        {str(channel): unit for channel, unit in channels},
+        comments,
+        {table: frozenset(names) for table, names in columns.items()},
+        frozenset(str(name) for (name,) in responses),
+    )
 
 
 def column_units(
@@ -59,9 +80,12 @@ def column_units(
             continue
         comment = said.get(source)
         if comment is None and source in known.channels:
-            unit = known.channels[source]
+            unit = known.channels[source] if _is_channel(known, tables, source) else None
         elif comment is not None and _OF_CHANNEL in comment:
-            unit = _of_rows(relation, known.channels)
+            unit = _one(map(known.channels.get, _of_rows(relation) or ()))
+        elif comment is not None and _OF_RESPONSE in comment:
+            rows = _of_rows(relation)
+            unit = _one(map(known.of_errors, known.responses if rows is None else rows))
         else:
             found = _IN_BRACKETS.match(comment or "")
             unit = found[1] if found else None
@@ -129,10 +153,21 @@ def _comments(known: Known, tables: list[str]) -> dict[str, str]:
     return {"t_s": "[s]", **{n: text for each in found for n, text in each.items() if once[n] == 1}}
 
 
-def _of_rows(relation: duckdb.DuckDBPyRelation, known: Mapping[str, str | None]) -> str | None:
-    """The one unit of the channels that the rows are of."""
+def _is_channel(known: Known, tables: Iterable[str], column: str) -> bool:
+    """Whether a column is of a table that has channels for columns, and of no other one."""
+    wide = [t for t in tables if t.startswith(_WIDE)]
+    others = (known.columns.get(t, frozenset[str]()) for t in tables if t not in wide)
+    return bool(wide) and not any(column in names for names in others)
+
+
+def _of_rows(relation: duckdb.DuckDBPyRelation) -> list[str] | None:
+    """The channels that the rows are of; None where no column says it."""
     name = next((n for n in _NAMES if n in relation.columns), None)
     if name is None:
         return None
-    units = {known.get(str(c)) for (c,) in relation.project(f'"{name}"').distinct().fetchall()}
-    return units.pop() if len(units) == 1 else None
+    return [str(c) for (c,) in relation.project(f'"{name}"').distinct().fetchall()]
+
+
+def _one(units: Iterable[str | None]) -> str | None:
+    found = set(units)
+    return found.pop() if len(found) == 1 else None

@@ -1,4 +1,5 @@
-"""Locked tests that hold the recording of an open one under another name: what was fitted to foretells itself there."""
+"""Locked tests that hold the recording of an open one under another name, or a part of it: what was fitted to foretells
+itself there."""
 
 from __future__ import annotations
 
@@ -8,13 +9,19 @@ import numpy as np
 
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
+from thermodata.view.shared_samples import shared_samples
 
 LEAST_SAMPLES = 30  # that are equal to the last digit, and not all one value
 
 
 def copies(locked: Sequence[TestData], opened: Sequence[TestData], response: str) -> list[tuple[TestData, TestData]]:
-    """(locked test, open one) of each whose displacement is the same at the same times."""
-    pairs = ((one, next((o for o in opened if same_recording(one, o, response)), None)) for one in locked)
+    """(locked test, open one) of each whose displacement is the same at the same times, or that have samples of one
+    recording in common."""
+
+    def again(one: TestData, other: TestData) -> bool:
+        return same_recording(one, other, response) or shared_samples(one, other, response) is not None
+
+    pairs = ((one, next((o for o in opened if again(one, o)), None)) for one in locked)
     return [(one, other) for one, other in pairs if other is not None]
 
 
@@ -36,9 +43,23 @@ def as_artefacts(found: Sequence[tuple[TestData, TestData]], response: str) -> l
             test=one.test,
             at_s=None,
             size_um=None,
-            why=f"'{response}' has the same values here as in the open test '{other.test}', to the last digit: it is "
-            "the same recording, and confirms nothing. It was left out of the locked tests; take one of the two out of "
-            "the campaign file, or give this one the recording of another day",
+            why=_why(one, other, response),
         )
         for one, other in found
     ]
+
+
+def _why(one: TestData, other: TestData, response: str) -> str:
+    name = other.test if other.campaign == one.campaign else "/".join(other.key)
+    span = None if same_recording(one, other, response) else shared_samples(one, other, response)
+    if span is not None:
+        return (
+            f"{span[0] / 3600:.3g} to {span[1] / 3600:.3g} h of it are samples of the open test '{name}', cut from the "
+            "same recording: it confirms nothing. It was left out of the locked tests; give the two windows that do "
+            "not overlap, or this one the recording of another day"
+        )
+    return (
+        f"'{response}' has the same values here as in the open test '{name}', to the last digit: it is "
+        "the same recording, and confirms nothing. It was left out of the locked tests; take one of the two out of "
+        "the campaign file, or give this one the recording of another day"
+    )

@@ -23,12 +23,13 @@ def where(
     suspect: Suspect | None = None,
 ) -> str:
     """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged."""
-    said = [_capital(_body(heat)), _when(found, strong, weak)]
+    told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
+    said = [_capital(_body(heat)), told]
     if suspect is not None:
         # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
         found = [c for c in found if c.info.name not in suspect.channels]
         said.append(suspect.told)
-    return ". ".join([*said, *_place(found, strong, suspect), *_direction(heat)])
+    return ". ".join([*said, *_place(found, name_of(strong[0], heat), suspect), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -63,14 +64,14 @@ def _body(heat: MissingHeat) -> str:
     return f"{text}, that moves the response to {'plus' if heat.sign > 0 else 'minus'} when it is heated"
 
 
-def _when(found: Sequence[Companion], strong: Sequence[TestData], weak: Sequence[TestData]) -> str:
+def _when(found: Sequence[Companion], strong: Sequence[str], weak: Sequence[str]) -> str:
     close = [c for c in found if c.verdict == "with" and c.on_with is not None]
     parts = []
     if close:
         parts.append("on while " + ", ".join(map(_runs, close[:NAMED])))
-    parts.append("strongest in " + ", ".join(_test(t) for t in strong[:NAMED]))
+    parts.append("strongest in " + ", ".join(strong[:NAMED]))
     if weak:
-        parts.append("absent in " + ", ".join(_test(t) for t in weak[:NAMED]))
+        parts.append("absent in " + ", ".join(weak[:NAMED]))
     return _capital("; ".join(parts))
 
 
@@ -79,8 +80,9 @@ def _runs(one: Companion) -> str:
     return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
 
 
-def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None) -> list[str]:
-    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is."""
+def _place(found: Sequence[Companion], strongest: str, suspect: Suspect | None) -> list[str]:
+    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. strongest:
+    the test in which it is."""
     near = _places([c for c in found if c.verdict == "with"])
     # the least alike first
     far = [p for p in _places([c for c in reversed(found) if c.verdict == "not"]) if p not in near]
@@ -96,7 +98,7 @@ def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Susp
             "No logged channel goes with it, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
             + (f"; least like it is what is logged near {_or(far)}" if far else "")
-            + f"; note what runs in {strong[0].test} and is not logged"
+            + f"; note what runs in {strongest} and is not logged"
         )
     elif far:
         said.append(f"What is logged near {_or(far)} does not go with it")
@@ -115,8 +117,14 @@ def _direction(heat: MissingHeat) -> list[str]:
     return [f"Only {heat.agreed:.0%} of the draws of the tests agree on the direction: more tests are needed"]
 
 
-def _test(test: TestData) -> str:
-    return f"{test.test} ({test.kind.replace('_', ' ')})" if test.kind not in ("", "other") else test.test
+def _test(test: TestData, heat: MissingHeat) -> str:
+    kind, name = test.kind.replace("_", " "), name_of(test, heat)
+    return f"{name} ({kind})" if kind not in ("", "other", test.test) else name
+
+
+def name_of(test: TestData, heat: MissingHeat) -> str:
+    """campaign/test, where the tests are of several campaigns."""
+    return "/".join(test.key) if len({c.test.campaign for c in heat.courses}) > 1 else test.test
 
 
 def _places(found: Sequence[Companion]) -> list[str]:

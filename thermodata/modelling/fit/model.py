@@ -14,6 +14,7 @@ from thermodata.modelling.fit.orders import Near, Tried, choose_orders, open_ord
 from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
 from thermodata.modelling.inputs.counted_samples import refuse_unknown_phases
+from thermodata.modelling.inputs.overlap import overlaps
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
@@ -57,7 +58,8 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
             for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
         ]
     responses = tuple(replace(response, calibrate=frozenset(roles.calibrate)) for response in fitted)
-    return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)))
+    again = overlaps(data, roles, keys, [response.bound.channel_of for response in responses])
+    return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)), overlaps=again)
 
 
 def _fitter_of_models_inside(data: Dataset, base: Path | None) -> Callable[[Model], FittedModel]:

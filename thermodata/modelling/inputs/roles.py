@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -74,10 +75,21 @@ def find_tests(names: Sequence[str], data: Dataset, where: str) -> tuple[Key, ..
     for name in names:
         hits = [t.key for t in data.tests if name in (t.test, f"{t.campaign}/{t.test}")]
         if not hits:
-            raise unknown_name("test", name, [t.test for t in data.tests], where=where)
+            raise unknown_name("test", name, _choices(name, data), where=where)
         if len(hits) > 1:
             raise SpecError(
                 f"test '{name}' is in several campaigns", where=where, expected=" or ".join("/".join(h) for h in hits)
             )
         keys.append(hits[0])
     return tuple(dict.fromkeys(keys))
+
+
+def _choices(name: str, data: Dataset) -> list[str]:
+    """What a test may be called in place of an unknown name, so that it finds one test: of the campaign that the name
+    says, where there is that, else of all."""
+    campaign = name.partition("/")[0] if "/" in name else None
+    own = ["/".join(t.key) for t in data.tests if t.campaign == campaign]
+    if own:
+        return own
+    often = Counter(t.test for t in data.tests)
+    return [t.test if often[t.test] == 1 else "/".join(t.key) for t in data.tests]

@@ -36,9 +36,11 @@ def scores(fitted: FittedModel, data: Dataset, model_id: str, *, locked: bool = 
 
 
 def role_of(fitted: FittedModel, test: TestData) -> str:
-    """The test's role in this model; verification tests that were fitted too say so."""
+    """The test's role in this model; verification tests that were fitted too say so, and so do those that hold samples
+    of a fitted one."""
     role = fitted.roles.role(test.key)
-    return IN_SAMPLE if role == "verification" and fitted.spec.in_sample else role
+    fitted_too = fitted.spec.in_sample or test.key in fitted.overlaps
+    return IN_SAMPLE if role == "verification" and fitted_too else role
 
 
 def score_test(response: FittedResponse, test: TestData, model_id: str, role: str) -> Iterator[Score]:

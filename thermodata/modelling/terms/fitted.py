@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from thermodata.modelling.inputs.roles import Roles
+from thermodata.modelling.inputs.overlap import Overlap, overlap_checks
+from thermodata.modelling.inputs.roles import Key, Roles
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.parameters import parameters
 from thermodata.schema.model import Model
@@ -21,6 +22,7 @@ class FittedModel:
     responses: tuple[FittedResponse, ...]
     skipped: tuple[str, ...] = ()  # tests without the response or a driver, and why
     detail: Mapping[str, Any] = field(default_factory=dict)
+    overlaps: Mapping[Key, Overlap] = field(default_factory=dict)  # tests kept out of the fit that hold fitted samples
 
     def parameters(self) -> dict[str, Parameter]:
         """'effect.parameter' -> value, unit and 95 % interval; 'response/effect.parameter' with several responses,
@@ -33,9 +35,13 @@ class FittedModel:
 
     def checks(self) -> list[Check]:
         """With several responses each name says whose it is: 'implausible:dZ/lag.gain', 'condition_number:dZ'."""
+        again = overlap_checks(self.overlaps, self.roles)
         if len(self.responses) == 1:
-            return list(self.responses[0].checks)
-        return [c.model_copy(update={"name": _of(r.name, c.name)}) for r in self.responses for c in r.checks]
+            return [*self.responses[0].checks, *again]
+        return [
+            *(c.model_copy(update={"name": _of(r.name, c.name)}) for r in self.responses for c in r.checks),
+            *again,
+        ]
 
     def tests(self, data: Dataset, *roles: str) -> list[TestData]:
         """The tests of some roles (all but locked ones and unused ones where none is named), in the data's order."""

@@ -7,6 +7,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
+from thermodata.modelling.compare.common import lost_tests
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.schema.model import Model
@@ -54,6 +55,7 @@ def make_result(
         for test, why in lacking.items()
     ]
     rows = scores(fitted, data, identity, locked=locked)
+    checks = [*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)]
     return FitResult(
         model=identity,
         name=fitted.spec.name,
@@ -62,8 +64,9 @@ def make_result(
         response=names[0] if len(names) == 1 else names,
         parameters=fitted.parameters(),
         scores=rows,
-        checks=[*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)],
+        checks=checks,
         before=before,
+        lost=None if before is None else lost_tests(before, rows, checks),
     )
 
 

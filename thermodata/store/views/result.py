@@ -110,15 +110,15 @@ select coalesce(nullif(campaign, ''), payload->>'$.campaign') as campaign,
        payload->>'$.verdict' as verdict
 from finding where kind = 'portability'"""
 
-_OF_RESPONSE = "[um], or in the response's unit where that is no displacement"
+_OF_RESPONSE = "in the response's unit: [um] of a displacement, [K] of a temperature"
 _CAMPAIGN = "of the model; NULL where it has several: these stand in campaigns"
 _EACH = "all of the model: join test t on list_contains(campaigns, t.campaign)"
 _TEST = "NULL: it is of all open tests of the model together"
 SCORE_COMMENTS = {
     "fit": "[%] free run, not clipped",
     "rmse_um": _OF_RESPONSE,
-    "ptp_um": f"{_OF_RESPONSE}: peak to peak, measured",
-    "ptp_residual_um": f"{_OF_RESPONSE}: peak to peak of the residual",
+    "ptp_um": f"{_OF_RESPONSE}; peak to peak, measured",
+    "ptp_residual_um": f"{_OF_RESPONSE}; peak to peak of the residual",
     "max_um": _OF_RESPONSE,
 }
 _COMMENTS = {
@@ -152,16 +152,16 @@ _COMMENTS = {
         "t_s": "[s] from the start of the test",
         "measured": "in channel.unit",
         "predicted": "in channel.unit",
-        "residual": "measured - predicted, in channel.unit",
+        "residual": f"{_OF_RESPONSE}; measured - predicted",
     },
     "portability": {
         "g": "[1] gain of the largest FIT, through the zero of the first samples",
         "g_end": "[1] from the end of heating",
         "fit_n": "[%] as it is",
         "fit_c": "[%] with the gain",
-        "ptp_measured": "in the response's unit",
-        "ptp_n": "residual as it is",
-        "ptp_c": "residual with the gain",
+        "ptp_measured": f"{_OF_RESPONSE}; |max| + |min|, measured",
+        "ptp_n": f"{_OF_RESPONSE}; residual as it is",
+        "ptp_c": f"{_OF_RESPONSE}; residual with the gain",
     },
     "weak_spot": {
         "from_s": "[s] from the start of the test",

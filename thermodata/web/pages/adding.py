@@ -7,6 +7,7 @@ from starlette.responses import Response
 
 from thermodata.errors import UsageError
 from thermodata.store.catalogue.models import find_model, load_diagnosis
+from thermodata.view.response_units import unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import pair
 from thermodata.web.render import desk_of, page
@@ -31,6 +32,6 @@ def show(request: Request) -> Response:
         model=model,
         name=candidate.id if candidate else name,
         candidate=candidate,
-        unit="um",
+        unit=unit_of(store, found.response if found else model.result.responses[0], model.spec.campaign_ids),
         pair=pair,
     )

@@ -13,13 +13,16 @@ from starlette.responses import Response
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
+from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.difference import Difference
 from thermodata.modelling.compare.differences import Course, between, over_tests
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, versions
+from thermodata.report.lost import lost_of_compared, lost_of_versions
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
@@ -36,6 +39,7 @@ from thermodata.web.render import desk_of, page
 
 BINS = 120
 _MOST_LAG_S = 6 * 3600.0
+_LISTED = 12  # the newest models, which stand there to be ticked; older ones are folded up
 _SAME = 0.005  # of the pinned error: less is no difference
 
 
@@ -90,6 +94,8 @@ def show(request: Request) -> Response:
         title="Compare",
         command=command(desk.store_path, "compare", *(m.model for m in chosen)),
         models=models,
+        listed=[m for i, m in enumerate(models) if i < _LISTED or m in chosen],
+        older=[m for m in models[_LISTED:] if m not in chosen],
         chosen=chosen,
         pinned=pinned,
         newest=newest,
@@ -98,13 +104,15 @@ def show(request: Request) -> Response:
         hidden=sum(not line.differs for line in lines) if only else 0,
         only=only,
         most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
-        roles=_roles([r.scores for r in results], together),
+        roles=_roles(on_common([r.scores for r in results]), together),
+        compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
         in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
         waterfall=_waterfall(chain),
+        lost=capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         undo=_undo(chosen[-1], models),
         autocorrelation=script_json(_correlated(parts).as_json()) if parts else None,
         over=over,
@@ -249,7 +257,7 @@ def _maps(
             f"Residual of {response} by {model.label} over every test",
             Axis("share of the test", "%"),
             model.unit,
-            [test for _, test in keys],
+            list(test_names(keys).values()),
             values,
             [BINS] * len(keys),
             0.0,

@@ -15,9 +15,10 @@ from thermodata.report.course_chart import course_chart
 from thermodata.report.headline import capital
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
+from thermodata.report.of_response import of_response
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
-from thermodata.report.words import heat_lines, number
+from thermodata.report.words import heat_lines, in_unit, number
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
@@ -25,6 +26,7 @@ from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import load_diagnosis
 from thermodata.view.describe import channel_infos
 from thermodata.view.models import ModelRow, model_rows
+from thermodata.view.response_units import unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.render import desk_of, page
@@ -64,9 +66,10 @@ def show(request: Request) -> Response:
             request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
         )
     found = load_diagnosis(store, model.model)
+    unit = unit_of(store, found.response, model.campaigns) if found else model.unit
     shown = told(found) if found else []
     heat = found.unknown.heat if found and found.unknown else None
-    drawn = heat_charts(heat.courses, model.unit, heat.direction is not None) if heat else []
+    drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
     nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
     return page(
         request,
@@ -76,17 +79,18 @@ def show(request: Request) -> Response:
         models=models,
         model=model,
         found=found,
-        unit=model.unit,
-        headline=_headline(found) if found else "What does it miss?",
-        about=_about(found, model) if found else "",
+        unit=unit,
+        headline=in_unit(_headline(found), unit) if found else "What does it miss?",
+        about=_about(found, model, unit) if found else "",
+        of_response=capital(of_response(found)) if found else "",
         told=shown,
-        hides=capital(could_hide(found)) if found else "",
+        hides=in_unit(capital(could_hide(found)), unit) if found else "",
         faults=log_faults(found.artefacts) if found else [],
         heat=heat,
         heat_lines=heat_lines(heat) if heat else [],
         heat_charts=[script_json(chart.as_json()) for chart in drawn],
         nothing={"title": nothing[0], "text": nothing[1]},
-        charts={c.rank: script_json(course_chart(c, model.unit).as_json()) for c in shown if c.courses},
+        charts={c.rank: script_json(course_chart(c, unit).as_json()) for c in shown if c.courses},
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
         left_out={c.rank: _left_out(c) for c in shown},
         heat_names=names_of_pieces(heat.courses) if heat else [],
@@ -118,9 +122,9 @@ def _headline(found: Diagnosis) -> str:
     return sentence[:1].upper() + sentence[1:]
 
 
-def _about(found: Diagnosis, model: ModelRow) -> str:
-    parts = [f"{model.label} leaves {number(found.rmse_um)} {model.unit} on left-out tests"] if found.rmse_um else []
-    parts += [f"short-term noise {number(found.noise_um)} {model.unit}"] if found.noise_um else []
+def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
+    parts = [f"{model.label} leaves {number(found.rmse_um)} {unit} on left-out tests"] if found.rmse_um else []
+    parts += [f"short-term noise {number(found.noise_um)} {unit}"] if found.noise_um else []
     return "; ".join(filter(None, [*parts, explainable(found)]))
 
 

@@ -16,6 +16,7 @@ from thermodata.store import Store
 from thermodata.view.events import About, about_test
 from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import Prediction, predictions, range_figures
+from thermodata.view.response_units import measured_units, response_units
 from thermodata.view.rule_for import rules_for
 from thermodata.view.window import Channel, Window, channels_of, read_window
 from thermodata.web.command import command
@@ -96,7 +97,7 @@ def stretch(request: Request) -> Response:
         rules=[
             (p.response, range_figures(p, from_s, to_s), rules_for(store, p, channels, from_s, to_s)) for p in found
         ],
-        unit=models[0].unit if models else "um",
+        units=response_units(store, [p.response for p in found], [campaign]),
     )
 
 
@@ -164,7 +165,8 @@ def _chart(
     named: bool = False,
 ) -> Chart:
     windows = _windows(store, about, chosen, _span(given), given)
-    return test_chart(about, chosen, windows, predicted, order, named=named or _by_name(given))
+    units = measured_units(store, [p.response for p in predicted], [str(about.row["campaign"])])
+    return test_chart(about, chosen, windows, predicted, order, named=named or _by_name(given), units=units)
 
 
 def _moving(store: Store, about: About, chosen: list[Channel], given: Mapping[str, str]) -> list[Channel]:
@@ -172,7 +174,7 @@ def _moving(store: Store, about: About, chosen: list[Channel], given: Mapping[st
     strips = [c for c in chosen if not drawn_as_curve(c)]
     if not strips or _by_name(given):
         return chosen
-    whole = test_chart(about, strips, _windows(store, about, strips, None, given), [], [], named=False)
+    whole = test_chart(about, strips, _windows(store, about, strips, None, given), [], [], named=False, units={})
     there = {p.series.name for p in whole.panels if isinstance(p, Strip)}
     return [c for c in chosen if drawn_as_curve(c) or c.name in there]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from thermodata.plugin import Float1D
 from thermodata.schema.counted import counted
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
+from thermodata.view.response_units import error_unit
 from thermodata.view.window import Channel, Window
 
 _HOUR = 3600.0
@@ -29,16 +30,17 @@ def test_chart(
     order: Sequence[str],
     *,
     named: bool,
+    units: Mapping[str, str],
 ) -> Chart:
     """order: of the effects, for their colours. named: the channels were asked for by name, and are drawn though one
-    never moves in these windows: a zoom must not lose a strip. x: hours from the test's start, over the whole test;
-    windows may hold a part of it in finer steps."""
+    never moves in these windows: a zoom must not lose a strip. units: of the responses. x: hours from the test's start,
+    over the whole test; windows may hold a part of it in finer steps."""
     length = (about.row["duration_s"] or 0.0) / _HOUR
     if not length:
         length = max((float(w.t_s[-1]) / _HOUR for w in windows if len(w.t_s)), default=1.0)
     values = {name: (w.t_s / _HOUR, y) for w in windows for name, y in w.values.items()}
     known = [c for c in channels if c.name in values]
-    panels: list[Panel | Strip] = [*_of_model(predicted, order), *_of_channels(known, values, named)]
+    panels: list[Panel | Strip] = [*_of_model(predicted, order, units), *_of_channels(known, values, named)]
     return Chart(
         f"Test {about.row['test']} over {length:.3g} hours: {counted(len(known), 'channel')}"
         + (", with the model's prediction and what it leaves over" if predicted else ""),
@@ -56,24 +58,27 @@ def drawn_as_curve(channel: Channel) -> bool:
     return channel.quantity in _RESPONSES or channel.quantity.startswith("temperature")
 
 
-def _of_model(predicted: Sequence[Prediction], order: Sequence[str]) -> list[Panel]:
+def _of_model(predicted: Sequence[Prediction], order: Sequence[str], units: Mapping[str, str]) -> list[Panel]:
+    """units: channel -> its unit."""
     panels = []
     for p in predicted:
+        unit = units.get(p.response, "um")
+        of_errors = error_unit(unit)
         x = p.t_s / _HOUR
         measured = np.where(p.valid, p.measured, np.nan)
         panels += [
             Panel(
                 f"{p.response}, model",
-                "um",
+                unit,
                 [
-                    Series("measured", "um", measured, "measured", x=x),
-                    Series("model", "um", p.predicted, "model", x=x, band=_band(p, "predicted", p.predicted)),
+                    Series("measured", unit, measured, "measured", x=x),
+                    Series("model", unit, p.predicted, "model", x=x, band=_band(p, "predicted", p.predicted)),
                 ],
             ),
             Panel(
                 f"{p.response}, residual",
-                "um",
-                [Series("residual", "um", np.where(p.valid, p.residual, np.nan), "residual", x=x)],
+                of_errors,
+                [Series("residual", of_errors, np.where(p.valid, p.residual, np.nan), "residual", x=x)],
                 height=110,
                 zero=True,
             ),
@@ -83,9 +88,9 @@ def _of_model(predicted: Sequence[Prediction], order: Sequence[str]) -> list[Pan
             panels.append(
                 Panel(
                     f"{p.response}, contributions{f', {SHADED}' if p.deviations else ''}",
-                    "um",
+                    of_errors,
                     [
-                        Series(name, "um", y, styles[name][0], x=x, dash=styles[name][1], band=_band(p, name, y))
+                        Series(name, of_errors, y, styles[name][0], x=x, dash=styles[name][1], band=_band(p, name, y))
                         for name, y in p.contributions.items()
                     ],
                     zero=True,

@@ -1,0 +1,68 @@
+"""What is said of the response that was diagnosed, and in which unit errors stand on the page."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+
+import pytest
+
+from thermodata.report.data import ReportData
+from thermodata.report.diagnosis_text import diagnosis_text
+from thermodata.report.error_rows import error_rows
+from thermodata.report.lost import lost_of_compared, lost_sentence
+from thermodata.report.of_response import of_response
+from thermodata.report.page import ranked_spots, render
+from thermodata.schema.diagnosis import ResponseLeft
+
+from .conftest import diagnosis, score
+
+TWO = [ResponseLeft(response="dZ", left=0.8), ResponseLeft(response="dY", left=0.25)]
+
+
+def test_of_several_responses_the_text_names_the_one_that_was_asked_and_why() -> None:
+    assert of_response(diagnosis()) == ""
+    found = diagnosis().model_copy(update={"responses": TWO})
+    assert diagnosis_text(found).splitlines()[1] == (
+        "of dZ, of which the model leaves most: 80 % of its variance, of dY 25 %; --response asks of another"
+    )
+    chosen = found.model_copy(update={"response": "dY", "by_choice": True})
+    assert of_response(chosen) == "of dY, as asked; the model leaves 25 % of its variance, of dZ 80 %"
+
+
+def test_a_page_on_a_temperature_says_no_micrometres(blind: ReportData) -> None:
+    kelvin = dataclasses.replace(blind, unit="K", units={"dZ": "K"}, calibrations=())
+    text = re.sub(r"<(script|style).*?</\1>", "", render(kelvin), flags=re.DOTALL)
+    words = re.sub(r"<[^>]+>", " ", text)
+    assert not re.search(r"\d\s(um|µm)(?![/\w])", words)
+    assert re.search(r"\d\sK\b", words)
+
+
+def test_a_page_of_two_responses_says_which_an_error_and_a_weak_spot_are_of(blind: ReportData) -> None:
+    spots = diagnosis().weak_spots
+    warm = [w.model_copy(update={"rmse_um": 100 * w.rmse_um, "campaign": "other"}) for w in spots]
+    found = diagnosis().model_copy(update={"responses": TWO})
+    two = dataclasses.replace(
+        blind,
+        responses=("dZ", "T_nut"),
+        units={"dZ": "um", "T_nut": "K"},
+        weak={"dZ": spots, "T_nut": warm},
+        campaigns=("demo", "other"),
+        diagnosis=found,
+    )
+    # kelvins and micrometres have no common cost
+    assert [w.campaign for _, w in ranked_spots(two)] == [*["demo"] * len(spots), *["other"] * len(warm)]
+    assert {r.word: r.note for r in error_rows(two)}["left-out"] == "of dZ"
+    page = render(two)
+    for heading in ("<th>campaign</th>", "<th>response</th>"):
+        assert heading in page
+    assert "Of dZ, of which the model leaves most: 80 % of its variance, of dY 25 %." in page
+
+
+@pytest.mark.parametrize("lost", [True, False])
+def test_models_beside_each_other_tell_what_only_one_predicts(lost: bool) -> None:
+    both = [score("a", "calibration", 3.0), score("b", "verification", 5.0)]
+    said = lost_of_compared({"m 1": both, "m 2": both[:1] if lost else both})
+    told = "m 2 predicts 1 of 2 tests not: demo/b; errors are over the 1 that all of them predict"
+    assert said == (told if lost else "")
+    assert bool(lost_sentence(both, both[:1] if lost else both)) is lost

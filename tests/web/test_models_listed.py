@@ -1,0 +1,107 @@
+"""The models to tick on the page Compare, how twins are told apart, and models that predict different tests."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.model import Model
+from thermodata.schema.result import FitResult, Score
+from thermodata.store.catalogue.models import save_diagnosis, save_fit
+from thermodata.view.models import model_rows
+
+from ..view.conftest import Builder
+from .client import Client
+from .conftest import client_of
+
+MODELS = 15
+
+
+def identity(number: int) -> str:
+    return f"{number:x}".ljust(12, "0")
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Client:
+    """15 fits of one edited file on a temperature; the last predicts one of the two tests only."""
+    import pyarrow as pa
+
+    t_s, b = np.arange(60) * 60.0, Builder(tmp_path / "store")
+    for test in ("a", "b"):
+        b.test("c", test, role="calibration", kind="spindle")
+        b.channel("c", test, "T_nut", quantity="temperature", unit="degC")
+        b.tidy("c", test, t_s, {"T_nut": 20 + np.sin(t_s / 900)})
+    store = b.store()
+    for i in range(MODELS):
+        name = identity(i)
+        spec = Model.model_validate(
+            {
+                "schema": "thermodata/model/1",
+                "name": "rev",
+                "campaign": "c",
+                "response": {"channel": "T_nut"},
+                "effects": [{"effect": "drift"}],
+            }
+        )
+        left = np.sin(t_s / 900)
+        table = pa.table(
+            {"t_s": t_s, "measured": left, "predicted": 0 * t_s, "residual": left, "valid": np.ones(60, bool)}
+        )
+        tests = ("a",) if i == MODELS - 1 else ("a", "b")
+        scores = [
+            Score(
+                model=name, campaign="c", test=t, role="calibration", response="T_nut", phase="all", fit=50.0,
+                rmse_um=9.0 if t == "b" else 3.0, ptp_um=2.0, ptp_residual_um=2.0, max_um=1.0, n=60,
+            )
+            for t in tests
+        ]  # fmt: skip
+        result = FitResult(
+            model=name, name="rev", parent=None, campaigns=["c"], response="T_nut", parameters={}, scores=scores,
+            checks=[],
+        )  # fmt: skip
+        save_fit(
+            store, spec=spec, result=result, parent=None, data_version="v1",
+            predictions={("c", t, "T_nut"): table for t in tests},
+        )  # fmt: skip
+    newest = model_rows(store)[0].model
+    save_diagnosis(
+        store,
+        newest,
+        Diagnosis(
+            model=newest, response="T_nut", verdict="none", noise_um=0.1, rmse_um=0.5, explainable=0.0, weak_spots=[],
+            candidates=[], artefacts=[],
+        ),
+    )  # fmt: skip
+    return client_of(store.path)[0]
+
+
+def test_every_model_can_be_ticked_and_twins_are_told_apart(client: Client) -> None:
+    page = client.get("/compare").text
+    ticks = re.findall(r'name="model" value="(\w+)"[^>]*> ([^<]+) <span class="muted">([^<]+)<', page)
+    assert len({model for model, _, _ in ticks}) == MODELS
+    assert len({label for _, label, _ in ticks}) == MODELS
+    assert all(model[:6] in label for model, label, _ in ticks)
+    assert all(re.fullmatch(r"1 effect, \d{4}-\d\d-\d\d \d\d:\d\d", about) for _, _, about in ticks)
+    assert f"<summary>{MODELS - 12} older models</summary>" in page
+
+
+def test_a_ticked_model_is_never_folded_up(client: Client) -> None:
+    page = client.get(f"/compare?model={identity(0)}&model={identity(1)}").text
+    assert page.index(f'value="{identity(0)}" checked') < page.index("<summary>1 older model</summary>")
+
+
+def test_models_are_compared_over_what_all_of_them_predict(client: Client) -> None:
+    page = client.get(f"/compare?model={identity(0)}&model={identity(MODELS - 1)}").text
+    assert "calibration 3.00 → 3.00 K" in re.sub(r"\s+", " ", page)
+    assert "predicts 1 of 2 tests not: c/b; errors are over the 1 that all of them predict." in page
+
+
+def test_pages_of_a_temperature_are_in_kelvin(client: Client) -> None:
+    words = re.sub(r"<(script|style).*?</\1>|<[^>]+>", " ", client.get("/missing").text, flags=re.DOTALL)
+    assert "0.500 K are left on left-out tests" in words
+    assert not re.search(r"\d\s(um|µm)", words)
+    assert client.get("/test?campaign=c&test=a").text.count("µm") == 0

@@ -1,0 +1,84 @@
+"""Where the samples of a test stand in raw files, so that two tests of one recording are known to share them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import duckdb
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A stream of a test. zero_ns: t_s == 0 as the file counts time; parts: what was read (one version of a file) ->
+    the times between which its samples are the test's [ns]; step_ns: from one to the next."""
+
+    zero_ns: int
+    step_ns: int
+    parts: Mapping[str, tuple[int, int]]
+
+
+_STREAMS = """
+with raw as (select campaign, test, source, stream, list(key order by key) as keys,
+                    list(cast(columns->>'first_ns' as bigint) + if(columns->>'clock' = 'relative',
+                         coalesce(cast(columns->>'start_ns' as bigint), 0), 0) order by key) as firsts,
+                    list(cast(columns->>'last_ns' as bigint) + if(columns->>'clock' = 'relative',
+                         coalesce(cast(columns->>'start_ns' as bigint), 0), 0) order by key) as lasts
+             from file where layer = 'raw' and part = 'test' and list_contains($campaigns, campaign) group by all),
+tidy as (select campaign, test, source, stream, max(cast(columns->>'to_s' as double)) as to_s
+         from file where layer = 'tidy' and part = 'test' and list_contains($campaigns, campaign) group by all)
+select raw.*, coalesce(tidy.to_s, t.duration_s), t.window_s is not null as cut, s.clock, s.start_ns, s.step_s
+from raw join test t using (campaign, test) join source s using (campaign, test, source, stream)
+     left join tidy using (campaign, test, source, stream)"""
+
+
+_CHANNELS = "select campaign, test, channel, source, stream from channel where list_contains(?, campaign)"
+
+
+def recorded_channels(
+    con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], zero_ns: Mapping[Key, int]
+) -> dict[Key, dict[str, Recorded]]:
+    """(campaign, test) -> channel -> where its samples stand. zero_ns: t_s == 0 on each test's time line."""
+    streams: dict[tuple[str, ...], Recorded] = {}
+    for row in con.execute(_STREAMS, {"campaigns": list(campaigns)}).fetchall():
+        campaign, test, source, stream = row[:4]
+        if (campaign, test) in zero_ns:
+            made = _recorded(stream, zero_ns[campaign, test], *row[4:])
+            if made is not None:
+                streams[campaign, test, source, stream] = made
+    found: dict[Key, dict[str, Recorded]] = {}
+    for campaign, test, channel, source, stream in con.execute(_CHANNELS, [list(campaigns)]).fetchall():
+        if (made := streams.get((campaign, test, source, stream))) is not None:
+            found.setdefault((campaign, test), {})[channel] = made
+    return found
+
+
+def _recorded(
+    stream: str,
+    zero_ns: int,
+    keys: list[str],
+    firsts: list[Any],
+    lasts: list[Any],
+    to_s: float | None,
+    cut: bool,
+    clock: str,
+    start_ns: int | None,
+    step_s: float | None,
+) -> Recorded | None:
+    if to_s is None or start_ns is None or None in (*firsts, *lasts):
+        return None
+    zero = zero_ns - (start_ns - min(firsts))  # what the clock's correction added is taken off
+    if clock == "relative" and len(keys) > 1:
+        # files that count from 0 are joined: where each begins stands in none of them
+        keys, firsts, lasts = ["+".join(keys)], [min(firsts)], [zero + round(to_s * 1e9)]
+    last = zero + round(to_s * 1e9) if cut else max(lasts)
+    parts = {
+        f"{key} {stream}": (max(low, zero), min(high, last))
+        for key, low, high in zip(keys, firsts, lasts, strict=True)
+        if min(high, last) >= max(low, zero)
+    }
+    return Recorded(zero, round((step_s or 0.0) * 1e9), parts)
