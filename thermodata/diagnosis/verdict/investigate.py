@@ -136,7 +136,9 @@ def investigate(
                 *faults,
             ]
         ),
-        *faulty_sensors(data, fitted.name),
+        *faulty_sensors(
+            data, fitted.name, {n for term in fitted.terms for t in data.tests for n in term.bound.reads(t)}
+        ),
     ]
 
     def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
