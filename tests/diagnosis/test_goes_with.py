@@ -315,7 +315,7 @@ def test_the_unknown_has_its_missing_heat_with_every_key() -> None:
 
 @pytest.mark.parametrize(("sign", "verdict"), [(1, "not"), (0, "undecided")])
 def test_a_source_that_goes_both_ways_rules_no_temperature_out(sign: int, verdict: str) -> None:
-    """It is what the known effects have left of the missing heat, which may look like nothing that warmed the machine."""
+    """It is what the known effects have left of the missing heat, which may look like nothing that warmed it."""
     t = np.arange(STEPS)
     apart = [course(np.sin(t), {"T": 20.0 + rows(np.cos(2.3 * t))}, f"t{i}") for i in range(3)]
     assert one(companions(heat(*apart, sign=sign), "dZ"), "T").verdict == verdict
