@@ -100,8 +100,8 @@ class Ends:
 UNKNOWN = Ends()
 _BY_HEAT = "what the commands of one log warm, by the other one, comes at the right time so"
 _BY_NO_HEAT = (
-    "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms in "
-    "the test, or a log was switched on late"
+    "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms "
+    "in the test, or a log was switched on late"
 )
 _IN_NEITHER = "the response is in neither log, and nothing tells which of them is off"
 
