@@ -159,7 +159,15 @@ def causes(claims: Sequence[Candidate]) -> str:
 
 
 def _or_elsewhere(one: Candidate) -> str:
-    return f"{named(one)} or {other_heat(one)}" if one.unread else named(one)
+    told = named(one) + _by_name(one)
+    return f"{told} or {other_heat(one)}" if one.unread else told
+
+
+def _by_name(one: Candidate) -> str:
+    """', which may be coolant': the first effect with a name that a lag of the same channels can't be told from."""
+    twins = (twin.partition(":") for twin in one.equivalent) if one.effect in _UNNAMED else ()
+    names = [effect for effect, _, read in twins if effect not in _UNNAMED and set(read.split(",")) == set(one.drivers)]
+    return f", which may be {names[0]}" if names else ""
 
 
 def _not_told_from(one: Candidate) -> str:
