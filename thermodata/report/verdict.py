@@ -241,7 +241,8 @@ def _locked(claims: Sequence[Candidate]) -> str:
         return (
             f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
         )
-    return f"; locked tests{all_of} (judged by their shape where it acts; from their first samples on: {figures})"
+    by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
+    return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
 
 
 def _from_to(what: str, one: Candidate) -> str:
