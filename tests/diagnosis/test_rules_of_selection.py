@@ -425,7 +425,8 @@ def test_a_lag_that_drove_out_the_name_that_is_preferred_to_it_gives_way_to_it(
     ("lag", "named", "channel", "evidence", "after", "gives"),
     [
         ("generic", "cutting", "n", 100.0, 0.429, True),
-        ("generic", "cutting", "n", 99.9, 0.429, False),  # less likely
+        ("generic", "cutting", "n", 95.1, 0.429, True),  # the same equation on another grid
+        ("generic", "cutting", "n", 94.9, 0.429, False),  # less likely
         ("generic", "cutting", "n", 100.0, 0.431, False),  # of a fall of 0.6, less than 95 %
         ("generic", "cutting", "T_b", 100.0, 0.4, False),  # of another channel
         ("generic", "generic", "n", 100.0, 0.4, False),

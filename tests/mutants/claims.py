@@ -491,7 +491,7 @@ MUTANTS = [
     diagnosis(
         "preference.py", "better or _is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
     ),
-    diagnosis("preference.py", "best.evidence >= own.evidence and", "", "a name that is less likely is taken"),
+    diagnosis("preference.py", "best.evidence >= NAMED_SHARE * own.evidence and", "", "a less likely name is taken"),
     diagnosis(
         "preference.py", "if not (own.candidate.of_holder or own.candidate.passive)", "if False", "a cut for all"
     ),
@@ -804,6 +804,7 @@ MUTANTS = [
     heat("goes_with.py", "ON_WITH, MORE_OFTEN = 0.8, 0.25", "ON_WITH, MORE_OFTEN = 0.8, -1.0", "chance is a companion"),
     heat("goes_with.py", "OFF_WITH, NO_OFTENER = 0.6, 0.3", "OFF_WITH, NO_OFTENER = 0.7, 0.5", "causes are ruled out"),
     heat("goes_with.py", "FOLLOWS, FOLLOWS_NOT = 0.7, 0.3", "FOLLOWS, FOLLOWS_NOT = 0.6, 0.4", "halves are followed"),
+    heat("goes_with.py", " and switched else", " else", "what the model left rules its cause out"),
     heat("goes_with.py", "STRONG, WEAK = 0.5, 0.15", "STRONG, WEAK = 0.4, 0.2", "tests are strong and absent too soon"),
     heat(
         "goes_with.py",

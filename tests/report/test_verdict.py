@@ -59,6 +59,20 @@ def test_a_probability_is_a_share_in_percent_and_never_certain_below_one(share: 
     assert probability(share) == text
 
 
+@pytest.mark.parametrize(
+    ("effect", "twins", "told"),
+    [
+        ("lag", ["coolant:T"], "lag (T), which may be coolant"),
+        ("lag", ["lag:T_b", "tank:T_b", "coolant:T", "pump:T"], "lag (T), which may be coolant"),
+        ("lag", ["coolant:T_b"], "lag (T)"),
+        ("sun", ["coolant:T"], "sun (T)"),
+    ],
+)
+def test_a_lag_says_by_which_name_it_may_go(effect: str, twins: list[str], told: str) -> None:
+    told_first = verdict_sentence(found("effect", [claim(effect, equivalent=twins)])).removeprefix("missing: ")
+    assert told_first.startswith(f"{told}, probability 94 %")
+
+
 def test_names_are_listed_with_an_and() -> None:
     assert [listed(["a", "b", "c"][:n]) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
     assert (named(one("sun")), named(one("sun", drivers=[]))) == ("sun (T)", "sun")
@@ -176,7 +190,10 @@ def test_where_parts_of_tests_are_left_out_that_is_said(tests: Sequence[str], sa
     assert in_parts(found("none", [one("sun")])) == ""
 
 
-@pytest.mark.parametrize(("shape", "said"), [((0.4, 0.3), "judged by their shape"), ((0.4, 0.5), "get worse")])
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [((0.4, 0.3), "judged by their shape where it acts, 0.400 -> 0.300 um; from their"), ((0.4, 0.5), "get worse")],
+)
 def test_locked_tests_that_get_worse_by_their_shape_too_are_not_called_judged_by_it(
     shape: tuple[float, float], said: str
 ) -> None:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import left_over, on_left_out
 from thermodata.report.words import number, percent
 from thermodata.schema.places import heat_at
@@ -158,7 +159,15 @@ def causes(claims: Sequence[Candidate]) -> str:
 
 
 def _or_elsewhere(one: Candidate) -> str:
-    return f"{named(one)} or {other_heat(one)}" if one.unread else named(one)
+    told = named(one) + _by_name(one)
+    return f"{told} or {other_heat(one)}" if one.unread else told
+
+
+def _by_name(one: Candidate) -> str:
+    """', which may be coolant': the first effect with a name that a lag of the same channels can't be told from."""
+    twins = (twin.partition(":") for twin in one.equivalent) if one.effect in _UNNAMED else ()
+    names = [effect for effect, _, read in twins if effect not in _UNNAMED and set(read.split(",")) == set(one.drivers)]
+    return f", which may be {names[0]}" if names else ""
 
 
 def _not_told_from(one: Candidate) -> str:
@@ -232,7 +241,8 @@ def _locked(claims: Sequence[Candidate]) -> str:
         return (
             f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
         )
-    return f"; locked tests{all_of} (judged by their shape where it acts; from their first samples on: {figures})"
+    by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
+    return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
 
 
 def _from_to(what: str, one: Candidate) -> str:
@@ -257,10 +267,13 @@ def _unclaimed(found: Diagnosis) -> str:
         return f"something is missing{seen}, and nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     if (first.probability or 0.0) < UNLIKELY:
-        return (
-            f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain: {named(first)} "
-            f"comes nearest, probability {probability(first.probability)}"
-        )
+        left = f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain"
+        nearest = f"{named(first)} comes nearest, probability {probability(first.probability)}"
+        open_still = could_be(found)
+        if open_still:
+            still = f"it may still be {open_still}, which they can't exclude"
+            return f"{left}, as far as these tests can tell: {nearest}; {still}"
+        return f"{left}: {nearest}"
     return (
         f"something is missing{seen}, and the evidence{asked} suffices to name no cause; the likeliest that was logged "
         f"is {named(first)}, probability {probability(first.probability)}"

@@ -125,11 +125,12 @@ def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
 
 
 def _is_its_name(own: Scored, best: Scored) -> bool:
-    """Whether a lag stands for an effect with a name that is as likely on the same channels."""
+    """Whether a lag stands for an effect with a name that is as likely on the same channels, or nearly so: the same
+    equation on two grids of time constants differs by as much."""
     mine, theirs = own.candidate, best.candidate
     lag = mine.family in UNNAMED and not mine.within and theirs.family not in UNNAMED and not theirs.within
     same = set(mine.channels) == set(theirs.channels)
-    return lag and same and best.evidence >= own.evidence and best.drop >= NAMED_SHARE * own.drop
+    return lag and same and best.evidence >= NAMED_SHARE * own.evidence and best.drop >= NAMED_SHARE * own.drop
 
 
 def _drove_out(own: Scored, best: Scored, ranking: Ranked) -> bool:
