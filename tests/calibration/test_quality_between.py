@@ -177,3 +177,30 @@ def test_the_median_of_the_others() -> None:
             wanted = np.array([np.nanmedian(c) if np.isfinite(c).sum() >= 3 else np.nan for c in others.T])
         wanted[~np.isfinite(x[i])] = np.nan
         np.testing.assert_allclose(got[i], wanted)
+
+
+@pytest.mark.parametrize("clocks", [True, False])
+@pytest.mark.parametrize(
+    ("third", "fourth", "constant"),
+    [
+        (30.0, 30.0, True),
+        (30.0, 34.0, False),  # it comes back to no start
+        (30.0 + 6 * np.sin(np.arange(POINTS)), 30.0, False),  # it wanders
+        (drift(30.0, 0), 30.0, False),  # it drifted there
+    ],
+)
+def test_only_an_offset_that_stands_is_a_constant(
+    clocks: bool, third: float | Float1D, fourth: float | Float1D, constant: bool
+) -> None:
+    tests = [day(1), day(2), day(3, T_motor=third), day(4, T_motor=fourth)]
+    offsets = offsets_between_tests(tests if clocks else undated(*tests))
+    assert {t for t, _ in offsets} >= {"day4"}
+    assert {o.constant for o in offsets.values()} == {constant}
+
+
+def test_one_test_alone_and_a_sensor_that_sticks_tell_no_constant() -> None:
+    (alone,) = offsets_between_tests([day(1), day(2), day(3, T_motor=30.0)]).values()
+    assert not alone.constant
+    rise = day(3).series["T_motor"].values - 22
+    stuck = offsets_between_tests([day(1), day(2), day(3, T_motor=30.0 - rise), day(4, T_motor=30.0 - rise)])
+    assert [o.constant for o in stuck.values()] == [False, False]

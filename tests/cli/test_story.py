@@ -308,6 +308,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "next_test",
         "response_um",
         "limits",
+        "at_rest",
     }
     assert found["verdict"] == "effect"
     first = found["candidates"][0]

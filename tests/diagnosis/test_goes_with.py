@@ -313,6 +313,30 @@ def test_the_unknown_has_its_missing_heat_with_every_key() -> None:
     assert "time_constant_low_h" in found.model_dump()
 
 
+@pytest.mark.parametrize(("sign", "verdict"), [(1, "not"), (0, "undecided")])
+def test_a_source_that_goes_both_ways_rules_no_temperature_out(sign: int, verdict: str) -> None:
+    """It is what the known effects have left of the missing heat, which may look like nothing that warmed it."""
+    t = np.arange(STEPS)
+    apart = [course(np.sin(t), {"T": 20.0 + rows(np.cos(2.3 * t))}, f"t{i}") for i in range(3)]
+    assert one(companions(heat(*apart, sign=sign), "dZ"), "T").verdict == verdict
+
+
+def test_a_channel_of_what_is_likely_it_is_not_ruled_out() -> None:
+    rng = np.random.default_rng(3)
+    on = np.repeat([0.0, 1, 1, 0, 0, 1, 0, 0], 60)
+    d = lag(10 * on, 2400.0, STEP_S)
+    values = {"n": np.repeat([0.0, 1, 0, 1, 0, 1, 0, 1], 60) * 3000.0}
+    parts = [Parts(d - d.mean() + 0.1 * rng.standard_normal(480), values=values, channels=CHANNELS) for _ in range(4)]
+    asked = problem(*parts, noise=0.1)
+    alone, likely = (
+        characterise(asked, [], s).heat for s in (None, Suspect((candidate(channels=("n",)),), "it is likely"))
+    )
+    assert alone is not None
+    assert likely is not None
+    assert [c.channel for c in alone.goes_not_with] == ["n"]
+    assert likely.goes_not_with == []
+
+
 def test_a_residual_without_a_course_has_no_missing_heat() -> None:
     assert characterise(problem(*[Parts(np.zeros(240))] * 3), []).heat is None
 

@@ -58,6 +58,7 @@ DIAGNOSIS = {
     "next_test",
     "response_um",
     "limits",
+    "at_rest",
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state"}
 CANDIDATE = {

@@ -29,14 +29,23 @@ from thermodata.schema import diagnosis as results
             "lag:t4 holds on the locked tests by its shape, 11.0 -> 8.00 um about each test's mean; from their first "
             "samples on it hardly changes, 14.2 -> 14.3 um",
         ),
-        (False, False, (14.2, 17.2), (11.0, 12.0), "lag:t4 does not hold on the locked tests: 14.2 -> 17.2 um"),
+        (
+            False,
+            False,
+            (14.2, 17.2),
+            (11.0, 12.0),
+            "lag:t4 does not hold on the locked tests, for its course does not fit: about each test's mean the error "
+            "rises, 11.0 -> 12.0 um (as tests are scored, from their first samples on, 14.2 -> 17.2 um)",
+        ),
         (
             False,
             False,
             (14.2, 13.9),
             (11.0, 10.9),
-            "lag:t4 does not hold on the locked tests: 14.2 -> 13.9 um, and 11.0 -> 10.9 um about each test's mean, "
-            "less than half of what a cause of its size takes away",
+            "lag:t4 does not hold on the locked tests, for what it adds is not found there: about each test's mean "
+            "the error goes 11.0 -> 10.9 um only, where a cause of its size takes away twice as much and more, in "
+            "squares; that it goes 14.2 -> 13.9 um as tests are scored, from their first samples on, counts where they "
+            "start, too",
         ),
         (True, True, (None, None), (None, None), "lag:t4 holds on the locked tests"),
         (

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from thermodata.report.could_hide import could_hide
-from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
+from thermodata.report.could_hide import could_be, could_hide
+from thermodata.schema.diagnosis import AtRest, DetectionLimit, Diagnosis
 
 
 def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", behind: str | None = None) -> Any:
@@ -81,3 +81,21 @@ def test_what_no_size_would_show_and_how_many_more() -> None:
 @pytest.mark.parametrize(("limits", "response"), [((), 9.0), ((one("floor", 5.0),), None)])
 def test_nothing_is_said_where_nothing_is_known(limits: tuple[DetectionLimit, ...], response: float | None) -> None:
     assert could_hide(found(*limits, response=response)) == ""
+
+
+def test_what_no_open_test_moves_is_told_with_what_would_be_warmed() -> None:
+    rests = AtRest(channel="feed_Y", warms=["T_motor_Y"], effects=["feed_motor", "feed_screw"], moves_in=["day2"])
+    asked = found(one("floor", 4.0)).model_copy(update={"at_rest": [rests]})
+    assert could_hide(asked).endswith(
+        "; never moved in the open tests: feed_Y (feed_motor, feed_screw, nor was T_motor_Y heated by it; it moves in "
+        "day2); let an open test move it"
+    )
+    assert "never moved" not in could_hide(found(one("floor", 4.0)))
+
+
+def test_a_headline_names_what_no_size_would_have_shown() -> None:
+    assert could_be(found(one("floor", 4.0), one("sun", 2.0))) == ""
+    assert could_be(found(one("floor", None), one("sun", 9.5), one("bed", 4.0))) == "floor (T) or sun (T)"
+    rests = AtRest(channel="n_C", effects=["table_bearing"], moves_in=["day2"])
+    asked = found(*(one(name, None) for name in "abcd")).model_copy(update={"at_rest": [rests]})
+    assert could_be(asked) == "what n_C moves (no open test does), a (T), b (T) or 2 more"

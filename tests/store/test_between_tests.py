@@ -181,7 +181,7 @@ def test_a_flag_is_overruled_with_a_reason_that_stays(store: Store, tmp_path: Pa
     ingest(store, path)
     assert set(flagged(store, "T_1", Flag.OFFSET)) == {"day3"}
     by_test = {e[0]: e[3] for e in events(store, "offset")}
-    assert by_test["day3"].endswith("K against its neighbours since an earlier test")
+    assert "K against its neighbours since an earlier test; by a constant" in by_test["day3"]
     assert by_test["day4"] == f"overruled: the chiller was set to 50 degC that day (was: {by_test['day3']})"
     # a window in it, for a rule that did not exist when the files were made
     text = path.read_text(encoding="utf-8")
@@ -220,7 +220,8 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
     from thermodata.schema.model import Model
     from thermodata.view.load import load_dataset
 
-    logs = [day(1), day(2), day(3, T1=30.0), day(4, T1=30.0)]
+    wanders = 30 + 8 * np.sin(np.arange(N) / 20)
+    logs = [day(1), day(2), day(3, T1=wanders), day(4, T1=wanders)]
     logs[1][0]["main"]["dZ"][450:] = logs[1][0]["main"]["dZ"][450]
     extra = "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))
     path = lab(tmp_path, logs)
@@ -237,7 +238,52 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
     assert asked
     assert not [c for c in asked if "T_1" in c.channels]
     assert [c for c in asked if "T_2" in c.channels]
-    assert [(a.kind, a.test) for a in faulty_sensors(data, "dZ")] == [("sensor", "day3"), ("sensor", "day4")]
+    told = faulty_sensors(data, "dZ")
+    assert [(a.kind, a.test) for a in told] == [("sensor", "day3"), ("sensor", "day4")]
+    assert "has lost this test" not in told[0].why
+    assert "and the model, which reads it, has lost this test" in faulty_sensors(data, "dZ", {"T_1"})[0].why
+
+
+def test_a_constant_through_whole_tests_changes_nothing_in_what_counts_from_their_start(
+    store: Store, tmp_path: Path
+) -> None:
+    """The same fit as if the sensor were sound; a product with it, and a sensor that wanders, lose the tests."""
+    import yaml
+
+    from thermodata.modelling.run import fit
+    from thermodata.schema.model import Model
+    from thermodata.view.load import load_dataset
+
+    extra = "tests:\n" + "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))
+
+    def fitted(name: str, driver: str, **off: Any) -> Any:
+        logs = [day(k, **(off if k > 2 else {})) for k in (1, 2, 3, 4)]
+        path = lab(tmp_path / name, logs)
+        path.write_text(path.read_text(encoding="utf-8").replace(TESTS, extra), encoding="utf-8")
+        ingest(store, path)
+        return fit(store, Model.model_validate(yaml.safe_load(MODEL.replace("u: n", f"u: {driver}"))))
+
+    sound = fitted("sound", "T_1")
+    assert sound.notes == []
+    off = fitted("off", "T_1", T1=30.0)
+    assert set(flagged(store, "T_1", Flag.OFFSET)) == {"day3", "day4"}, "the flag stands"
+    assert {k: p.value for k, p in off.parameters.items()} == pytest.approx(
+        {k: p.value for k, p in sound.parameters.items()}, rel=1e-6
+    )
+    assert [s.test for s in off.scores if s.phase == "all"] == ["day1", "day2", "day3", "day4"]
+    assert [n for n in off.notes if "'offset' through all of day3, day4, by one number" in n]
+    difference = fitted("off", "T_1 - T_2", T1=30.0)
+    assert not [c for c in difference.checks if c.name.startswith("skipped")]
+    data = load_dataset(store, ["days"], 60.0)
+    assert [t.channels["T_1"].shifted for t in data.tests] == [False, False, True, True]
+
+    for lost in (fitted("off", "T_1 * n", T1=30.0), fitted("wanders", "T_1", T1=30 + 8 * np.sin(np.arange(N) / 20))):
+        skipped = {c.name: c.advice for c in lost.checks if c.name.startswith("skipped")}
+        assert sorted(skipped) == ["skipped:days/day3", "skipped:days/day4"]
+        assert (
+            "no driver for lag: 'T_1' is flagged 'offset' there, so the fit lost this test"
+            in skipped["skipped:days/day3"]
+        )
 
 
 def test_a_sensor_that_failed_in_one_test_of_many_drives_in_the_others(store: Store, tmp_path: Path) -> None:

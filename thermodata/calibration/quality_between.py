@@ -30,6 +30,9 @@ _FOLLOWS_K = 2.0
 _SET_POINTS, _SET_APART_K = 4, 5.0
 _LEAST_OTHERS = 3
 _NEAR = 1.5  # of the times between points
+_STARTS_ALIKE_K = 2.0  # beyond what starts lay apart before: a sensor that wanders comes back to no start
+_MOVES_K = 2.0  # one that hardly moves may as well stick
+_ROUGH_TIMES, _ROUGH_K = 2.0, 2.0  # a bend of what wanders, beyond those of all that is sound
 _UNTOLD: tuple[Float1D, Float1D] = np.empty(0), np.empty(0)
 _LEAST_BEFORE = 3  # points, or nobody knows what was usual
 
@@ -68,10 +71,12 @@ class Levels:
 
 @dataclass(frozen=True, slots=True)
 class Off:
-    """By how much a sensor is off [K] in a test, and from when on [s]; None: throughout."""
+    """By how much a sensor is off [K] in a test, and from when on [s]; None: throughout. constant: by one number in all
+    tests, as far as they tell: what counts from a test's start knows nothing of it."""
 
     size: float
     since_s: float | None = None
+    constant: bool = False
 
 
 def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]:
@@ -97,7 +102,8 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     if rested is not None:
         starts = [_starts(test, d, {c for _, c in offsets}) for test, d in zip(ordered, differences, strict=True)]
         for channel, (begin, size) in off_from_start(starts, [r > 0 for r in rested]).items():
-            offsets |= {(t.test, channel): Off(size) for t in ordered[begin:] if channel in t.series}
+            # it cools to the same start in each of them
+            offsets |= {(t.test, channel): Off(size, constant=True) for t in ordered[begin:] if channel in t.series}
     return offsets
 
 
@@ -248,7 +254,42 @@ def _from_the_failure_on(
     at = int(of[begin])
     within = begin - int(np.searchsorted(of, at))
     since = float(spans[at][0][within - 1]) if within else None
-    return {(tests[i].test, channel): Off(size, since if i == at else None) for i in np.unique(of[begin:]).tolist()}
+    after = np.unique(of[begin:]).tolist()
+    drifts = bool(within) or off > begin
+    constant = not drifts and _is_constant(tests, channel, spans, np.unique(of[:begin]).tolist(), after, level)
+    return {(tests[i].test, channel): Off(size, since if i == at else None, constant) for i in after}
+
+
+def _is_constant(
+    tests: Sequence[Levels],
+    channel: str,
+    spans: Sequence[tuple[Float1D, Float1D]],
+    before: Sequence[int],
+    after: Sequence[int],
+    level: Sequence[float],
+) -> bool:
+    """Whether a channel that is off through whole tests is so by one number: after each rest it starts as far from the
+    others, its course is no rougher than sound ones, and it moves."""
+    starts = [[float(spans[i][1][0]) for i in some if level[i] >= _FOLLOWS_SHARE] for some in (before, after)]
+    if len(starts[1]) < 2 or np.ptp(starts[1]) > np.ptp(starts[0] or [0.0]) + _STARTS_ALIKE_K:
+        return False
+    moves = [tests[i].series[channel].values for i in after]
+    if max(float(np.nanmax(x) - np.nanmin(x)) for x in moves) < _MOVES_K:
+        return False
+    sound = [spans[i][1] for i in before]
+    sound += [
+        x.sound[np.isfinite(x.sound)]
+        for i in after
+        for name, x in tests[i].series.items()
+        if name != channel and x.quantity == "temperature" and not _is_set_point(x.sound[np.isfinite(x.sound)])
+    ]
+    usual = max((_bend(x) for x in sound), default=0.0)
+    return max(_bend(spans[i][1]) for i in after) <= _ROUGH_TIMES * usual + _ROUGH_K
+
+
+def _bend(x: Float1D) -> float:
+    """The largest second difference."""
+    return float(np.abs(np.diff(x, n=2)).max()) if len(x) > 2 else 0.0
 
 
 def _change(d: Float1D, of: Int1D, level: Sequence[float]) -> tuple[int, int]:

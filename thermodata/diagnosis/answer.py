@@ -28,7 +28,7 @@ from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, DetectionLimit, Diagnosis
+from thermodata.schema.diagnosis import Artefact, AtRest, DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 
@@ -173,6 +173,17 @@ def _diagnosis(
         limits=[]
         if judgement.claims
         else [_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
+        at_rest=[]
+        if judgement.claims
+        else [
+            AtRest(
+                channel=one.channel,
+                warms=list(one.warms),
+                effects=list(one.effects),
+                moves_in=[t.test for t in one.moves_in],
+            )
+            for one in investigation.at_rest
+        ],
         chance=ladder.chance(investigation.measure),
     )
 

@@ -13,7 +13,7 @@ from thermodata.modelling.compare.differences import TestDifference, differences
 from thermodata.modelling.compare.portability import Portability, portability
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
-from thermodata.modelling.inputs import coarse_readings
+from thermodata.modelling.inputs import coarse_readings, shifted
 from thermodata.modelling.inputs.roles import find_tests, opened, resolve_roles
 from thermodata.modelling.model_file import nested
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
@@ -90,7 +90,12 @@ def fit(
     terms = [term.bound for response in fitted.responses for term in response.terms]
     read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
     looked_at = opened(resolve_roles(spec, data), data)
-    notes = [*said.pop("notes", []), *coarse_readings.said(data, read), *_unlocked(looked_at)]
+    notes = [
+        *said.pop("notes", []),
+        *coarse_readings.said(data, read),
+        *shifted.said(data, read),
+        *_unlocked(looked_at),
+    ]
     result = result.model_copy(update={**said, "notes": notes})
     if looked_at:  # first: a look that is counted for a fit that nobody kept does less harm than one that is not
         count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)

@@ -10,11 +10,42 @@ if TYPE_CHECKING:
     from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
 
 SHOWN = 4
+MOST = 3  # in a headline
 
 
 def could_hide(found: Diagnosis) -> str:
-    """'these tests can't exclude guideway (C03_guide) up to 13.6 um, for feed_screw does 91 % of it'; '' where nothing
-    is known of it."""
+    """'these tests can't exclude guideway (C03_guide) up to 13.6 um, for feed_screw does 91 % of it; never moved in the
+    open tests: feed_Y (it moves in day2), ...'; '' where nothing is known of either."""
+    return "; ".join(filter(None, [_limits(found), _never_moved(found)]))
+
+
+def could_be(found: Diagnosis) -> str:
+    """'spindle_motor (T_motor) or feed_motor (T_Y)': what no size of it, or none below the response, would have shown,
+    and what no open test heats; '' where the tests would have shown all."""
+    response = found.response_um or 0.0
+    names = [f"what {one.channel} moves (no open test does)" for one in found.at_rest]
+    resting = {channel for one in found.at_rest for channel in (one.channel, *one.warms)}
+    names += [
+        _name(one)
+        for one in _of_each(found.limits)
+        if one.large and _is_unbound(one, response) and resting.isdisjoint(one.drivers)
+    ]
+    shown = list(dict.fromkeys(names))
+    told = [*shown[:MOST], f"{len(shown) - MOST} more"] if len(shown) > MOST else shown
+    return " or ".join(filter(None, [", ".join(told[:-1]), *told[-1:]]))
+
+
+def _never_moved(found: Diagnosis) -> str:
+    told = []
+    for one in found.at_rest:
+        moves = f"it moves in {', '.join(one.moves_in)}"
+        warms = f", nor was {', '.join(one.warms)} heated by it" if one.warms else ""
+        told.append(f"{one.channel} ({', '.join(one.effects)}{warms}; {moves})")
+    tests = "; let an open test move it" if len(told) == 1 else "; let open tests move them"
+    return f"never moved in the open tests: {'; '.join(told)}{tests}" if told else ""
+
+
+def _limits(found: Diagnosis) -> str:
     least = _of_each(found.limits)
     if not least or not found.response_um:
         return ""
@@ -46,9 +77,12 @@ def _name(one: DetectionLimit) -> str:
     return f"{one.effect} ({', '.join(one.drivers)})"
 
 
+def _is_unbound(one: DetectionLimit, response: float) -> bool:
+    """More than all that was measured is no bound."""
+    return one.least_um is None or one.least_um > response
+
+
 def _one(one: DetectionLimit, response: float) -> str:
-    # more than all that was measured is no bound
-    unbound = one.least_um is None or one.least_um > response
-    size = "of any size" if unbound else f"up to {number(one.least_um)} um"
+    size = "of any size" if _is_unbound(one, response) else f"up to {number(one.least_um)} um"
     behind = f", for {one.behind} does {percent(1 - one.seen)} of it" if one.behind else ""
     return f"{_name(one)} {size}{behind}"

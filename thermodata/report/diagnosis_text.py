@@ -44,6 +44,7 @@ BOTH_WITH = (
     "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
     "noise that its own effects leave, so that errors before differ a little between rows beside the same effects"
 )
+_AS_SCORED = "as tests are scored, from their first samples on,"
 _START = "the course fits and where it starts does not (a test that began warm, or noise where its zero is taken)"
 
 
@@ -62,6 +63,8 @@ def _confirmed_sentence(result: Confirmed) -> str:
     if before is None or after is None:
         return head
     shape = ""
+    if result.holds is False and not in_shape_only:
+        return _not_held(result, head, scored)
     if result.locked_shape_um_before is not None:
         figures = f"{number(result.locked_shape_um_before)} -> {number(result.locked_shape_um_after)} um"
         shape = f"{figures} about each test's mean"
@@ -77,9 +80,27 @@ def _confirmed_sentence(result: Confirmed) -> str:
         return f"{head}: {shape}, but from their first samples on the error rises, {scored}: {_START}"
     if result.holds == (after < before) or not shape:
         return f"{head}: {scored}"
-    if result.holds:
-        return f"{head} by its shape, {shape}; from their first samples on it hardly changes, {scored}"
-    return f"{head}: {scored}, and {shape}, less than half of what a cause of its size takes away"
+    return f"{head} by its shape, {shape}; from their first samples on it hardly changes, {scored}"
+
+
+def _not_held(result: Confirmed, head: str, scored: str) -> str:
+    """The reason first: a fall of the error as scored, which no verdict goes by, would else contradict it."""
+    before, after = result.locked_shape_um_before, result.locked_shape_um_after
+    acts = [t.test for t in result.tests if t.acts]
+    head += f" in which it acts ({', '.join(acts)})" if acts and len(acts) < len(result.tests) else ""
+    if before is None or after is None:
+        return f"{head}: {scored}"
+    figures = f"{number(before)} -> {number(after)} um"
+    if after >= before:
+        reason = f"for its course does not fit: about each test's mean the error rises, {figures}"
+        return f"{head}, {reason} ({_AS_SCORED} {scored})"
+    reason = (
+        f"{head}, for what it adds is not found there: about each test's mean the error goes {figures} only, where a "
+        "cause of its size takes away twice as much and more, in squares"
+    )
+    if (result.locked_rmse_um_after or 0.0) < (result.locked_rmse_um_before or 0.0):
+        return f"{reason}; that it goes {scored} {_AS_SCORED} counts where they start, too"
+    return f"{reason} ({_AS_SCORED} {scored})"
 
 
 def times(n: int) -> str:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import left_over, on_left_out
 from thermodata.report.words import number, percent
 from thermodata.schema.places import heat_at
@@ -257,10 +258,13 @@ def _unclaimed(found: Diagnosis) -> str:
         return f"something is missing{seen}, and nothing logged may be named for it"
     asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     if (first.probability or 0.0) < UNLIKELY:
-        return (
-            f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain: {named(first)} "
-            f"comes nearest, probability {probability(first.probability)}"
-        )
+        left = f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain"
+        nearest = f"{named(first)} comes nearest, probability {probability(first.probability)}"
+        open_still = could_be(found)
+        if open_still:
+            still = f"it may still be {open_still}, which they can't exclude"
+            return f"{left}, as far as these tests can tell: {nearest}; {still}"
+        return f"{left}: {nearest}"
     return (
         f"something is missing{seen}, and the evidence{asked} suffices to name no cause; the likeliest that was logged "
         f"is {named(first)}, probability {probability(first.probability)}"

@@ -101,6 +101,21 @@ class DetectionLimit(Result):
     large: bool = False
 
 
+class AtRest(Result):
+    """A command that moves in no open test, and in another one: what it warms was never heated where it is asked for.
+
+    channel: the command
+    warms: temperatures at its place
+    effects: of the library, which the model lacks and one of them drives
+    moves_in: the other tests that move it
+    """
+
+    channel: str
+    warms: list[str] = []
+    effects: list[str]
+    moves_in: list[str]
+
+
 class Diagnosis(Result):
     """Answer of diagnose.
 
@@ -125,6 +140,7 @@ class Diagnosis(Result):
     next_test: which test to run, or which sensor to add
     response_um: RMS of the response about each test's mean, in its unit
     limits: what was not claimed and could have been, the one that could hide most first; where nothing is claimed
+    at_rest: commands that no open test moves; where nothing is claimed
     chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
     """
 
@@ -145,6 +161,7 @@ class Diagnosis(Result):
     next_test: str | None = None
     response_um: float | None = None
     limits: list[DetectionLimit] = []
+    at_rest: list[AtRest] = []
     chance: list[float] = []
 
 

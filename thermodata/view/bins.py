@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from thermodata.plugin import Float1D, Int1D
+from thermodata.schema.flag import INVALID, Flag
 from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value, held_sums
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     import duckdb
 
 Key = tuple[str, str]
+_SHIFTED = int(INVALID & ~Flag.OFFSET)  # the flags that rule a sample of a sensor out that is off by one number
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +47,14 @@ class Binned:
 
 
 def bin_tests(
-    con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], step_s: float, wanted: Callable[[str], bool]
+    con: duckdb.DuckDBPyConnection,
+    campaigns: Sequence[str],
+    step_s: float,
+    wanted: Callable[[str], bool],
+    shifted: Collection[tuple[str, str, str]] = (),
 ) -> dict[Key, Binned]:
-    """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included."""
+    """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included. shifted:
+    (campaign, test, channel) of sensors that are off by one number through the test: as they read."""
     by_test: dict[Key, Binned] = {}
     history = _histories(con)
     periods = {
@@ -56,7 +63,8 @@ def bin_tests(
     }
     for group in read_catalogue(con).groups:
         if group.campaign in campaigns:
-            _bin_group(con, group, step_s, wanted, history, periods, by_test)
+            off = {(test, name) for campaign, test, name in shifted if campaign == group.campaign}
+            _bin_group(con, group, step_s, wanted, history, periods, by_test, off)
     return by_test
 
 
@@ -78,6 +86,7 @@ def _bin_group(
     history: dict[tuple[str, ...], list[str]],
     periods: dict[tuple[str, ...], float | None],
     binned: dict[Key, Binned],
+    shifted: Collection[tuple[str, str]],
 ) -> None:
     owners, files = [], []
     for test, paths in group.paths.items():
@@ -87,8 +96,12 @@ def _bin_group(
     columns = [c for c in group.columns if not c.text and wanted(c.name)]
     # file_index instead of filename: hashing a number a row instead of a text is twice as fast
     values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)
+    off = {name for _, name in shifted}
+    values += "".join(f", {bin_value(c, _SHIFTED)} as {quoted(_as_read(c.name))}" for c in columns if c.name in off)
     step, rows = repr(float(step_s)), f"read_parquet({file_list(files)}, hive_partitioning = false)"
-    if sums := [held_sums(c, step) for c in columns if c.on_change]:
+    sums = [held_sums(c, step) for c in columns if c.on_change]
+    sums += [held_sums(c, step, _SHIFTED, _as_read(c.name)) for c in columns if c.on_change and c.name in off]
+    if sums:
         values += "".join(f", {s}" for s in sums) + ", min(r.t_s) as first__s"
         rows = f"(select *, file_index, lead(t_s) over (partition by file_index order by t_s) as next__s from {rows})"
     result = con.execute(
@@ -118,7 +131,12 @@ def _bin_group(
             numbers,
             step_s,
             periods.get((group.campaign, test, group.source, group.stream)),
+            {name for at, name in shifted if at == test},
         )
+
+
+def _as_read(name: str) -> str:
+    return f"{name}__read"
 
 
 def _joined(numbers: dict[str, Float1D | Int1D], name: str, slices: Sequence[slice]) -> Float1D:
@@ -151,6 +169,7 @@ def _collect(
     numbers: dict[str, Float1D | Int1D],
     step_s: float,
     period: float | None,
+    shifted: Collection[str],
 ) -> None:
     k, rows = (np.concatenate([numbers[name][s] for s in slices]) for name in ("bin__k", "rows__n"))
     zero_ns = min(int(numbers["zero__ns"][s].min()) for s in slices)
@@ -160,7 +179,12 @@ def _collect(
     if not period:
         period = float((k.max() - k.min() + 1) * step_s / rows.sum())
     for column in columns:
-        series = _series(column, k.astype(np.int64), lambda name: _joined(numbers, name, slices), step_s, period)
+
+        def told(name: str, own: str = column.name) -> Float1D:
+            is_own = own in shifted and name.removeprefix(own) in ("", "__sum", "__for")
+            return _joined(numbers, _as_read(own) + name.removeprefix(own) if is_own else name, slices)
+
+        series = _series(column, k.astype(np.int64), told, step_s, period)
         old = binned.series.get(column.name)
         # a channel in two groups is another source's empty column in one of them
         if old is None or series.k.size > old.k.size:

@@ -35,6 +35,7 @@ class ChannelInfo:
     faulty: str | None = None
     clock_declared: bool = False
     is_mask: bool = False
+    shifted: bool = False
 
 
 @dataclass(frozen=True, slots=True)

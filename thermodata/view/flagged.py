@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from thermodata.schema.flag import INVALID, OVERRULED, Flag
+from thermodata.schema.flag import CONSTANT, INVALID, OVERRULED, Flag
 
 if TYPE_CHECKING:
     import duckdb
@@ -15,6 +15,7 @@ Key = tuple[str, str]
 FAULTY_SHARE = 0.2  # of a test: a channel that lost more of it is no witness
 # a sensor that is off, or does not move any more, has failed, however soon it is mended
 _FAILED = ("offset", "stuck")
+_THROUGHOUT = 1 - 1e-9
 # events that say nothing against a sensor: a blank between the rows of a slower logger is no loss
 _NO_FAULT = (OVERRULED, "only while not measuring", "not flagged", "no number")
 _COUNTS_NOT = frozenset(str(f.name).lower() for f in Flag if f & INVALID and f != Flag.NOT_MEASURING)
@@ -22,21 +23,32 @@ _COUNTS_NOT = frozenset(str(f.name).lower() for f in Flag if f & INVALID and f !
 
 @dataclass(slots=True)
 class Flagged:
-    """Of a channel in a test. lost: share of its samples that flags rule out, at most 1. flags: flag -> share."""
+    """Of a channel in a test. lost: share of its samples that flags rule out, at most 1. flags: flag -> share.
+    constant: share that is off by one number in all tests."""
 
     flags: dict[str, float] = field(default_factory=dict)
+    constant: float = 0.0
+
+    @property
+    def shifted(self) -> bool:
+        """Whether it is off by one number through the whole test, so that what counts from its start is sound."""
+        return self.constant >= _THROUGHOUT and self.flags.get("offset", 0.0) == self.constant
 
     @property
     def lost(self) -> float:
-        """Share of the samples that flags rule out."""
-        return min(1.0, sum(self.flags.values()))
+        """Share of the samples that flags rule out, for whatever counts from the test's start."""
+        return min(1.0, sum(self._counting().values()))
+
+    def _counting(self) -> dict[str, float]:
+        return {f: share for f, share in self.flags.items() if not (self.shifted and f == "offset")}
 
     @property
     def faulty(self) -> str | None:
         """Which flag judges the sensor faulty; None where none does."""
-        failed = [f for f in _FAILED if f in self.flags]
+        flags = self._counting()
+        failed = [f for f in _FAILED if f in flags]
         if not failed and self.lost > FAULTY_SHARE:
-            failed = sorted(self.flags, key=lambda f: -self.flags[f])[:1]
+            failed = sorted(flags, key=lambda f: -flags[f])[:1]
         return failed[0].replace("_", " ") if failed else None
 
 
@@ -45,12 +57,13 @@ def flagged_channels(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -
     file overrules, what happened only while the test did not measure, and blanks are not counted."""
     rows = con.execute(
         "select e.campaign, e.test, e.source, e.stream, e.channel, lower(e.flag) as flag, sum(e.n) as n, "
-        "any_value(f.rows) as rows from quality_event e join (select campaign, test, source, stream, sum(rows) as rows "
+        "any_value(f.rows) as rows, coalesce(sum(e.n) filter (where ends_with(e.detail, ?)), 0) as constant "
+        "from quality_event e join (select campaign, test, source, stream, sum(rows) as rows "
         "from file where layer = 'tidy' group by all) f using (campaign, test, source, stream) "
         "where list_contains(?, e.campaign) "
         + "".join("and not starts_with(coalesce(e.detail, ''), ?) " for _ in _NO_FAULT)
         + "group by all",
-        [list(campaigns), *_NO_FAULT],
+        [CONSTANT, list(campaigns), *_NO_FAULT],
     ).fetchall()
     members = con.execute(
         "select distinct campaign, test, source, stream, channel from channel where list_contains(?, campaign)",
@@ -60,10 +73,11 @@ def flagged_channels(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str]) -
     for *member, channel in members:
         of_stream.setdefault(tuple(member), []).append(channel)
     found: dict[Key, dict[str, Flagged]] = {}
-    for campaign, test, source, stream, channel, flag, n, total in rows:
+    for campaign, test, source, stream, channel, flag, n, total, constant in rows:
         if flag not in _COUNTS_NOT or not n or not total:
             continue
         for name in [channel] if channel else of_stream.get((campaign, test, source, stream), []):
-            flags = found.setdefault((campaign, test), {}).setdefault(name, Flagged()).flags
-            flags[flag] = flags.get(flag, 0.0) + n / total
+            one = found.setdefault((campaign, test), {}).setdefault(name, Flagged())
+            one.flags[flag] = one.flags.get(flag, 0.0) + n / total
+            one.constant += constant / total if flag == "offset" else 0.0
     return found

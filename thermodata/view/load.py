@@ -53,7 +53,8 @@ def load_dataset(
         infos = channel_infos(con, wanted)
         _check_channels(channels, infos)
         only = None if channels is None else set(channels)
-        binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only)
+        shifted = {(*key, name) for key, table in infos.items() for name, info in table.items() if info.shifted}
+        binned = bin_tests(con, wanted, step_s, lambda name: only is None or name in only, shifted)
         tests = tuple(
             _test_data(row, binned[row["campaign"], row["test"]], infos, step_s)
             for row in describe_tests(con, wanted)
@@ -76,7 +77,8 @@ def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
         declared = all(info.clock_declared for info in infos)
         faulty = None if mostly or not failed else failed[0]
         is_mask = any(info.is_mask for info in infos)
-        union[name] = replace(infos[0], faulty=faulty, clock_declared=declared, is_mask=is_mask)
+        shifted = any(info.shifted for info in infos)
+        union[name] = replace(infos[0], faulty=faulty, clock_declared=declared, is_mask=is_mask, shifted=shifted)
     return union
 
 

@@ -56,7 +56,7 @@ def limits(known: Known, pool: Sequence[Columns], spread: float, owners: Int1D) 
     found = [
         limit
         for one in pool
-        if one.candidate.kin in (None, "near", "related") and _has_a_name(one.candidate)
+        if one.candidate.kin in (None, "near", "related") and has_a_name(one.candidate)
         if (limit := _limit(known, one, spread, owners)) is not None
     ]
     return sorted(found, key=lambda one: -one.least)
@@ -70,7 +70,7 @@ def of_each_effect(limits: Sequence[Limit]) -> list[Limit]:
     return sorted(best.values(), key=lambda one: -one.least)
 
 
-def _has_a_name(candidate: CandidateEffect) -> bool:
+def has_a_name(candidate: CandidateEffect) -> bool:
     """A cause of the library, and no mode of another one."""
     return candidate.family not in (GENERIC, CONTROL) and not refines(candidate.effect) and not candidate.within
 

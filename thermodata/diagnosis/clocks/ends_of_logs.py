@@ -80,9 +80,10 @@ class Ends:
             late, early = (by_s.get((*odd.key, source), 0.0) for source in (odd.late, odd.early))
             if move is None and abs(odd.shift_s + late - early) < abs(odd.shift_s) / 2:
                 continue
-            then = "Nothing was moved for it here"
+            then = f"Nothing was moved for it here, for {_BY_NO_HEAT if move is not None else _IN_NEITHER}"
             if move is not None and move in moved:
-                then = f"The choice is made with '{move.source}' moved by {move.moved_s / 60:+.3g} min there"
+                by = f"{move.moved_s / 60:+.3g} min"
+                then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}"
             found.append(
                 Artefact(
                     kind="clock_offset",
@@ -97,6 +98,12 @@ class Ends:
 
 
 UNKNOWN = Ends()
+_BY_HEAT = "what the commands of one log warm, by the other one, comes at the right time so"
+_BY_NO_HEAT = (
+    "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms "
+    "in the test, or a log was switched on late"
+)
+_IN_NEITHER = "the response is in neither log, and nothing tells which of them is off"
 
 
 def meets(some: Sequence[ClockMoved], clocks: Sequence[ClockMoved]) -> bool:

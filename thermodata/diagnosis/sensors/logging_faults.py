@@ -194,8 +194,9 @@ def gain_is_wrong(factor: float, before: float, after: float, rms: float, noise:
     return factor > 0 and abs(factor - 1) > GAIN_OFF and after < (1 - GAIN_DROP) * before and rms > NOISES * noise
 
 
-def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
-    """Channels whose sensor is judged faulty in a test: they drive no candidate there; of many tests, in none."""
+def faulty_sensors(data: Dataset, response: str, driven_by: Collection[str] = ()) -> list[Artefact]:
+    """Channels whose sensor is judged faulty in a test: they drive no candidate there; of many tests, in none.
+    driven_by: the channels that the model reads, without which a test is lost."""
     return [
         Artefact(
             kind="sensor",
@@ -203,13 +204,20 @@ def faulty_sensors(data: Dataset, response: str) -> list[Artefact]:
             test=test.test,
             at_s=None,
             size_um=None,
-            why=f"'{name}' is flagged '{info.faulty}', so it {_drives_no(name, data)}: see thermodata quality, and "
-            "overrule the flag in the campaign file where the reading is sound",
+            why=f"'{name}' is flagged '{info.faulty}', so it {_drives_no(name, data)}"
+            f"{_lost(name, test) if name in driven_by else ''}: see thermodata quality, and overrule the flag in the "
+            "campaign file where the reading is sound",
         )
         for test in data.tests
         for name, info in test.channels.items()
         if info.faulty is not None and name != response and info.quantity not in NOT_DRIVERS
     ]
+
+
+def _lost(name: str, test: TestData) -> str:
+    if name in test.values and np.isfinite(test.values[name]).any():
+        return ""
+    return ", and the model, which reads it, has lost this test"
 
 
 def _drives_no(name: str, data: Dataset) -> str:

@@ -51,14 +51,14 @@ class Companion:
 
 def companions(heat: MissingHeat, response: str, seed: int = 0) -> list[Companion]:
     """Every channel that can be compared, the closest first. A source that goes both ways is never on or off, so that
-    only temperatures are compared with it."""
+    only temperatures are compared with it, and none is ruled out by it."""
     infos = {name: info for c in heat.courses for name, info in c.test.channels.items() if name != response}
     found = []
     for info in infos.values():
         if info.is_mask:
             continue
         if info.quantity.startswith("temperature"):
-            found.append(_temperature(heat.courses, info))
+            found.append(_temperature(heat.courses, info, switched=heat.sign != 0))
         elif info.quantity in RESTS_AT_ZERO + RESTS_ABOVE_ZERO and heat.sign:
             found.append(_activity(heat.courses, info, seed))
     return sorted((f for f in found if f is not None), key=_closeness, reverse=True)
@@ -154,8 +154,10 @@ def _running(courses: Sequence[Course], info: ChannelInfo) -> list[Float1D] | No
     return shares
 
 
-def _temperature(courses: Sequence[Course], info: ChannelInfo) -> Companion | None:
-    """None where it never moves or was not logged in all tests."""
+def _temperature(courses: Sequence[Course], info: ChannelInfo, switched: bool) -> Companion | None:
+    """None where it never moves or was not logged in all tests. switched: the source goes one way only. One that goes
+    both ways is the residual itself, of which the known effects took what they could: the rest may look like nothing
+    that warmed the machine."""
     wanted, rises = [], []
     for course in courses:
         if info.name not in course.test.values:
@@ -177,5 +179,5 @@ def _temperature(courses: Sequence[Course], info: ChannelInfo) -> Companion | No
         x = np.concatenate([r[i] for r in rises])
         if x @ x > 0 and y @ y > 0:
             best = max(best, float((x @ y) ** 2 / (x @ x) / (y @ y)))
-    verdict: Verdict = "with" if best >= FOLLOWS else "not" if best <= FOLLOWS_NOT else "undecided"
+    verdict: Verdict = "with" if best >= FOLLOWS else "not" if best <= FOLLOWS_NOT and switched else "undecided"
     return Companion(info, verdict, None, None, best)

@@ -33,6 +33,7 @@ def _heat(problem: Problem, suspect: Suspect | None) -> MissingHeat | None:
     if heat is None:
         return None
     found = goes_with.companions(heat, problem.response)
+    likely = () if suspect is None else suspect.channels
     strong, weak = goes_with.strong_and_weak_tests(heat)
     low, high = heat.tau_range_s
     return MissingHeat(
@@ -47,7 +48,7 @@ def _heat(problem: Problem, suspect: Suspect | None) -> MissingHeat | None:
         strong_tests=[t.test for t in strong],
         weak_tests=[t.test for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
-        goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not"],
+        goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
         where=first_seen.where(heat, found, strong, weak, suspect),
         courses=[_course(c) for c in heat.courses],
     )

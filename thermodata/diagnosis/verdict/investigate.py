@@ -10,6 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.claims.at_rest import AtRest, at_rest
 from thermodata.diagnosis.claims.detection import Limit, limits
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.other_axes import OtherAxes
@@ -58,7 +59,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 @dataclass(frozen=True, slots=True)
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
-    conclude: judges members anew. limits: how large what is not named would have to be. looked_for: the ids of what the
+    conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no
+    open test moves. looked_for: the ids of what the
     locked tests were opened for on the way, whatever became of it."""
 
     problem: Problem
@@ -70,6 +72,7 @@ class Investigation:
     borne_out: BorneOut
     conclude: Conclude
     limits: tuple[Limit, ...] = ()
+    at_rest: tuple[AtRest, ...] = ()
     looked_for: tuple[str, ...] = ()
 
 
@@ -136,7 +139,9 @@ def investigate(
                 *faults,
             ]
         ),
-        *faulty_sensors(data, fitted.name),
+        *faulty_sensors(
+            data, fitted.name, {n for term in fitted.terms for t in data.tests for n in term.bound.reads(t)}
+        ),
     ]
 
     def borne_out(claim: Judged, others: Sequence[Judged]) -> Foretold | None:
@@ -146,8 +151,10 @@ def investigate(
         return judgement if selection is None else concluded(problem, selection, measure, judged)
 
     looked_for = tuple(lock.asked)
+    others_of = [t for t in data.tests if t.key not in {o.key for o in tests}]
+    rests = tuple(at_rest(asked, tests, others_of, data.channels))
     return Investigation(
-        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, looked_for
+        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, rests, looked_for
     )
 
 

@@ -1,7 +1,9 @@
 """The drivers that an effect sees of one test: channels or expressions on the test's grid, gaps filled.
 
 Temperatures count from the start of the record (history included): a constant is the offset's business, and a
-lag that starts at zero is then in balance. Quantities that are zero at rest (speed, power, state) stay as they are.
+lag that starts at zero is then in balance. So a sensor that is off by one number through the test drives as ever, but
+where an expression makes more of that than a constant. Quantities that are zero at rest (speed, power, state) stay as
+they are.
 """
 
 from __future__ import annotations
@@ -35,6 +37,7 @@ TURNS = 4
 BAND = 0.15  # of its range, about its mean: no side
 EDGE = 0.08  # of its range: where a start is a start
 BACK = 14.49 / 12.0  # of the noise, where a line through three samples goes back half a step
+ALIKE = 1e-6  # a difference that is a constant, but for rounding
 START_S = 300.0  # the start value is a mean of at most this, while the driver does not move
 
 
@@ -63,8 +66,33 @@ def names_of(text: str) -> tuple[str, ...]:
 def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
     """Whether the test has all that the binding reads, with at least one valid sample each."""
     return all(
-        name in test.values and bool(np.any(_good(test, name))) for text in binding.values() for name in names_of(text)
+        all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text))
+        and _is_known(test, text)
+        for text in binding.values()
     )
+
+
+def shifted_in(test: TestData, text: str) -> tuple[str, ...]:
+    """The channels of a driver whose sensor is off by one number through the test."""
+    return tuple(n for n in names_of(text) if n in test.channels and test.channels[n].shifted)
+
+
+def _is_known(test: TestData, text: str) -> bool:
+    """False where a number that a sensor is off by does not go out with the start: in a product, or a condition."""
+    shifted = shifted_in(test, text)
+    if not shifted or text.isidentifier():
+        return True
+    from thermodata.calibration.expression import parse
+
+    tree = parse(text)
+    if tree.logical:
+        return False
+    names = names_of(text)
+    units = {name: _unit(test, name) for name in names}
+    as_read = tree.evaluate({n: test.values[n] for n in names}, units)
+    otherwise = tree.evaluate({n: test.values[n] + (n in shifted) for n in names}, units)
+    by = np.asarray(otherwise, dtype=np.float64) - np.asarray(as_read, dtype=np.float64)
+    return bool(np.nanmax(by, initial=-np.inf) - np.nanmin(by, initial=np.inf) <= ALIKE)
 
 
 def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
@@ -86,6 +114,8 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         values = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
         raw = np.asarray(values, dtype=np.float64)
         relative = relative and not tree.logical  # a condition is a state: zero is off
+    if not _is_known(test, text):
+        good = np.zeros_like(good)
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
 
 

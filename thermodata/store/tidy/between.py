@@ -37,8 +37,8 @@ class Verdict:
 
     offsets: channel -> (by how much its sensor is off [K], since when [s] or None: throughout). foreign: (from, to) [s]
     of another recording, and why. readings: channel -> how it reads in other tests (step, finest, chance, alternates).
-    dead: channels that stand still throughout. limits: channel -> lower and upper end of its
-    range, where it comes there.
+    dead: channels that stand still throughout. limits: channel -> lower and upper end of its range, where it comes
+    there. constant: of those that are off, by one number.
     """
 
     offsets: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
@@ -46,6 +46,7 @@ class Verdict:
     readings: Mapping[str, tuple[float, float, float, float]] = field(default_factory=dict)
     dead: tuple[str, ...] = ()
     limits: Mapping[str, Limits] = field(default_factory=dict)
+    constant: tuple[str, ...] = ()
 
     def of(self, channels: Iterable[str]) -> Verdict:
         """What concerns these channels."""
@@ -56,6 +57,7 @@ class Verdict:
             {c: r for c, r in self.readings.items() if c in names},
             tuple(c for c in self.dead if c in names),
             {c: ends for c, ends in self.limits.items() if c in names},
+            tuple(c for c in self.constant if c in names),
         )
 
     def to_json(self) -> dict[str, Any]:
@@ -233,8 +235,10 @@ def _numbers(values: Sequence[float | None]) -> Float1D:
 def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str, Verdict]:
     """Test -> what is known of it beside the others. tests: in the order of the campaign file."""
     offsets: dict[str, dict[str, tuple[float, float | None]]] = {}
+    constant: set[tuple[str, str]] = set()
     for (test, channel), off in offsets_between_tests([x for x, _ in tests]).items():
         offsets.setdefault(test, {})[channel] = round(off.size, 1), off.since_s
+        constant |= {(test, channel)} if off.constant else set()
     readings: dict[str, dict[str, tuple[float, float, float, float]]] = {}
     seen = {(x.test, c): r for x, known in tests for c, r in known.items()}
     for (test, channel), r in read_elsewhere(seen).items():
@@ -254,6 +258,7 @@ def verdicts(tests: Sequence[tuple[Levels, Mapping[str, Reading]]]) -> dict[str,
             readings.get(levels.test, {}),
             still,
             limits.get(levels.test, {}),
+            tuple(sorted(channel for test, channel in constant if test == levels.test)),
         )
         if verdict != Verdict():
             found[levels.test] = verdict

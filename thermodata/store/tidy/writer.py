@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D, Loss
-from thermodata.schema.flag import Flag
+from thermodata.schema.flag import CONSTANT, Flag
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
@@ -179,7 +179,8 @@ def _passed(
         found = stretch(since, None, 1)
         if found is not None:
             drifted = "since an earlier test" if since is None else "from here on, and in later tests"
-            events.append(Event(name, "offset", *found, f"{size:+.1f} K against its neighbours {drifted}"))
+            constant = CONSTANT if name in verdict.constant else ""
+            events.append(Event(name, "offset", *found, f"{size:+.1f} K against its neighbours {drifted}{constant}"))
     for name in (b.name for b in here if b.name in verdict.dead):
         found = stretch(None, None, 0)
         if found is not None:

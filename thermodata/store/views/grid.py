@@ -102,31 +102,34 @@ def bin_index(step: str) -> str:
     return f"cast(floor(r.t_s / {step} + {_SLACK}) as bigint)"
 
 
-def bin_value(column: Column) -> str:
-    """SQL of a column's value in a bin: the mean of the valid samples, or the last of them where it is held."""
+def bin_value(column: Column, invalid: int = int(INVALID)) -> str:
+    """SQL of a column's value in a bin: the mean of the valid samples, or the last of them where it is held. invalid:
+    the flags that rule a sample out."""
     value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
     if column.on_change:
         # NaN: from here on there is none
-        valid = f"{value} is not null and ({flag} & {int(INVALID)}) = 0"
+        valid = f"{value} is not null and ({flag} & {invalid}) = 0"
         return f"arg_max(case when {valid} then cast({value} as double) else 'nan'::double end, r.t_s)"
     if column.held:
         good = "" if column.text else f" and not isnan(cast({value} as double))"
-        return f"arg_max({value}, r.t_s) filter (where {value} is not null and ({flag} & {int(INVALID)}) = 0{good})"
+        return f"arg_max({value}, r.t_s) filter (where {value} is not null and ({flag} & {invalid}) = 0{good})"
     # a CASE inside the mean: twice as fast as FILTER
     number = f"cast({value} as double)"
-    return f"avg(case when ({flag} & {int(INVALID)}) = 0 and not isnan({number}) then {number} end)"
+    return f"avg(case when ({flag} & {invalid}) = 0 and not isnan({number}) then {number} end)"
 
 
-def held_sums(column: Column, step: str) -> str:
+def held_sums(column: Column, step: str, invalid: int = int(INVALID), name: str = "") -> str:
     """SQL of what a number that is written on change was for in its bin, from its first row there on: the sum of value
-    times time, and the time in which it had one. Rows need `next__s`, the time of the next one."""
+    times time, and the time in which it had one. Rows need `next__s`, the time of the next one.
+    name: of the sums, the column's where it is empty."""
     value, flag = f"r.{quoted(column.name)}", f"r.{quoted(column.name + '__flag')}"
-    valid = f"{value} is not null and ({flag} & {int(INVALID)}) = 0 and not isnan(cast({value} as double))"
+    valid = f"{value} is not null and ({flag} & {invalid}) = 0 and not isnan(cast({value} as double))"
+    name = name or column.name
     until = f"least(coalesce(r.next__s, 'infinity'::double), ({bin_index(step)} + 1) * {step})"
     lasts = f"greatest({until} - r.t_s, 0)"
     return (
-        f"sum(case when {valid} then cast({value} as double) * {lasts} else 0 end) as {quoted(column.name + '__sum')}, "
-        f"sum(case when {valid} then {lasts} else 0 end) as {quoted(column.name + '__for')}"
+        f"sum(case when {valid} then cast({value} as double) * {lasts} else 0 end) as {quoted(name + '__sum')}, "
+        f"sum(case when {valid} then {lasts} else 0 end) as {quoted(name + '__for')}"
     )
 
 
