@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
-from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.diagnosis.verdict.suspect import First, Suspect
 from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
@@ -21,14 +21,18 @@ def where(
     strong: Sequence[TestData],
     weak: Sequence[TestData],
     suspect: Suspect | None = None,
+    first: First | None = None,
 ) -> str:
-    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged."""
+    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
+    first: what ranks first, and is plausible."""
     said = [_capital(_body(heat)), _when(found, strong, weak)]
     if suspect is not None:
         # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
         found = [c for c in found if c.info.name not in suspect.channels]
         said.append(suspect.told)
-    return ". ".join([*said, *_place(found, strong, suspect), *_direction(heat)])
+    elif first is not None:
+        found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
+    return ". ".join([*said, *_place(found, strong, suspect, first), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -79,7 +83,9 @@ def _runs(one: Companion) -> str:
     return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
 
 
-def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None) -> list[str]:
+def _place(
+    found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None, first: First | None
+) -> list[str]:
     """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is."""
     near = _places([c for c in found if c.verdict == "with"])
     # the least alike first
@@ -96,7 +102,7 @@ def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Susp
             "No logged channel goes with it, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
             + (f"; least like it is what is logged near {_or(far)}" if far else "")
-            + f"; note what runs in {strong[0].test} and is not logged"
+            + f"; {_to_look_at(strong[0], first)}"
         )
     elif far:
         said.append(f"What is logged near {_or(far)} does not go with it")
@@ -107,6 +113,18 @@ def _place(found: Sequence[Companion], strong: Sequence[TestData], suspect: Susp
             "driver before a new sensor"
         )
     return said
+
+
+def _to_look_at(strongest: TestData, first: First | None) -> str:
+    """What is logged and acts there, where that is plausible: else what is not logged."""
+    if first is None or strongest.key not in first.acts_in:
+        return f"note what runs in {strongest.test} and is not logged"
+    one = first.cause
+    names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
+    return (
+        f"{one.id} is the likeliest of what is logged ({first.probability:.0%}) and acts in {strongest.test}: {names} "
+        f"{verb} to be looked at before anything that is not logged"
+    )
 
 
 def _direction(heat: MissingHeat) -> list[str]:
