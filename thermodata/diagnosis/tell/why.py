@@ -12,6 +12,7 @@ from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules,
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
@@ -50,17 +51,18 @@ def why(
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     tests = investigation.measure.tests
-    way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error {way} "
+        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error "
+        f"{way(s.error_before, s.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests} and the known effects "
+        f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
         f"fitted to all, and it makes {improves} of {count} more probable; "
         f"its gain differs between {tests} by {s.spread:.0%}"
     )
     if alone is not None and others:
-        left = " -> ".join(f"{np.sqrt(np.mean(sse / alone.rows)):.2f}" for sse in (alone.sse_before, alone.sse_after))
-        numbers = f"alone it takes the error on left-out {tests} {left} {unit}; it is judged beside others: {numbers}"
+        before, after = (float(np.sqrt(np.mean(sse / alone.rows))) for sse in (alone.sse_before, alone.sse_after))
+        left = from_to(before, after, unit)
+        numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {numbers}"
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
@@ -102,15 +104,18 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
         return ""
     what = " with all that is claimed" if together else ""
     what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
+    figures = f"; on the locked tests{what} {from_to(held.before, held.after, unit, 'from', 'to')}"
+    way_of = _in_one_way(s.looked) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
         acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
         figures += (
-            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
-            "offset a test"
+            f" from their first samples on, and{acts} {from_to(shape.before, shape.after, unit, 'from', 'to')} with a "
+            "free offset a test"
         )
-    return figures + (_in_one_way(s.looked) if s.looked is not None else "")
+    elif way_of:
+        figures += " from their first samples on"
+    return figures + way_of
 
 
 def _in_one_way(looked: Looked) -> str:
@@ -118,7 +123,8 @@ def _in_one_way(looked: Looked) -> str:
     added = looked.added
     if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
         if looked.foretold.falls:
-            return f": added as it stands the error {in_words(added)}, and they bear it out only where {_OTHERWISE}"
+            falls = in_words(added, looked.unit)
+            return f": added as it stands the error {falls}, and they bear it out only where {_OTHERWISE}"
         return f", which bear it out as it stands, and not where {_OTHERWISE}"
     return "" if looked.bears_out else f"; {on_locked(looked)}, which is less than a cause mostly takes away"
 

@@ -45,7 +45,7 @@ def first(head: Scored | None, problem: Problem) -> First | None:
     """None where it is not plausible, or no test was weighed for it."""
     if head is None or not len(head.rows) or probability(head) < PLAUSIBLE:
         return None
-    acts_in = (b.test.key for b, acts in zip(problem.blocks, head.acts.tolist(), strict=True) if acts)
+    acts_in = (b.test.key for b, acts in zip(problem.blocks, head.acts.tolist(), strict=False) if acts)
     return First(head.candidate, probability(head), frozenset(acts_in))
 
 
