@@ -253,8 +253,8 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, claim(FIRST), holds=False)
         why = {c.effect: c.why.partition("not claimed: ")[2] for c in found.candidates}
         assert why["first"] == (
-            "first:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free offset a "
-            "test, 1.00 -> 1.00 um)"
+            "first:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free "
+            "offset a test, 1.00 -> 1.00 um)"
         )
         assert why["twin"] == "first:T_a, which the locked tests do not bear out, explains it, or more"
         assert why["other"].startswith("chance does as well in"), "its own rules come before"
