@@ -382,8 +382,8 @@ def test_a_claim_that_the_locked_tests_contradict_is_withdrawn_with_its_own_figu
     found = Asked(lambda one, whole: looked(RISES if one == "a" else GONE, GONE)).kept(judged("a", twins="t"))
     assert found.verdict == "unknown"
     assert found.reason == (
-        "a:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free offset a test, "
-        "1.00 -> 1.20 um)"
+        "a:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free offset "
+        "a test, 1.00 -> 1.20 um)"
     ), "of the claim, not of its twin"
     assert names_of(found.judged) == "a"
     both = Asked(lambda one, whole: looked(RISES)).kept(judged("a", "b")).reason
