@@ -217,10 +217,16 @@ def test_hours_are_not_told_of_what_is_mostly_on(on_at: range, told: bool) -> No
 # ---- in words
 
 
-def said(*found: Companion, suspect: Suspect | None = None, first: First | None = None, **changed: object) -> str:
+def said(
+    *found: Companion,
+    suspect: Suspect | None = None,
+    first: First | None = None,
+    warm: str | None = None,
+    **changed: object,
+) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
     tests = [c.test for c in asked.courses]
-    return where(asked, found, tests[:1], tests[1:2], suspect, first)
+    return where(asked, found, tests[:1], tests[1:2], suspect, first, warm)
 
 
 WITH_SPINDLE = Companion(CHANNELS["n"], "with", 0.96, 0.04, None)
@@ -252,6 +258,14 @@ def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_no
     assert ("turret:Q is the likeliest of what is logged (31%) and acts in t0: Q is to be looked at" in text) is logged
     assert ("note what runs in t0 and is not logged" in text) is not logged
     assert "can't say where it is; least like it is what is logged near column" in text
+
+
+@pytest.mark.parametrize(("warm", "told"), [("t0", True), ("t1", False), (None, False)])
+def test_what_is_strongest_where_the_model_fails_at_a_warm_start_is_laid_to_that(warm: str | None, told: bool) -> None:
+    text = said(NOT_COLUMN, warm=warm)
+    assert ("t0 is declared to start warm, and the model fails most at its start" in text) is told
+    assert ("run it again from a cold start" in text) is told
+    assert ("not logged" in text) is not told
 
 
 def test_nothing_speaks_against_the_channels_of_what_ranks_first() -> None:

@@ -22,17 +22,22 @@ def where(
     weak: Sequence[TestData],
     suspect: Suspect | None = None,
     first: First | None = None,
+    warm: str | None = None,
 ) -> str:
     """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
-    first: what ranks first, and is plausible."""
+    first: what ranks first, and is plausible. warm: the name of the test at whose warm start the model
+    fails most."""
     said = [_capital(_body(heat)), _when(found, strong, weak)]
+    warm = warm if warm == strong[0].test else None
+    if warm is not None:
+        said.append(_began_warm(warm))
     if suspect is not None:
         # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
         found = [c for c in found if c.info.name not in suspect.channels]
         said.append(suspect.told)
     elif first is not None:
         found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
-    return ". ".join([*said, *_place(found, strong, suspect, first), *_direction(heat)])
+    return ". ".join([*said, *_place(found, strong, suspect, first, warm), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -84,7 +89,11 @@ def _runs(one: Companion) -> str:
 
 
 def _place(
-    found: Sequence[Companion], strong: Sequence[TestData], suspect: Suspect | None, first: First | None
+    found: Sequence[Companion],
+    strong: Sequence[TestData],
+    suspect: Suspect | None,
+    first: First | None,
+    warm: str | None,
 ) -> list[str]:
     """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is."""
     near = _places([c for c in found if c.verdict == "with"])
@@ -102,7 +111,7 @@ def _place(
             "No logged channel goes with it, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
             + (f"; least like it is what is logged near {_or(far)}" if far else "")
-            + f"; {_to_look_at(strong[0], first)}"
+            + _to_look_at(strong[0], first, warm)
         )
     elif far:
         said.append(f"What is logged near {_or(far)} does not go with it")
@@ -115,15 +124,22 @@ def _place(
     return said
 
 
-def _to_look_at(strongest: TestData, first: First | None) -> str:
-    """What is logged and acts there, where that is plausible: else what is not logged."""
+def _began_warm(test: str) -> str:
+    return (
+        f"{test} is declared to start warm, and the model fails most at its start: what was warm before it began is in "
+        "no log of it. So run it again from a cold start before anything is looked for"
+    )
+
+
+def _to_look_at(strongest: TestData, first: First | None, warm: str | None) -> str:
+    """What is logged and acts there, where that is plausible: else what is not logged, unless it began warm."""
     if first is None or strongest.key not in first.acts_in:
-        return f"note what runs in {strongest.test} and is not logged"
+        return "" if warm is not None else f"; note what runs in {strongest.test} and is not logged"
     one = first.cause
     names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
     return (
-        f"{one.id} is the likeliest of what is logged ({first.probability:.0%}) and acts in {strongest.test}: {names} "
-        f"{verb} to be looked at before anything that is not logged"
+        f"; {one.id} is the likeliest of what is logged ({first.probability:.0%}) and acts in {strongest.test}: "
+        f"{names} {verb} to be looked at before anything that is not logged"
     )
 
 

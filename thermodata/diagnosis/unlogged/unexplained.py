@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.question.weak import is_after_warm_start
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.verdict.suspect import First, Suspect
@@ -26,11 +27,11 @@ def characterise(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem, suspect, first),
+        heat=_heat(problem, suspect, first, next((s.test for s in spots[:1] if is_after_warm_start(s)), None)),
     )
 
 
-def _heat(problem: Problem, suspect: Suspect | None, first: First | None) -> MissingHeat | None:
+def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: str | None) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
@@ -51,7 +52,7 @@ def _heat(problem: Problem, suspect: Suspect | None, first: First | None) -> Mis
         weak_tests=[t.test for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
         goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
-        where=first_seen.where(heat, found, strong, weak, suspect, first),
+        where=first_seen.where(heat, found, strong, weak, suspect, first, warm),
         courses=[_course(c) for c in heat.courses],
     )
 
