@@ -68,7 +68,7 @@ def why(
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = chance_in_words(s.evidence, investigation.measure.chance)
         broken = failed_rules(s, investigation.measure, unit)
-        broken += [member.refines] if member is not None and member.refines else []
+        broken += [member.refines.partition(":")[0]] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
         spite = in_spite_of(s, investigation.measure, unit)
