@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import sharpness
+from thermodata.diagnosis.claims.probability import probability, sharpness
+from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -24,6 +25,7 @@ _OUTWEIGHED = {
     "others": "that no other test foretells it",
     "worth": "that it explains so little",
 }
+_DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
@@ -72,7 +74,8 @@ def why(
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
         spite = in_spite_of(s, investigation.measure, unit)
-        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}"
+        heat = also_of_motor(s, [j.scored for j in judgement.claims])
+        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}{heat}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
@@ -88,6 +91,25 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
+    """What drives a motor heats it before it cuts: said of a power that is not surely a cause of its own, beside a
+    sharper claim of the motor's temperature; else ''."""
+    if probability(s) >= SURE or not any(n.quantity in _DRIVES_A_MOTOR for n in s.candidate.effect.needs):
+        return ""
+    motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(s)]
+    if not motors:
+        return ""
+    return (
+        f"; {' and '.join(s.candidate.channels)} heats the motor too, which is claimed as {motors[0].candidate.id}: it "
+        "may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
+        "first, and ask again"
+    )
+
+
+def _reads_motor(s: Scored) -> bool:
+    return any(p.endswith("spindle.motor") for n in s.candidate.effect.needs for p in n.places)
 
 
 def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
