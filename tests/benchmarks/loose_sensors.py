@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from thermodata.diagnosis import loose
 from thermodata.diagnosis.clocks.by_heat import is_around
 from thermodata.diagnosis.clocks.sides import in_order
+from thermodata.diagnosis.sensors import loose
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import Dataset, TestData

@@ -18,12 +18,12 @@ from thermodata.diagnosis.unlogged.goes_with import (
 )
 from thermodata.diagnosis.unlogged.missing_heat import Course, MissingHeat
 from thermodata.diagnosis.unlogged.unexplained import characterise
-from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.diagnosis.verdict.suspect import First, Suspect, first
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import STEP_S, Parts, a_test, candidate, problem
+from .hand_made import STEP_S, Parts, a_test, candidate, problem, scored
 
 STEPS = 40  # of 10 min, ten rows each
 CHANNELS = {
@@ -217,10 +217,16 @@ def test_hours_are_not_told_of_what_is_mostly_on(on_at: range, told: bool) -> No
 # ---- in words
 
 
-def said(*found: Companion, suspect: Suspect | None = None, **changed: object) -> str:
+def said(
+    *found: Companion,
+    suspect: Suspect | None = None,
+    first: First | None = None,
+    warm: str | None = None,
+    **changed: object,
+) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
     tests = [c.test for c in asked.courses]
-    return where(asked, found, tests[:1], tests[1:2], suspect)
+    return where(asked, found, tests[:1], tests[1:2], suspect, first, warm)
 
 
 WITH_SPINDLE = Companion(CHANNELS["n"], "with", 0.96, 0.04, None)
@@ -241,6 +247,44 @@ def test_where_nothing_goes_with_it_the_data_are_said_to_be_silent() -> None:
     text = said(NOT_COLUMN)
     assert "can't say where it is; least like it is what is logged near column" in text
     assert "note what runs in t0 and is not logged" in text
+
+
+@pytest.mark.parametrize(("acts_in", "logged"), [("t0", True), ("t1", False)])
+def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_not_logged(
+    acts_in: str, logged: bool
+) -> None:
+    turret = First(candidate("turret", channels=("Q",)), 0.31, frozenset({a_test(acts_in, 4).key}))
+    text = said(NOT_COLUMN, first=turret)
+    assert ("turret:Q is the likeliest of what is logged (31%) and acts in t0: Q is to be looked at" in text) is logged
+    assert ("note what runs in t0 and is not logged" in text) is not logged
+    assert "can't say where it is; least like it is what is logged near column" in text
+
+
+@pytest.mark.parametrize(("warm", "told"), [("t0", True), ("t1", False), (None, False)])
+def test_what_is_strongest_where_the_model_fails_at_a_warm_start_is_laid_to_that(warm: str | None, told: bool) -> None:
+    text = said(NOT_COLUMN, warm=warm)
+    assert ("t0 is declared to start warm, and the model fails most at its start" in text) is told
+    assert ("run it again from a cold start" in text) is told
+    assert ("not logged" in text) is not told
+
+
+def test_nothing_speaks_against_the_channels_of_what_ranks_first() -> None:
+    column = First(candidate("bend", channels=("T",)), 0.31, frozenset({a_test("t0", 4).key}))
+    assert "column" not in said(NOT_COLUMN, first=column)
+
+
+@pytest.mark.parametrize(("sure", "is_first"), [(0.31, True), (0.29, False)])
+def test_what_ranks_first_is_told_with_the_tests_in_which_it_acts_where_it_is_plausible(
+    monkeypatch: pytest.MonkeyPatch, sure: float, is_first: bool
+) -> None:
+    monkeypatch.setattr("thermodata.diagnosis.verdict.suspect.probability", lambda scored: sure)
+    asked = problem(*(Parts(np.zeros(4)) for _ in range(2)), noise=0.05)
+    head = replace(scored(candidate("turret")), rows=np.ones(2), size=np.array([2.0, 0.1]))
+    found = first(head, asked)
+    assert (found is not None) is is_first
+    if found is not None:
+        assert found.acts_in == {asked.blocks[0].test.key}
+    assert first(None, asked) is None
 
 
 def test_a_logged_temperature_that_goes_with_it_is_no_sensor_to_add() -> None:

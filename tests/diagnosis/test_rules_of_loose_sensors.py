@@ -182,6 +182,11 @@ def a_fall(before: int = 3, after: int = 3, first: int = 0, **other: float) -> F
         (a_fall(before=1), False),
         (a_fall(after=1), False),
         (a_fall(drop=0.56), True),
+        (a_fall(drop=0.64, parted=0.61), True),  # 0.5 ** 0.7 is 0.616
+        (a_fall(drop=0.64, parted=0.62), False),
+        (a_fall(drop=0.66, parted=0.62), True),
+        (a_fall(drop=0.64, ratio=-0.1, parted=0.1), False),
+        (a_fall(drop=0.66, ratio=-0.1, parted=0.1), True),
         (a_fall(drop=0.54), False),
         (a_fall(left=0.24), True),
         (a_fall(left=0.26), False),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims import refinement
 from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
-from thermodata.diagnosis.claims.refinement import PART, Refinement
+from thermodata.diagnosis.claims.refinement import PART, Refinement, mode_of
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.question.problem import Problem
@@ -36,7 +37,7 @@ TAU = Param("tau", "min", 30, 1, 360, "")
 FALL = 0.5  # of the cause made by hand
 # evidence a sample that makes a cause of it
 SURELY = 10 ** ((np.log(CLAIMED / (1 - CLAIMED)) - PROBABILITY[0] - FALL * PROBABILITY[2]) / PROBABILITY[1])
-MODE = "it is another mode of what the model has"
+MODE = mode_of(["term0"])
 LITTLE = "it is little beside what the model has of that family"
 
 
@@ -135,6 +136,43 @@ def test_it_acts_beside_what_is_known_where_that_is_worth_a_quarter_of_what_it_w
 
 def test_a_plain_function_that_stands_for_the_heat_is_no_effect_to_act_beside() -> None:
     assert said(cause("heat", name="other", after=0.1, evidence=900.0)) == MODE
+
+
+@pytest.mark.parametrize(
+    ("of", "families", "named"),
+    [
+        ({"refines": ("known1",)}, "feed_x feed_x", "term1"),  # what it refines
+        ({"channels": ("T_1",)}, "feed_y feed_z", "term1"),  # what reads its channel
+        ({}, "feed_y feed_x feed_x", "term1 and term2"),  # what is of its family
+    ],
+)
+def test_a_mode_is_told_with_the_effects_that_it_is_taken_for_a_mode_of(
+    of: dict[str, Any], families: str, named: str
+) -> None:
+    waves = [WAVE] * len(families.split())
+    told = said(cause("same", **of), known=waves, families=families)
+    assert told == mode_of(named.split(" and "))
+    assert f"another mode of {named}, which the model has: these tests can't tell a cause of its own" in told
+    assert "add it, or confirm it" in told
+
+
+@dataclass(frozen=True)
+class OfHeat(PlainEffect):
+    cause: str = "cut"
+
+
+def test_a_mode_of_the_same_heat_is_told_with_it_whatever_its_family() -> None:
+    """A part is warm by the cut that a load stands for."""
+    known = model("cutting")
+    known.terms[0].effect = OfHeat("load", "cutting")
+    part = cause("heat", family="part", after=0.5)
+    part = replace(part, candidate=replace(part.candidate, effect=OfHeat("part", "part")))
+    assert Refinement(known, world(), NOISE)(part) == mode_of(["term0"])
+
+
+def test_a_mode_of_nothing_in_particular_is_one_of_what_the_model_has() -> None:
+    assert said(cause("same"), families="feed_y") == mode_of([])
+    assert "another mode of what the model has:" in mode_of([])
 
 
 @pytest.mark.parametrize(("size", "expected"), [(0.599, LITTLE), (0.601, None)])

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.steps.artefact import Step, find_steps
-from thermodata.diagnosis.steps.repeating import as_artefacts, repeating, single
+from thermodata.diagnosis.steps.repeating import as_artefacts, moved_by, repeating, single
+from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import Parts, problem
+from .hand_made import Parts, a_test, problem
 
 TESTS = [b.test for b in problem(*(Parts(np.zeros(4)) for _ in range(3)), noise=0.05).blocks]
 
@@ -62,6 +63,57 @@ def test_steps_to_and_fro_are_of_one_play_and_other_sizes_are_told_beside_it() -
     assert second.why.startswith(first.why)
     assert "3 times by the same amount, +9.0 to +9.1 um" in second.why
     assert single(some) == []
+
+
+FEED = ChannelInfo("feed", "feed", "m/min", at="axis.x")
+PUMP = ChannelInfo("pump", "state", "1", at="hydraulics")
+
+
+def moving(starts: int, name: str = "t0") -> TestData:
+    """Of 600 min, in which an axis starts and stops as many times; a pump does so, too."""
+    runs = np.arange(600) % max(600 // starts, 2) < max(300 // starts, 1)
+    return a_test(
+        name, 600, values={"feed": 5.0 * runs, "pump": 1.0 * runs}, channels={"feed": FEED, "pump": PUMP}, step_s=60.0
+    )
+
+
+def beside(test: TestData, *of: tuple[str, ...], sizes: tuple[float, ...] = (2.9, -5.5, 4.0)) -> list[Step]:
+    return [
+        Step(test, 3600.0 * (i + 1), size, 20.0, beside=by) for i, (size, by) in enumerate(zip(sizes, of, strict=False))
+    ]
+
+
+@pytest.mark.parametrize(
+    ("of", "starts", "again"),
+    [
+        ([("feed", "pump")] * 3, 6, 3),
+        ([("feed",), ("feed",), ()], 6, 0),
+        ([("pump",)] * 3, 6, 0),
+        ([("feed",)] * 3, 150, 0),
+    ],
+)
+def test_jumps_of_any_size_as_one_axis_starts_or_stops_are_the_machines(
+    of: list[tuple[str, ...]], starts: int, again: int
+) -> None:
+    """Two, or beside a pump, or where the axis starts and stops all the time, they are slips."""
+    some = beside(moving(starts), *of)
+    assert sum(map(len, repeating(some))) == again
+    assert len(single(some)) == 3 - again
+    assert moved_by(some) == (["feed"] if again else [])
+
+
+def test_they_are_told_with_the_axis_and_nothing_that_is_untrue_of_it() -> None:
+    [told] = as_artefacts(repeating(beside(moving(6), *[("feed", "pump")] * 3)), "um")
+    assert told.kind == "repeated_step"
+    assert "3 times, by +2.9 to +4.0 and -5.5 um (t0 at 1.0, 2.0, 3.0 h), each time just as feed changes" in told.why
+    assert "stick-slip or backlash" in told.why
+    assert "elsewhere" not in told.why
+    assert "by the same amount" not in told.why
+
+
+def test_a_slip_beside_them_stays_one() -> None:
+    some = beside(moving(6), *[("feed",)] * 3, (), sizes=(2.9, -5.5, 4.0, 9.0))
+    assert [s.size for s in single(some)] == [9.0]
 
 
 def test_what_sticks_and_slips_is_found_as_steps_and_taken_for_none() -> None:

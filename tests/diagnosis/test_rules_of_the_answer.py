@@ -38,8 +38,9 @@ FIRST = scored("first", after=0.3, size=2.0)
 TWIN = scored("twin", channels=("T_b",), after=0.35)
 OTHER = scored("other", family="feed_y", after=0.9, evidence=-50.0, shape=(0.0, 1.0))
 NO_FALL = (
-    "on the locked tests the error hardly changes with it added as it stands, and hardly changes where the effects of "
-    "the model may act otherwise than by their fitted lags"
+    "on the locked tests, with a free offset a test, the error hardly changes (1.00 -> 1.00 um) with it added as it "
+    "stands, and hardly changes (1.00 -> 1.00 um) where the effects of the model may act otherwise than by their "
+    "fitted lags"
 )
 RANKED = (FIRST, TWIN, OTHER)
 SECOND = replace(OTHER, evidence=600.0, own_after=0.16 * OTHER.own_before)  # the same, as it is beside others
@@ -253,7 +254,8 @@ class TestAnswer:
         found = self.answered(monkeypatch, spec, claim(FIRST), holds=False)
         why = {c.effect: c.why.partition("not claimed: ")[2] for c in found.candidates}
         assert why["first"] == (
-            "first:T_a explains the open tests, but the locked ones do not bear it out (error there 1.00 -> 1.00 um)"
+            "first:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free "
+            "offset a test, 1.00 -> 1.00 um)"
         )
         assert why["twin"] == "first:T_a, which the locked tests do not bear out, explains it, or more"
         assert why["other"].startswith("chance does as well in"), "its own rules come before"
@@ -340,8 +342,8 @@ class TestAnswer:
                 (1.0, 1.2),
                 frozenset({("c", "y")}),
                 "on the locked tests from 1.00 to 1.20 um from their first samples on, and where it acts from 0.50 to "
-                "1.00 um with a free offset a test: added as it stands the error rises by 100%, and they bear it out "
-                "only where the effects of the model may act otherwise than by their fitted lags",
+                "1.00 um with a free offset a test: added as it stands the error rises by 100% (0.50 -> 1.00 um), and "
+                "they bear it out only where the effects of the model may act otherwise than by their fitted lags",
             ),
             (
                 (1.0, 1.2),

@@ -382,7 +382,8 @@ def test_a_claim_that_the_locked_tests_contradict_is_withdrawn_with_its_own_figu
     found = Asked(lambda one, whole: looked(RISES if one == "a" else GONE, GONE)).kept(judged("a", twins="t"))
     assert found.verdict == "unknown"
     assert found.reason == (
-        "a:T_a explains the open tests, but the locked ones do not bear it out (error there 1.00 -> 1.20 um)"
+        "a:T_a explains the open tests, but the locked ones do not bear it out (error there, with a free offset "
+        "a test, 1.00 -> 1.20 um)"
     ), "of the claim, not of its twin"
     assert names_of(found.judged) == "a"
     both = Asked(lambda one, whole: looked(RISES)).kept(judged("a", "b")).reason
@@ -451,7 +452,7 @@ def test_a_claim_whose_error_falls_in_no_way_is_withdrawn_whatever_its_evidence(
     own = Judged(one, one, None, (one,))
     found = Asked(lambda _, whole: looked(RISES, RISES)).kept(Judgement("effect", (own,), (), (own,), ""))
     assert found.verdict == "unknown"
-    assert "(error there 1.00 -> 1.20 um)" in found.reason
+    assert "(error there, with a free offset a test, 1.00 -> 1.20 um)" in found.reason
 
 
 def test_where_there_are_no_locked_tests_the_claims_are_kept_and_what_is_likely_stays_so() -> None:

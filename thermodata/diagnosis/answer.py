@@ -24,7 +24,7 @@ from thermodata.diagnosis.tell.listed import candidate, explainable, listed
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.verdict.suspect import suspect
+from thermodata.diagnosis.verdict.suspect import first, suspect
 from thermodata.errors import unknown_name
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -187,7 +187,10 @@ def _diagnosis(
         ],
         artefacts=investigation.artefacts,
         unknown=characterise(
-            problem, investigation.spots, suspect(judgement, head, investigation.measure, problem.unit)
+            problem,
+            investigation.spots,
+            suspect(judgement, head, investigation.measure, problem.unit),
+            first(head, problem),
         )
         if judgement.verdict == "unknown"
         else None,

@@ -58,7 +58,7 @@ def kin_of(
         switched = all(channels[n].quantity == "state" for n in names)
         return "near" if switched and not names <= model.read else "same"
     acting = [(library[p.effect], p) for p in model.acting if p.effect in library]
-    of_it = [p for own, p in acting if hasattr(effect, "cause") and _heat(own, p.family) == _heat(effect, family)]
+    of_it = [p for own, p in acting if hasattr(effect, "cause") and heat_of(own, p.family) == heat_of(effect, family)]
     if of_it:
         other = all(p.effect != effect.name and not names & p.channels for p in of_it)
         return "heat" if other else "same"
@@ -88,7 +88,7 @@ def cause(effect: Effect) -> str:
     return found
 
 
-def _heat(effect: Effect, family: str) -> tuple[str, str]:
+def heat_of(effect: Effect, family: str) -> tuple[str, str]:
     """The heat that an effect stands for, and the axis where each has its own."""
     return cause(effect), family if "{" in effect.family else ""
 

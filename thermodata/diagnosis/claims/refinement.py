@@ -6,12 +6,12 @@ or it acts as a known effect would if its temperature counted from another one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.kin import cause, refines
+from thermodata.diagnosis.candidates.kin import cause, heat_of, refines
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
@@ -23,10 +23,10 @@ from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Float1D, Int1D
 
-MODE = "it is another mode of what the model has"
 PART = (
     "the model reads it already, together with others: another share of that, or a cause of its own, "
     "which these tests can't tell"
@@ -53,6 +53,15 @@ EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves 
 MOVES, QUARTER = 0.6, 0.25
 
 
+def mode_of(terms: Sequence[str]) -> str:
+    """terms: ids of the effects of the model."""
+    of = f"{' and '.join(terms)}, which the model has" if terms else "what the model has"
+    return (
+        f"it is taken for another mode of {of}: these tests can't tell a cause of its own from that (add it, or "
+        "confirm it on locked tests, to see what it takes away)"
+    )
+
+
 class Refinement:
     """Asked for each member of a selection, in the noise beside all members."""
 
@@ -69,18 +78,18 @@ class Refinement:
             return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
         if refines(scored.candidate.effect) or kin == "same":
-            return MODE
+            return self._mode(scored)
         if kin == "part" and sharpness(scored) < STRONG:
             return PART
         if kin == "heat" and not self._acts_beside(scored):
-            return MODE
+            return self._mode(scored)
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
-            return MODE
+            return self._mode(scored)
         good = scored.error_before <= GOOD * rms(self.problem.response_blocks)
         largest = max(self._size(i) for i in range(len(self.fitted.terms)))
         # what is surely a cause is one, however small beside its kin
         if good and kin is not None and not most and blunt(scored) and acting_size(scored) < SMALL * largest:
-            return LITTLE if kin in ("near", "related") else MODE
+            return LITTLE if kin in ("near", "related") else self._mode(scored)
         # what reads the same heat elsewhere stands for the known effect, however much else is missing
         near = kin == "near" and not is_surely_missing(scored)
         may_replace = near or (good and not most and (kin is not None or scored.candidate.family == GENERIC))
@@ -93,6 +102,19 @@ class Refinement:
             if channel is not None:
                 return f"it acts as {term.id} would if its temperature counted from {channel}"
         return None
+
+    def _mode(self, scored: Scored) -> str:
+        """With the effects of the model that it is taken for a mode of: what it refines, what stands for the same
+        cause, what reads its channels, or what is of its family; the first of these that there is."""
+        one = scored.candidate
+        alike: list[Callable[[FittedTerm], bool]] = [
+            lambda term: term.effect.name in refines(one.effect),
+            lambda term: heat_of(term.effect, term.family) == heat_of(one.effect, one.family),
+            lambda term: any(name in names_of(text) for text in term.binding.values() for name in one.channels),
+            lambda term: term.family == one.family,
+        ]
+        found = next((some for is_it in alike if (some := [t.id for t in self.fitted.terms if is_it(t)])), [])
+        return mode_of(found)
 
     def _acts_beside(self, scored: Scored) -> bool:
         """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the

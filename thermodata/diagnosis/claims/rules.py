@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.question.present import CONTROL
+from thermodata.diagnosis.weigh.figures import HARDLY, from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
@@ -141,13 +142,15 @@ def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
     """Why the error falls too little, its size from the other tests."""
     if scored.drop < DOUBLES:
         return (
-            f"its size from the other {tests}, the error more than doubles where it acts ({scored.error_before:.2f} -> "
-            f"{scored.error_after:.2f} {unit}): {tests} go against each other"
+            f"its size from the other {tests}, the error more than doubles where it acts ("
+            f"{from_to(scored.error_before, scored.error_after, unit)}): {tests} go against each other"
         )
     count = int(scored.acts.sum())
     where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
     if scored.drop <= 0:
         return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
+    if scored.drop < HARDLY:
+        return f"{where} hardly falls, its size from the others (limit: a fall of {fall:.0%})"
     return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {fall:.0%})"
 
 
@@ -182,7 +185,8 @@ def surely(scored: Scored) -> Rule:
 
 def _in_short(scored: Scored) -> str:
     """What its probability hangs on."""
-    falls = f"where it acts the error {f'falls by {scored.drop:.0%}' if scored.drop > 0 else 'does not fall'}"
+    by = f" by {scored.drop:.0%}" if scored.drop >= HARDLY else ""
+    falls = f"where it acts the error {way(scored.error_before, scored.error_after)}{by}"
     beaten = scored.beaten and scored.candidate.around
     more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
     if scored.candidate.passive:
@@ -200,21 +204,26 @@ def _in_short(scored: Scored) -> str:
 
 
 def on_locked(looked: Looked) -> str:
-    """'on the locked tests the error falls by 60%', or in each of two ways."""
+    """'on the locked tests, with a free offset a test, the error falls by 60% (1.00 -> 0.40 um)', or in each of two
+    ways: this is not the error as tests are scored, from their first samples on."""
     first, added = looked.foretold, looked.added
+    acts = "" if first.tests is None else " in which it acts"
+    error = f"on the locked tests{acts}, with a free offset a test, the error"
     if len(looked.saying) < 2 or added is None:
-        return f"on the locked tests the error {in_words(looked.saying[0])}"
+        return f"{error} {in_words(looked.saying[0], looked.unit)}"
     return (
-        f"on the locked tests the error {in_words(added)} with it added as it stands, and {in_words(first)} where the "
-        "effects of the model may act otherwise than by their fitted lags"
+        f"{error} {in_words(added, looked.unit)} with it added as it stands, and {in_words(first, looked.unit)} where "
+        "the effects of the model may act otherwise than by their fitted lags"
     )
 
 
-def in_words(of: Foretold) -> str:
-    """'falls by 60%', 'hardly changes', 'rises by 20%'."""
+def in_words(of: Foretold, unit: str) -> str:
+    """'falls by 60% (1.00 -> 0.40 um)', 'hardly changes (...)', 'rises by 20% (...)'."""
     if of.falls:
-        return f"falls by {of.fall:.0%}"
-    return f"rises by {of.after / of.before - 1:.0%}" if of.after > 1.005 * of.before > 0 else "hardly changes"
+        said = f"falls by {of.fall:.0%}"
+    else:
+        said = f"rises by {of.after / of.before - 1:.0%}" if of.after > 1.005 * of.before > 0 else "hardly changes"
+    return f"{said} ({from_to(of.before, of.after, unit)})"
 
 
 def also_missing(scored: Scored) -> str:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
+from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
 
@@ -125,5 +126,9 @@ def _why(refused: Sequence[Judged], unit: str) -> str:
     explain, them = ("explains", "it") if len(names) == 1 else ("explain", "them")
     said = [f for j in refused if j.scored.looked is not None for f in j.scored.looked.saying]
     least = min(said, key=lambda f: f.fall, default=None)
-    there = "" if least is None else f" (error there {least.before:.2f} -> {least.after:.2f} {unit})"
+    there = (
+        ""
+        if least is None
+        else f" (error there, with a free offset a test, {from_to(least.before, least.after, unit)})"
+    )
     return f"{' with '.join(names)} {explain} the open tests, but the locked ones do not bear {them} out{there}"

@@ -17,6 +17,7 @@ WINDOW_S = 1800.0
 WINDOWS_A_TEST = 12
 STANDS_OUT = 1.3
 SHOWN = 12
+AFTER_WARM = "after a warm start"
 _AT_REST_RPM = 5.0  # what an analogue speed still shows
 _STEADY = 0.02  # of its size: a supply that stays so all test long says nothing of a window
 _MOST = 0.75  # a level that stood for this share of a window is what it was; else it is said from where to where
@@ -31,6 +32,7 @@ class _Window:
     stop: int
     sse: float
     n: int
+    first: bool = False  # of its test
 
 
 def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) -> list[WeakSpot]:
@@ -55,7 +57,7 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
             from_s=float(w.test.t_s[w.start]),
             to_s=float(w.test.t_s[w.stop - 1]),
             rmse_um=float(np.sqrt(w.sse / w.n)),
-            state=describe_state(w.test, w.start, w.stop),
+            state=", ".join([*_start(w), describe_state(w.test, w.start, w.stop)]),
         )
         for w in spots[:SHOWN]
     ]
@@ -81,10 +83,20 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
             continue
         if windows and windows[-1].stop == start:
             last = windows.pop()
-            windows.append(_Window(test, last.start, stop, last.sse + sse, last.n + n))
+            windows.append(_Window(test, last.start, stop, last.sse + sse, last.n + n, last.first))
         else:
-            windows.append(_Window(test, start, stop, sse, n))
+            windows.append(_Window(test, start, stop, sse, n, start == begin))
     return windows
+
+
+def is_after_warm_start(spot: WeakSpot) -> bool:
+    """Whether the model fails there from the start of a test on that began warm: what warmed the machine before is in
+    no log of that test."""
+    return spot.state.startswith(AFTER_WARM)
+
+
+def _start(window: _Window) -> list[str]:
+    return [AFTER_WARM] if window.first and window.test.start_state == "warm" else []
 
 
 def describe_state(test: TestData, start: int, stop: int) -> str:

@@ -40,6 +40,10 @@ DROP = 0.55  # of the squared error of tests left out, by the factor,
 LEFT = 0.25  # and of the temperature itself that is left at most: what nothing foretells has no gain
 LOWER = 0.65  # what comes loose loses a third and more
 PARTED = 0.85  # highest of the tests after, in shares of the lowest before
+# what comes loose answers all that it followed by one factor, so tests part by so much of the fall (in logarithms),
+# unless that one factor says so much more than none
+WHOLE = 0.7
+EVIDENT = 0.65  # of the squared error
 TOO = 0.25  # fall of the error by which another temperature did the same: then it is the machine that changed
 
 
@@ -62,7 +66,15 @@ class Fall:
     @property
     def plain(self) -> bool:
         enough = min(len(self.before), len(self.after)) >= LEAST_TELLING
-        return enough and self.drop >= DROP and self.left <= LEFT and self.ratio <= LOWER and self.parted <= PARTED
+        small = self.ratio <= LOWER and self.parted <= PARTED
+        return enough and self.drop >= DROP and self.left <= LEFT and small and self.is_one_factor
+
+    @property
+    def is_one_factor(self) -> bool:
+        """Whether one factor is what changed: what coolant wets, or what another programme drives, answers by another
+        one in each test."""
+        apart = self.ratio > 0 and self.parted <= self.ratio**WHOLE
+        return apart or self.drop >= EVIDENT
 
 
 def loose_sensors(data: Dataset, response: str) -> list[Artefact]:

@@ -1,4 +1,4 @@
-"""Steps of one size that repeat: the machine makes them, and no probe.
+"""Steps that repeat, of one size or as one axis starts or stops: the machine makes them, and no probe.
 
 A probe or fixture that slips does so by another amount each time. What sticks and slips, or has play, gives way by one
 amount again and again. Between its jumps it keeps back what it should do, and catches up in them: levels with a free
@@ -7,30 +7,77 @@ offset each would take the motion for none. So such steps are told together, and
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from thermodata.diagnosis.steps.artefact import Step
+from thermodata.plugin import Bool1D
 from thermodata.schema.diagnosis import Artefact
+from thermodata.view.dataset import TestData
 
 LEAST = 3  # of two that are alike by chance there are many
 ALIKE = 0.1  # of their median, that each differs from it by at most
+AXIS = ("feed", "position")  # what moves an axis
+MOVED = 0.1  # share of what it does in these tests, that makes it a change
+BESIDE_S = 120.0  # between a change and its step at most
+CHANCE = 0.01  # that as many slips fall beside changes of one axis: where it goes to and fro all the time, all do
 
 
 def repeating(steps: Sequence[Step]) -> list[list[Step]]:
     """Those of all tests that are alike, where there are so many in one direction, and with them those by which it goes
-    back: play is passed through both ways. A list for each size, the most frequent first."""
+    back: play is passed through both ways. A list for each size, the most frequent first. And those, of any size, at
+    each of which one axis starts, stops or changes, where these are more."""
     found: list[list[Step]] = []
-    while len(best := _most_alike(rest := _without(steps, found))) >= LEAST:
-        back = -float(np.median([s.size for s in best]))
-        found.append([s for s in rest if any(s is b for b in best) or _is_alike(s.size, back)])
+    while rest := _without(steps, found):
+        moved = [s for s in rest if any(n in s.beside for n in moved_by(rest))]
+        best = _with_the_way_back(_most_alike(rest), rest)
+        if len(best) < LEAST and not moved:
+            break
+        found.append(moved if len(moved) > len(best) or len(best) < LEAST else best)
     return found
+
+
+def moved_by(steps: Sequence[Step]) -> list[str]:
+    """The feeds and positions that change at so many of the steps as no chance makes it; those at the most of them."""
+    counts = {n: [s for s in steps if n in s.beside] for n in dict.fromkeys(n for s in steps for n in s.beside)}
+    axes = {n: some for n, some in counts.items() if _is_axis(some[0].test, n) and len(some) >= LEAST}
+    most = max(map(len, axes.values()), default=0)
+    return [n for n, some in axes.items() if len(some) == most and _by_chance(some, steps, n) <= CHANCE]
+
+
+def _is_axis(test: TestData, name: str) -> bool:
+    channel = test.channels.get(name)
+    return channel is not None and channel.quantity in AXIS
+
+
+def _by_chance(some: Sequence[Step], steps: Sequence[Step], name: str) -> float:
+    """That so many of the steps, anywhere in their tests, fall beside changes of an axis."""
+    span = max(float(np.nanmax(s.test.values[name]) - np.nanmin(s.test.values[name])) for s in some)
+    shares = [float(_beside(s.test, name, MOVED * span).mean()) for s in some]
+    return math.comb(len(steps), len(some)) * math.prod(shares)
+
+
+def _beside(test: TestData, name: str, least: float) -> Bool1D:
+    """The samples that are near to a change."""
+    known = np.isfinite(test.values[name])
+    times, values = test.t_s[known], test.values[name][known]
+    changes = times[1:][np.abs(np.diff(values)) > least]
+    near = np.searchsorted(changes, test.t_s + BESIDE_S, "right") > np.searchsorted(changes, test.t_s - BESIDE_S)
+    return np.asarray(near)
 
 
 def single(steps: Sequence[Step]) -> list[Step]:
     """The others: slips."""
     return _without(steps, repeating(steps))
+
+
+def _with_the_way_back(best: Sequence[Step], rest: Sequence[Step]) -> list[Step]:
+    if len(best) < LEAST:
+        return list(best)
+    back = -float(np.median([s.size for s in best]))
+    return [s for s in rest if any(s is b for b in best) or _is_alike(s.size, back)]
 
 
 def _most_alike(steps: Sequence[Step]) -> list[Step]:
@@ -67,6 +114,15 @@ def _why(steps: Sequence[Step], unit: str) -> str:
     up, down = ([s.size for s in steps if (s.size > 0) is way] for way in (True, False))
     ends = [[f"{end(some, key=abs):+.1f}" for end in (min, max)] for some in (up, down) if some]
     sizes = " and ".join(" to ".join(dict.fromkeys(both)) for both in ends)
+    axes = moved_by(steps)
+    if axes and all(any(n in s.beside for n in axes) for s in steps):
+        changes = f"{' and '.join(axes)} {'changes' if len(axes) == 1 else 'change'}"
+        return (
+            f"the displacement jumps {len(steps)} times, by {sizes} {unit} ({_where(steps)}), each time just as "
+            f"{changes}, and does not decay: jumps that come again and again as an axis starts or stops point to "
+            "stick-slip or backlash of the machine, whatever their size, for a probe slips at any time. Nothing was "
+            "taken out for them"
+        )
     ways, which = ("", "size and direction") if not (up and down) else (" to and fro", "size")
     return (
         f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_where(steps)}), and "

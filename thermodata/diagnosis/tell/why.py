@@ -7,11 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import sharpness
+from thermodata.diagnosis.claims.probability import probability, sharpness
+from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
+from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
@@ -23,6 +25,7 @@ _OUTWEIGHED = {
     "others": "that no other test foretells it",
     "worth": "that it explains so little",
 }
+_DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
 
@@ -50,27 +53,29 @@ def why(
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     tests = investigation.measure.tests
-    way = "falls" if s.error_after < s.error_before else "does not fall"
     numbers = (
-        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error {way} "
+        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error "
+        f"{way(s.error_before, s.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
-        f"({s.error_before:.2f} -> {s.error_after:.2f} {unit}), its size from the other {tests} and the known effects "
+        f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
         f"fitted to all, and it makes {improves} of {count} more probable; "
         f"its gain differs between {tests} by {s.spread:.0%}"
     )
     if alone is not None and others:
-        left = " -> ".join(f"{np.sqrt(np.mean(sse / alone.rows)):.2f}" for sse in (alone.sse_before, alone.sse_after))
-        numbers = f"alone it takes the error on left-out {tests} {left} {unit}; it is judged beside others: {numbers}"
+        before, after = (float(np.sqrt(np.mean(sse / alone.rows))) for sse in (alone.sse_before, alone.sse_after))
+        left = from_to(before, after, unit)
+        numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {numbers}"
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
         of_chance = chance_in_words(s.evidence, investigation.measure.chance)
         broken = failed_rules(s, investigation.measure, unit)
-        broken += [member.refines] if member is not None and member.refines else []
+        broken += [member.refines.partition(":")[0]] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
         spite = in_spite_of(s, investigation.measure, unit)
-        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}"
+        heat = also_of_motor(s, [j.scored for j in judgement.claims])
+        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}{heat}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
@@ -88,6 +93,25 @@ def why(
     return f"{numbers}; not claimed: {judgement.reason}"
 
 
+def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
+    """What drives a motor heats it before it cuts: said of a power that is not surely a cause of its own, beside a
+    sharper claim of the motor's temperature; else ''."""
+    if probability(s) >= SURE or not any(n.quantity in _DRIVES_A_MOTOR for n in s.candidate.effect.needs):
+        return ""
+    motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(s)]
+    if not motors:
+        return ""
+    return (
+        f"; {' and '.join(s.candidate.channels)} heats the motor too, which is claimed as {motors[0].candidate.id}: it "
+        "may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
+        "first, and ask again"
+    )
+
+
+def _reads_motor(s: Scored) -> bool:
+    return any(p.endswith("spindle.motor") for n in s.candidate.effect.needs for p in n.places)
+
+
 def in_spite_of(s: Scored, measure: Measure, unit: str) -> str:
     """What stands in these figures against a claim and is outweighed, for it is evident in each test by itself."""
     lifted = [r.name for r in rules(s, measure, unit) if r.holds and not r.asked]
@@ -102,15 +126,18 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
         return ""
     what = " with all that is claimed" if together else ""
     what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} from {held.before:.2f} to {held.after:.2f} {unit}"
+    figures = f"; on the locked tests{what} {from_to(held.before, held.after, unit, 'from', 'to')}"
+    way_of = _in_one_way(s.looked) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:
         acts = " where it acts" if shape.tests is not None and len(shape.tests) < len(held.shapes) else ""
         figures += (
-            f" from their first samples on, and{acts} from {shape.before:.2f} to {shape.after:.2f} {unit} with a free "
-            "offset a test"
+            f" from their first samples on, and{acts} {from_to(shape.before, shape.after, unit, 'from', 'to')} with a "
+            "free offset a test"
         )
-    return figures + (_in_one_way(s.looked) if s.looked is not None else "")
+    elif way_of:
+        figures += " from their first samples on"
+    return figures + way_of
 
 
 def _in_one_way(looked: Looked) -> str:
@@ -118,7 +145,8 @@ def _in_one_way(looked: Looked) -> str:
     added = looked.added
     if added is not None and len(looked.saying) > 1 and added.falls != looked.foretold.falls:
         if looked.foretold.falls:
-            return f": added as it stands the error {in_words(added)}, and they bear it out only where {_OTHERWISE}"
+            falls = in_words(added, looked.unit)
+            return f": added as it stands the error {falls}, and they bear it out only where {_OTHERWISE}"
         return f", which bear it out as it stands, and not where {_OTHERWISE}"
     return "" if looked.bears_out else f"; {on_locked(looked)}, which is less than a cause mostly takes away"
 

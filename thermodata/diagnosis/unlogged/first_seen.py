@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
-from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.diagnosis.verdict.suspect import First, Suspect
 from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
@@ -21,15 +21,25 @@ def where(
     strong: Sequence[TestData],
     weak: Sequence[TestData],
     suspect: Suspect | None = None,
+    first: First | None = None,
+    warm: str | None = None,
 ) -> str:
-    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged."""
+    """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
+    first: what ranks first, and is plausible. warm: the name of the test at whose warm start the model
+    fails most."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
     said = [_capital(_body(heat)), told]
+    warm = name_of(strong[0], heat) if warm == strong[0].test else None
+    if warm is not None:
+        said.append(_began_warm(warm))
     if suspect is not None:
         # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
         found = [c for c in found if c.info.name not in suspect.channels]
         said.append(suspect.told)
-    return ". ".join([*said, *_place(found, name_of(strong[0], heat), suspect), *_direction(heat)])
+    elif first is not None:
+        found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
+    look_at = _to_look_at(strong[0], name_of(strong[0], heat), first, warm)
+    return ". ".join([*said, *_place(found, look_at, suspect), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -80,9 +90,9 @@ def _runs(one: Companion) -> str:
     return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
 
 
-def _place(found: Sequence[Companion], strongest: str, suspect: Suspect | None) -> list[str]:
-    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. strongest:
-    the test in which it is."""
+def _place(found: Sequence[Companion], look_at: str, suspect: Suspect | None) -> list[str]:
+    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. look_at: what
+    is to be looked at where nothing goes with it."""
     near = _places([c for c in found if c.verdict == "with"])
     # the least alike first
     far = [p for p in _places([c for c in reversed(found) if c.verdict == "not"]) if p not in near]
@@ -98,7 +108,7 @@ def _place(found: Sequence[Companion], strongest: str, suspect: Suspect | None) 
             "No logged channel goes with it, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
             + (f"; least like it is what is logged near {_or(far)}" if far else "")
-            + f"; note what runs in {strongest} and is not logged"
+            + look_at
         )
     elif far:
         said.append(f"What is logged near {_or(far)} does not go with it")
@@ -109,6 +119,26 @@ def _place(found: Sequence[Companion], strongest: str, suspect: Suspect | None) 
             "driver before a new sensor"
         )
     return said
+
+
+def _began_warm(test: str) -> str:
+    return (
+        f"{test} is declared to start warm, and the model fails most at its start: what was warm before it began is in "
+        "no log of it. So run it again from a cold start before anything is looked for"
+    )
+
+
+def _to_look_at(strongest: TestData, name: str, first: First | None, warm: str | None) -> str:
+    """What is logged and acts there, where that is plausible: else what is not logged, unless it began warm. name: of
+    the test."""
+    if first is None or strongest.key not in first.acts_in:
+        return "" if warm is not None else f"; note what runs in {name} and is not logged"
+    one = first.cause
+    names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
+    return (
+        f"; {one.id} is the likeliest of what is logged ({first.probability:.0%}) and acts in {name}: "
+        f"{names} {verb} to be looked at before anything that is not logged"
+    )
 
 
 def _direction(heat: MissingHeat) -> list[str]:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.question.weak import is_after_warm_start
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
-from thermodata.diagnosis.verdict.suspect import Suspect
+from thermodata.diagnosis.verdict.suspect import First, Suspect
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
@@ -17,23 +18,25 @@ from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHea
 DIGITS = 4  # of a course, which is many numbers
 
 
-def characterise(problem: Problem, spots: Sequence[WeakSpot], suspect: Suspect | None = None) -> Unknown:
+def characterise(
+    problem: Problem, spots: Sequence[WeakSpot], suspect: Suspect | None = None, first: First | None = None
+) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
-    missing heat itself, estimated. suspect: what is likely it."""
+    missing heat itself, estimated. suspect: what is likely it. first: what ranks first, and is plausible."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem, suspect),
+        heat=_heat(problem, suspect, first, next((s.test for s in spots[:1] if is_after_warm_start(s)), None)),
     )
 
 
-def _heat(problem: Problem, suspect: Suspect | None) -> MissingHeat | None:
+def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: str | None) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
     found = goes_with.companions(heat, problem.response)
-    likely = () if suspect is None else suspect.channels
+    likely = suspect.channels if suspect else first.cause.channels if first else ()
     strong, weak = goes_with.strong_and_weak_tests(heat)
     low, high = heat.tau_range_s
     return MissingHeat(
@@ -49,7 +52,7 @@ def _heat(problem: Problem, suspect: Suspect | None) -> MissingHeat | None:
         weak_tests=[first_seen.name_of(t, heat) for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
         goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
-        where=first_seen.where(heat, found, strong, weak, suspect),
+        where=first_seen.where(heat, found, strong, weak, suspect, first, warm),
         courses=[_course(c) for c in heat.courses],
     )
 

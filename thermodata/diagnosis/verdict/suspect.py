@@ -8,6 +8,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules import PLAUSIBLE, apart, failed_rules
+from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.scored import Scored
 
@@ -28,6 +29,24 @@ class Suspect:
     def told(self) -> str:
         """A sentence without its full stop."""
         return f"It may be {' with '.join(one.id for one in self.causes)}: {self.stopped}"
+
+
+@dataclass(frozen=True, slots=True)
+class First:
+    """The first of the list that refines nothing, where it is plausible, whatever rule it breaks. acts_in: the keys of
+    the tests in which it acts."""
+
+    cause: CandidateEffect
+    probability: float
+    acts_in: frozenset[tuple[str, str]]
+
+
+def first(head: Scored | None, problem: Problem) -> First | None:
+    """None where it is not plausible, or no test was weighed for it."""
+    if head is None or not len(head.rows) or probability(head) < PLAUSIBLE:
+        return None
+    acts_in = (b.test.key for b, acts in zip(problem.blocks, head.acts.tolist(), strict=False) if acts)
+    return First(head.candidate, probability(head), frozenset(acts_in))
 
 
 def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: str) -> Suspect | None:

@@ -56,11 +56,12 @@ class Foretold:
 class Looked:
     """The locked tests of one claim, beside all that is claimed with it, looked at in two ways. foretold: by the known
     effects, free to act otherwise as the noise has it. added: by the model as it stands, with the claim added; None
-    where it can't predict them. floor: an error that is left alone."""
+    where it can't predict them. floor: an error that is left alone. unit: of the response."""
 
     foretold: Foretold
     added: Foretold | None
     floor: float
+    unit: str = "um"
 
     @property
     def saying(self) -> list[Foretold]:
