@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -82,6 +83,13 @@ def test_what_is_not_kin_and_acts_otherwise_is_a_cause() -> None:
 
 def test_what_says_that_it_refines_does_so_however_much_it_takes_away() -> None:
     assert said(cause(refines=("known0",), after=0.01), response=1.0) == MODE
+
+
+@pytest.mark.parametrize(("kin", "what"), [(None, None), ("same", MODE)])
+def test_what_is_told_from_it_by_a_place_refines_only_what_the_model_has(kin: Kin, what: str | None) -> None:
+    one = cause(kin, refines=("known0",), after=0.01)
+    told = replace(one.candidate, effect=replace(one.candidate.effect, told_by="u"))
+    assert said(replace(one, candidate=told), response=1.0) == what
 
 
 @pytest.mark.parametrize("after", [0.9, 0.01])
