@@ -230,9 +230,8 @@ class Effect(Protocol):
     `equation: str`, in plain text with F_tau{u} for a first-order lag; by default the first line of its class's
     docstring that holds " = ". `telltale: str`, how a residual looks where the effect is missing, and what test tells
     it from its like. `refines: tuple[str, ...]`, names of effects that it refines: diagnosis asks for it only where
-    the model has one of them. `told_by: str`, a role of its own that tells it from these where it goes from one place
-    to another: there diagnosis asks for it where the model has none of them, too. `asked: bool`, False where diagnosis
-    does not ask for it by itself.
+    the model has one of them. `told_by: str`, a position of its own that tells it from these: where its moves make
+    steps diagnosis asks for it without them, too. `asked: bool`, False where diagnosis does not ask for it by itself.
     """
 
     name: str

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
-from thermodata.diagnosis.steps.commanded import moves
+from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 
@@ -129,17 +128,33 @@ def test_an_axis_that_goes_to_and_fro_all_the_time_explains_nothing_and_is_not_t
     slipped = of(place, warmed(), grows=0.0, slip=4.0, at=150)
     [step] = steps(slipped)
     assert (step.at_s / 60 + 0.5, step.beside) == (150, ())
-    assert not moves(problem(slipped).blocks, "pos")
 
 
-@pytest.mark.parametrize(("stands", "moved"), [(4, False), (5, True)])
-def test_an_axis_stands_five_minutes_before_and_after_a_move(stands: int, moved: bool) -> None:
+def telling(*tests: Parts, noise: float = 0.05) -> list[str]:
+    return places_that_tell(problem(*tests, noise=noise))
+
+
+@pytest.mark.parametrize(("stands", "moved"), [(4, []), (5, ["pos"])])
+def test_an_axis_stands_five_minutes_before_and_after_a_move(stands: int, moved: list[str]) -> None:
     place = np.where((ROW >= 20) & (20 + stands > ROW), 650.0, 150.0)
-    assert moves(problem(Parts(rough(), values={"pos": place}, channels=axis())).blocks, "pos") is moved
+    off = Parts(rough() + 0.01 * (place - 150.0), values={"pos": place}, channels=axis())
+    assert telling(off) == moved
 
 
-@pytest.mark.parametrize(("far", "moved"), [(0.9, False), (1.1, True), (-500.0, True)])
-def test_a_move_is_a_millimetre_at_least(far: float, moved: bool) -> None:
+@pytest.mark.parametrize(("far", "moved"), [(0.9, []), (1.1, ["pos"]), (-500.0, ["pos"])])
+def test_a_move_is_a_millimetre_at_least(far: float, moved: list[str]) -> None:
     place = placed((400.0 + far,), first=100)
-    assert moves(problem(Parts(rough(), values={"pos": place}, channels=axis())).blocks, "pos") is moved
-    assert not moves(problem(Parts(rough())).blocks, "pos"), "nobody logged it"
+    assert telling(Parts(rough() + 4.0 * (ROW >= 100), values={"pos": place}, channels=axis())) == moved
+
+
+@pytest.mark.parametrize(("grows", "places"), [(0.0, []), (GROWS / 20, []), (GROWS / 5, ["pos"]), (-GROWS, ["pos"])])
+def test_the_place_of_a_screw_tells_where_its_moves_make_steps(grows: float, places: list[str]) -> None:
+    """Half a um at least, three times the noise, and a tread beyond that."""
+    assert telling(of(placed(TO_AND_FRO), warmed(), grows=grows)) == places
+    assert telling(of(placed((400.0,)), warmed(), grows=grows)) == [], "it moves nowhere"
+    assert telling(of(placed(TO_AND_FRO), warmed(), grows=grows), noise=3.0) == []
+
+
+def test_a_slip_at_one_of_many_moves_does_not_make_its_place_tell() -> None:
+    assert telling(of(placed(TO_AND_FRO), warmed(), grows=0.0, slip=4.0, at=150)) == []
+    assert telling(Parts(rough())) == [], "nobody logged it"

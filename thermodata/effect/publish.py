@@ -90,7 +90,7 @@ def _section(d: Description) -> str:
     if d.refines:
         facts.insert(1, ("Refines", ", ".join(f"[{n}](#{n})" for n in d.refines)))
     if d.told_by:
-        facts.insert(2, ("Asked alone", f"where the {d.told_by} goes from one place to another"))
+        facts.insert(2, ("Asked alone", f"where moves of the {d.told_by} make steps"))
     if not d.asked:
         facts.append(("Diagnosis", "does not ask for it by itself: a model file names it"))
     parts.append("".join(f"- {name}: {value}\n" for name, value in facts))

@@ -105,6 +105,6 @@ def refines(effect: Effect) -> tuple[str, ...]:
 
 
 def told_by(effect: Effect) -> str | None:
-    """The role by whose moves it is told from what it refines; None where it isn't asked for alone."""
+    """The role whose moves tell it from what it refines; None where it isn't asked for alone."""
     found: str | None = getattr(effect, "told_by", None)
     return found

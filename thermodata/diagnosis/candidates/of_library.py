@@ -128,11 +128,11 @@ def candidates(
     channels: Mapping[str, ChannelInfo],
     present: Iterable[Present],
     response: str,
-    moving: Container[str] = (),
+    telling: Container[str] = (),
 ) -> list[CandidateEffect]:
-    """What could be missing. present: what the model has. moving: positions that go from one place to another. Every
-    channel is asked as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are
-    looked for within tests, not here."""
+    """What could be missing. present: what the model has. telling: positions that make steps where they
+    go from one place to another. Every channel is asked as a plain lag too, whatever named effects it drives: a name
+    must earn its place. Artefacts are looked for within tests, not here."""
     own = tuple(present)
     plain = [p for p in own if is_plain(p.effect, library)]
     # a plain function is no other effect than what it stands for
@@ -163,7 +163,7 @@ def candidates(
             if any(p.channels == names and p.modes >= modes(effect) for p in plain):
                 continue
             # beside what it refines, by another channel, it is no cause either
-            alone = binding.get(told_by(effect) or "") in moving and not model.has_any(refines(effect), family)
+            alone = binding.get(told_by(effect) or "") in telling and not model.has_any(refines(effect), family)
             if refines(effect) and not (alone or model.has_one_of(refines(effect), names)):
                 continue
             kin = kin_of(effect, family, names, model, library, usable)

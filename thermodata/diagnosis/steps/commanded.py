@@ -97,6 +97,18 @@ class Commands:
         )
         return tuple(dict.fromkeys(changing))
 
+    def make(self, name: str) -> float:
+        """The largest step that a line through zero foretells of the changes of a command, in any of the ways that it
+        may act; 0 where its steps are on none."""
+        most = 0.0
+        for command in (c for c in self._commands if c.name == name):
+            for way in {way for course in command.courses if course for way in course.rows}:
+                x, y = self._elsewhere(command.courses, self._jumps, -1, 0, 0, way)
+                if len(x):
+                    slope, alike = through_zero(x, y)
+                    most = max(most, abs(slope) * float(np.abs(x).max()) if alike >= ALIKE else 0.0)
+        return most
+
     def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
         own, jump = command[block], float(self._jumps[block][i])
         if own is None or not np.isfinite(jump):
@@ -175,11 +187,6 @@ def _warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
     """The temperatures of an axis, by the channel of its position."""
     at = channels[position].at
     return sorted(n for n, c in channels.items() if at and c.quantity == "temperature" and holds(at, c.at))
-
-
-def moves(blocks: Sequence[Block], name: str) -> bool:
-    """Whether a position goes from one place to another in any test."""
-    return any(c is not None and len(c.rows[1]) for c in _moves(blocks, name, ())[0])
 
 
 def _moves(blocks: Sequence[Block], name: str, warmth: Sequence[str]) -> list[list[_Course | None]]:
