@@ -37,6 +37,7 @@ class PlainEffect:
     params: tuple[Param, ...] = ()
     gains: tuple[Gain, ...] = (Gain("gain", "um/K", (0.1, 10.0), "any", ""),)
     refines: tuple[str, ...] = ()
+    told_by: str | None = None
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
         return np.column_stack([drivers.values["u"]] * len(self.gains))

@@ -74,6 +74,44 @@ def test_a_refinement_is_asked_for_where_the_model_has_what_it_refines_on_the_sa
     assert asked(spindle, REFINED, present=(has("spindle", "T_nut"),)) == []
 
 
+PLACED = {**CHANNELS, "x": ChannelInfo("x", "position", "mm", at="axis.x")}
+GROWS = replace(
+    REFINED,
+    name="growth",
+    needs=(Need("u", "temperature", ("axis.x.nut",)), Need("place", "position", ("axis.x",))),
+    told_by="place",
+)
+
+
+@pytest.mark.parametrize(
+    ("moving", "present", "kin"),
+    [
+        ((), (), "not asked"),
+        (("y",), (), "not asked"),
+        (("x",), (), None),
+        (("x",), (has("screw", "T_oil", family="feed_y"),), None),
+        (("x",), (has("screw", "x", family="feed_x"),), "same"),
+        (("x",), (has("screw", "T_oil", family="feed_x"),), "not asked"),
+        ((), (has("screw", "T_nut", family="feed_x"),), "same"),
+        (("x",), (has("motor", "T_oil", family="feed_x"),), "related"),
+    ],
+)
+def test_what_a_place_tells_from_what_it_refines_is_asked_alone_where_that_moves(
+    moving: tuple[str, ...], present: tuple[Present, ...], kin: str | None
+) -> None:
+    """Where the model has what it refines it is a mode of it, as before; and by another channel it isn't asked."""
+    library = {e.name: e for e in (NUT, GROWS, replace(NUT, name="motor"))}
+    found = {c.id: c.kin for c in candidates(library, PLACED, present, "dZ", moving)}
+    assert found.get("growth:T_nut,x", "not asked") == kin
+
+
+def test_where_an_axis_stands_tells_no_part_of_it_from_another() -> None:
+    """Its guide may be what its screw seems, as where the place is not read."""
+    library = {"feed_screw": effects()["feed_screw"], "screw_growth": effects()["screw_growth"]}
+    found = {c.id: c.unread for c in candidates(library, PLACED, (), "dZ", ("x",))}
+    assert found == {"feed_screw:T_nut": ("axis.x.guide",), "screw_growth:T_nut,x": ("axis.x.guide",)}
+
+
 def test_artefacts_and_effects_without_drivers_are_no_candidates() -> None:
     assert asked(replace(NUT, family="artefact"), replace(NUT, name="drift", needs=())) == []
 

@@ -85,6 +85,13 @@ def test_what_says_that_it_refines_does_so_however_much_it_takes_away() -> None:
     assert said(cause(refines=("known0",), after=0.01), response=1.0) == MODE
 
 
+@pytest.mark.parametrize(("kin", "what"), [(None, None), ("same", MODE)])
+def test_what_is_told_from_it_by_a_place_refines_only_what_the_model_has(kin: Kin, what: str | None) -> None:
+    one = cause(kin, refines=("known0",), after=0.01)
+    told = replace(one.candidate, effect=replace(one.candidate.effect, told_by="u"))
+    assert said(replace(one, candidate=told), response=1.0) == what
+
+
 @pytest.mark.parametrize("after", [0.9, 0.01])
 @pytest.mark.parametrize("response", [1.0, 100.0])
 def test_what_reads_the_same_cause_again_is_another_mode_of_it(after: float, response: float) -> None:

@@ -67,6 +67,15 @@ def test_a_name_on_another_channel_that_acts_alike_is_worth_a_fifth(evidence: fl
     assert name(preferred([passive, two])) == taken, "but what makes no heat is no cause"
 
 
+@pytest.mark.parametrize(("evidence", "taken"), [(80.1, "screw"), (79.9, "growth")])
+def test_what_it_refines_is_preferred_by_fewer_of_its_channels(evidence: float, taken: str) -> None:
+    growth = scored("growth", channels=("T_a", "x"), refines=("screw",), evidence=100.0)
+    screw = scored("screw", evidence=evidence)
+    assert name(preferred([growth, screw])) == taken
+    assert name(preferred([growth, scored("other", evidence=evidence)])) == "growth", "refined by nothing"
+    assert name(preferred([growth, scored("screw", channels=("T_b",), evidence=evidence)])) == "growth"
+
+
 def test_between_names_or_between_lags_the_evidence_decides() -> None:
     for family in ("feed_x", "generic"):
         first = scored("first", family=family, evidence=100.0)

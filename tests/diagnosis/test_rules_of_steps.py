@@ -256,7 +256,7 @@ def test_a_motor_that_cools_once_its_axis_rests_excuses_no_slip() -> None:
     assert in_tests(slipped(still, at + 1), jumps_of(of=0.0), quantity="temperature") == [("t0", 5)]
 
 
-@pytest.mark.parametrize("quantity", ["position", "pressure"])
+@pytest.mark.parametrize("quantity", ["humidity", "pressure"])
 def test_what_is_no_command_explains_no_step(quantity: str) -> None:
     assert len(in_tests(jumps_of(1.0, of=5.0), jumps_of(1.0, of=5.0), quantity=quantity)) == 2
 

@@ -50,6 +50,11 @@ class RefinesByText(Good):
     refines = "good"
 
 
+class ToldByNothing(Good):
+    refines = ("good",)
+    told_by = "place"
+
+
 class TwiceTheName(Good):
     gains = (Gain("a", "um/K", (0, 10), "any", "k"),)
 
@@ -178,6 +183,7 @@ class Stated(Good):
     equation = "d = k u a"
     telltale = "goes with u"
     refines = ("good",)
+    told_by = "u"
 
 
 def test_a_good_effect_passes() -> None:
@@ -198,6 +204,7 @@ def test_an_effect_need_not_be_linear_in_what_drives_it(sound: type[Good]) -> No
         (EquationOfNoText, kit.what_it_states_beyond_the_contract_is_text),
         (TellsNothing, kit.what_it_states_beyond_the_contract_is_text),
         (RefinesByText, kit.what_it_states_beyond_the_contract_is_text),
+        (ToldByNothing, kit.what_it_states_beyond_the_contract_is_text),
         (TwiceTheName, kit.its_names_are_unique),
         (NoSuchQuantity, kit.it_needs_quantities_that_exist),
         (StartsOutside, kit.its_bounds_hold_its_start),

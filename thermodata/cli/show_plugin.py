@@ -18,6 +18,7 @@ _OF_EFFECTS = (
     "telltale",
     "source",
     "refines",
+    "told_by",
     "asked",
     "roles",
     "parameters",

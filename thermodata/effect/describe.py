@@ -58,8 +58,9 @@ class Solved:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """An effect's own account of itself. equation, telltale: None where the effect states none. asked: whether
-    diagnosis asks for it by itself. text: its class's docstring."""
+    """An effect's own account of itself. equation, telltale: None where the effect states none. told_by: the role
+    whose moves tell it from what it refines. asked: whether diagnosis asks for it by itself. text: its class's
+    docstring."""
 
     name: str
     family: str
@@ -68,6 +69,7 @@ class Description:
     telltale: str | None
     source: str
     refines: tuple[str, ...]
+    told_by: str | None
     asked: bool
     roles: tuple[Role, ...]
     parameters: tuple[Searched, ...]
@@ -85,6 +87,7 @@ def describe(effect: Effect) -> Description:
         telltale=_text(effect, "telltale"),
         source=effect.source,
         refines=tuple(getattr(effect, "refines", ())),
+        told_by=getattr(effect, "told_by", None),
         asked=bool(getattr(effect, "asked", True)),
         roles=tuple(
             Role(n.role, n.quantity, CANONICAL_UNIT.get(n.quantity), tuple(n.places), n.optional) for n in effect.needs

@@ -89,6 +89,8 @@ def _section(d: Description) -> str:
     facts = [("Family", code(d.family)), ("Tell-tale", d.telltale or NOT_STATED), ("Source", linked(d.source))]
     if d.refines:
         facts.insert(1, ("Refines", ", ".join(f"[{n}](#{n})" for n in d.refines)))
+    if d.told_by:
+        facts.insert(2, ("Asked alone", f"where moves of the {d.told_by} make steps"))
     if not d.asked:
         facts.append(("Diagnosis", "does not ask for it by itself: a model file names it"))
     parts.append("".join(f"- {name}: {value}\n" for name, value in facts))

@@ -79,6 +79,9 @@ def what_it_states_beyond_the_contract_is_text(effect: Effect) -> Iterator[str]:
     refines = getattr(effect, "refines", ())
     if not isinstance(refines, tuple) or not all(isinstance(one, str) for one in refines):
         yield f"'refines' is {refines!r}, and no tuple of names"
+    told_by = getattr(effect, "told_by", None)
+    if told_by is not None and told_by not in [n.role for n in effect.needs]:
+        yield f"'told_by' is {told_by!r}, and no role of its own"
 
 
 def its_names_are_unique(effect: Effect) -> Iterator[str]:

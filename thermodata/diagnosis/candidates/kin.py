@@ -31,6 +31,10 @@ class ModelOf:
     def read(self) -> frozenset[str]:
         return frozenset[str]().union(*(p.channels for p in self.own))
 
+    def has_any(self, effects: Container[str], family: str) -> bool:
+        """Whether one of the effects acts at all, in a family, by whatever channels."""
+        return any(p.effect in effects and p.family == family for p in self.acting)
+
     def has_one_of(self, effects: Container[str], names: frozenset[str]) -> bool:
         """Whether one of the effects acts in all phases, by one of the channels."""
         return any(p.effect in effects and p.whole and p.channels & names for p in self.acting)
@@ -47,7 +51,7 @@ def kin_of(
     """Of an effect by some channels. family: with the axis that these sit on. names: of the channels. channels: of the
     data, what each of them is."""
     near = names <= model.read or _near(names, model.read, channels)
-    if refines(effect):
+    if refines(effect) and (told_by(effect) is None or model.has_any(refines(effect), family)):
         return "same"
     # a temperature is the state of one body; a speed makes heat, and force
     warm = all(channels[n].quantity == "temperature" for n in names)
@@ -94,6 +98,13 @@ def heat_of(effect: Effect, family: str) -> tuple[str, str]:
 
 
 def refines(effect: Effect) -> tuple[str, ...]:
-    """Effects that this one is a refinement of: it is asked for only where the model has one of them."""
+    """Effects that this one is a refinement of: it is asked for only where the model has one of them, or `told_by`
+    says."""
     found: tuple[str, ...] = getattr(effect, "refines", ())
+    return found
+
+
+def told_by(effect: Effect) -> str | None:
+    """The role whose moves tell it from what it refines; None where it isn't asked for alone."""
+    found: str | None = getattr(effect, "told_by", None)
     return found

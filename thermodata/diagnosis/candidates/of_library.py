@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.kin import Kin, ModelOf, kin_of, refines
+from thermodata.diagnosis.candidates.kin import Kin, ModelOf, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.diagnosis.question.present import (
     CONTROL,
@@ -128,9 +128,11 @@ def candidates(
     channels: Mapping[str, ChannelInfo],
     present: Iterable[Present],
     response: str,
+    telling: Container[str] = (),
 ) -> list[CandidateEffect]:
-    """What could be missing. present: what the model has. Every channel is asked as a plain lag too, whatever named
-    effects it drives: a name must earn its place. Artefacts are looked for within tests, not here."""
+    """What could be missing. present: what the model has. telling: positions that make steps where they
+    go from one place to another. Every channel is asked as a plain lag too, whatever named effects it drives: a name
+    must earn its place. Artefacts are looked for within tests, not here."""
     own = tuple(present)
     plain = [p for p in own if is_plain(p.effect, library)]
     # a plain function is no other effect than what it stands for
@@ -160,14 +162,17 @@ def candidates(
                 continue
             if any(p.channels == names and p.modes >= modes(effect) for p in plain):
                 continue
-            if refines(effect) and not model.has_one_of(refines(effect), names):
+            # beside what it refines, by another channel, it is no cause either
+            alone = binding.get(told_by(effect) or "") in telling and not model.has_any(refines(effect), family)
+            if refines(effect) and not (alone or model.has_one_of(refines(effect), names)):
                 continue
             kin = kin_of(effect, family, names, model, library, usable)
             nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable)]
             if not nameless and len(bodies) == len(names):
                 continue
             passive = placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names))
-            other = unread(effect, binding.values(), usable, known)
+            # where an axis stands tells no part of it from another
+            other = unread(effect, [n for role, n in binding.items() if role != told_by(effect)], usable, known)
             around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
             of_motion = all(is_motion(usable[n].quantity) for n in names)
             found.append(

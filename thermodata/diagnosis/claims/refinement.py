@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.kin import cause, heat_of, refines
+from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
@@ -77,7 +77,8 @@ class Refinement:
         if isinstance(scored.candidate, ChangedEffect):
             return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
         kin, most = scored.candidate.kin, scored.drop >= MOST
-        if refines(scored.candidate.effect) or kin == "same":
+        effect = scored.candidate.effect
+        if (refines(effect) and told_by(effect) is None) or kin == "same":
             return self._mode(scored)
         if kin == "part" and sharpness(scored) < STRONG:
             return PART

@@ -4,7 +4,8 @@ A centrifugal shift looks like a slip of the probe, but it comes with every chan
 never far from a slip, but its other changes make no step. So a change explains a step only where the other changes of
 the same channel, at the same distance in time, foretell it: by a straight line through zero, jump of the residual over
 change of the command, or of its square (centrifugal force), or over how far it changes, whichever way (what speeds up
-heats as much as what slows down). So does a temperature, where a body is changed for another.
+heats as much as what slows down). So does a temperature, where a body is changed for another. And so does an axis
+that goes from one place to another: its screw grows by where it stands times how warm it is.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ import numpy as np
 
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.steps.sudden import BESIDE, HOLE_STEPS, over_three, suddenly
+from thermodata.effect.places import holds
+from thermodata.modelling.inputs.drivers import start_value
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
@@ -23,24 +26,38 @@ from thermodata.view.dataset import ChannelInfo
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
 JUMPING = (*COMMANDS, "temperature")
+POSITION = "position"
 POWERS = (1, 2)
 EITHER_WAY = 0  # no power: how far it changes, up or down
-WAYS = (*POWERS, EITHER_WAY)
+WARM = -1  # nor that: how far an axis moves, times how warm it is
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
 MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
 ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
+LEAST_MM = 1.0  # less moves no screw that is 30 K warm by LEAST_UM
+STANDS_S = 300.0  # before and after a move, or it is none from one place to another
+AS_WARM = 0.5  # of how far an axis moves times how warm it is, by which another move tells of it at least
 
 
 @dataclass(frozen=True, slots=True)
 class _Course:
-    """A command in one block. change: way -> shape (m,), over three intervals; rows: way -> where that is a change of
-    its own. hole: shape (m,), whether the interval before a sample is one in which nobody logged the command."""
+    """A command in one block. change: way -> shape (m,), over three intervals; rows: way, in the order of asking ->
+    where that is a change of its own. hole: shape (m,), whether the interval before a sample is one in which nobody
+    logged the command."""
 
     change: Mapping[int, Float1D]
     rows: Mapping[int, Int1D]
     hole: Bool1D
+
+
+@dataclass(frozen=True, slots=True)
+class _Command:
+    """told: whether the machine is told so. courses: a block each, None where it lacks the command."""
+
+    name: str
+    told: bool
+    courses: Sequence[_Course | None]
 
 
 def is_command(channel: ChannelInfo) -> bool:
@@ -55,35 +72,56 @@ class Commands:
         self._step_s = problem.step_s
         self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
-        found = {n: c.quantity for b in problem.blocks for n, c in b.test.channels.items() if c.quantity in JUMPING}
-        self._names = sorted(found)
-        self._told = [found[n] in COMMANDS for n in self._names]
-        self._commands = [_courses(problem.blocks, n, told=t) for n, t in zip(self._names, self._told, strict=True)]
+        found = {n: c for b in problem.blocks for n, c in b.test.channels.items()}
+        self._commands: list[_Command] = []
+        for name, quantity in sorted((n, c.quantity) for n, c in found.items()):
+            if quantity in JUMPING:
+                told = quantity in COMMANDS
+                self._commands.append(_Command(name, told, _courses(problem.blocks, name, told=told)))
+            elif quantity == POSITION:
+                self._commands += [_Command(name, True, m) for m in _moves(problem.blocks, name, _warmth(name, found))]
 
     def explain(self, block: int, i: int) -> bool:
         """Whether a command makes the step before sample i of a block."""
-        return any(self._explains(command, block, i) for command in self._commands)
+        return any(self._explains(command.courses, block, i) for command in self._commands)
 
     def change_at(self, block: int, i: int) -> tuple[str, ...]:
         """The commands that change in the interval before sample i of a block, or in one beside it, whatever they do
         elsewhere."""
-        return tuple(
-            name
-            for name, told, command in zip(self._names, self._told, self._commands, strict=True)
-            if told
-            and (own := command[block]) is not None
+        changing = (
+            command.name
+            for command in self._commands
+            if command.told
+            and (own := command.courses[block]) is not None
             and any(i - 1 in r or i in r or i + 1 in r for r in own.rows.values())
         )
+        return tuple(dict.fromkeys(changing))
+
+    def make(self, name: str) -> float:
+        """The largest step that a line through zero foretells of the changes of a command, in any of the ways that it
+        may act; 0 where its steps are on none."""
+        most = 0.0
+        for command in (c for c in self._commands if c.name == name):
+            for way in {way for course in command.courses if course for way in course.rows}:
+                x, y = self._elsewhere(command.courses, self._jumps, -1, 0, 0, way)
+                if len(x):
+                    slope, alike = through_zero(x, y)
+                    most = max(most, abs(slope) * float(np.abs(x).max()) if alike >= ALIKE else 0.0)
+        return most
 
     def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
         own, jump = command[block], float(self._jumps[block][i])
         if own is None or not np.isfinite(jump):
             return False
-        for way in WAYS:
-            near = own.rows[way][np.abs(own.rows[way] - i) <= int(COMMAND_S / self._step_s) + 1]
+        for way, rows in own.rows.items():
+            near = rows[np.abs(rows - i) <= int(COMMAND_S / self._step_s) + 1]
             for row in near.tolist():
                 x, y = self._elsewhere(command, self._jumps, block, i, i - row, way)
-                if tells(jump, float(own.change[way][row]), x, y, at_once=abs(i - row) <= 1):
+                change = float(own.change[way][row])
+                # moves of a cold axis say nothing of a warm one's
+                if way == WARM and not np.any(np.abs(x) >= AS_WARM * abs(change)):
+                    x, y = np.empty(0), np.empty(0)
+                if tells(jump, change, x, y, at_once=abs(i - row) <= 1):
                     return True
         # what a command did while nobody logged it, neither the model knows nor we: at most its largest change; what
         # it does whichever way it goes cannot stay, or the machine would walk off
@@ -143,6 +181,51 @@ def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course 
     return [
         _course(b, v, hole & told, span, told) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)
     ]
+
+
+def _warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
+    """The temperatures of an axis, by the channel of its position."""
+    at = channels[position].at
+    return sorted(n for n, c in channels.items() if at and c.quantity == "temperature" and holds(at, c.at))
+
+
+def _moves(blocks: Sequence[Block], name: str, warmth: Sequence[str]) -> list[list[_Course | None]]:
+    """Of the position of an axis: what it does by how far it moves, and by that times how warm it is, by each of its
+    temperatures; None for each block that lacks one."""
+    places = [_held(b, name)[0] for b in blocks]
+    span = float(np.ptp(np.concatenate(places))) if any(map(len, places)) else 0.0
+    least = max(MOVED * span, LEAST_MM)
+    found: list[list[_Course | None]] = [[] for _ in range(1 + len(warmth))]
+    for block, place in zip(blocks, places, strict=True):
+        far, unknown = over_three(place, block.t_s), np.zeros(len(place), dtype=np.bool_)
+        rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
+        found[0].append(_Course({1: far}, {1: rows}, unknown) if len(place) else None)
+        for own, temperature in zip(found[1:], warmth, strict=True):
+            rise = _rise(block, temperature)
+            both = len(place) and len(rise)
+            own.append(_Course({WARM: far * rise}, {WARM: rows}, unknown) if both else None)
+    return found
+
+
+def _from_place_to_place(place: Float1D, far: Float1D, least: float, many: int) -> Int1D:
+    """Rows of `far` in which it moves so far, and stands in the many samples before and after: where it goes to and
+    fro all the time nothing begins."""
+    found = np.flatnonzero(np.abs(np.nan_to_num(far)) > least)
+    sides = ((place[max(0, i - 1 - many) : i - 1], place[i + 1 : i + 1 + many]) for i in found.tolist())
+    return found[np.array([all(np.ptp(side) <= least for side in both) for both in sides], dtype=np.bool_)]
+
+
+def _rise(block: Block, name: str) -> Float1D:
+    """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
+    value, _ = _held(block, name)
+    if not len(value):
+        return value
+    logged = np.asarray(block.test.values[name], dtype=np.float64)
+    return value - start_value(logged[np.isfinite(logged)], _step_s(block.test.t_s))
+
+
+def _step_s(t_s: Float1D) -> float:
+    return float(np.median(np.diff(t_s)))
 
 
 def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:

@@ -32,7 +32,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.steps import repeating
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -99,7 +99,7 @@ def investigate(
     steps = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
-    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
     by_condition = gains_by_condition(fitted, among, data.tests)
@@ -166,7 +166,7 @@ def causes_of(
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     steps = repeating.single(find_steps(fine))
     problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
-    asked = candidates(library, data.channels, present(fitted), fitted.name)
+    asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
 

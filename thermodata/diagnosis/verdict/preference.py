@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from thermodata.diagnosis.candidates.kin import refines
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.refinement import is_surely_missing
 from thermodata.diagnosis.question.present import CONTROL, GENERIC, TIME_UNITS
@@ -33,7 +34,8 @@ def preferred(ranked: Sequence[Scored]) -> Scored | None:
     own = set(best.candidate.channels)
     for other in (s for s in ranked[1:] if len(s.shape) and not s.candidate.within):
         theirs = set(other.candidate.channels)
-        fewer = theirs < own and best.candidate.family in UNNAMED
+        plainer = best.candidate.family in UNNAMED or other.candidate.effect.name in refines(best.candidate.effect)
+        fewer = theirs < own and plainer
         named = best.candidate.family in UNNAMED and other.candidate.family not in UNNAMED and own & theirs
         elsewhere = (
             best.candidate.family in UNNAMED

@@ -114,6 +114,7 @@ class ScrewGrowth:
 
     name = "screw_growth"
     refines = ("feed_screw",)
+    told_by = "position"
     family = "feed_{a}"
     meaning = "growth of a screw without a scale, with position: alpha x dT and the fixed end's alpha x0 dT"
     equation = "d = alpha x F_tau{dT} + k0 F_tau{dT}"
