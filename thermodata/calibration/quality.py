@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.calibration.quality_edges import without_pauses
+from thermodata.calibration.quality_frozen import frozen_runs
 from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible, sentinels
 from thermodata.calibration.quality_range import Limits
 from thermodata.calibration.quality_spike import spikes
@@ -37,6 +38,9 @@ ANALOG = frozenset(
 )
 # ... and which can't leave and come back within a few samples. (Position, speed, power and flow can.)
 _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_difference", "humidity"})
+# ... and of these which rest on no end: no pump that is off holds them at 0, and no air is more than saturated.
+_FREEZES = frozenset({"temperature", "temperature_difference"})
+_TOLD = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.OUT_OF_RANGE)
 # Quantities that rest, exactly, and up to where: by night no sun shines, but for a lamp and the sensor's offset [W/m2].
 RESTS_BELOW = {"irradiance": 30.0}
 _DAWN = 300.0 / 3600e9  # [W/m2/ns] the clear sky's steepest dawn; what comes quicker is no night that begins or ends
@@ -122,6 +126,12 @@ def _column(
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
+        if column.quantity in _FREEZES and not is_at_tool(column.at):
+            beside = {k: v for k, v in others.items() if columns[k].quantity in _FREEZES}
+            for start, stop, why in frozen_runs(x, t_ns, stats[name], beside):
+                if not (flags[start:stop] & _TOLD).any():
+                    flags[start:stop] |= np.uint16(Flag.STUCK)
+                    events.append(_event(name, "stuck", t_ns, start, stop, why))
         if column.quantity in _INERT:
             events += _mark_spikes(name, x, flags, t_ns, stats[name], time)
         if column.quantity == "temperature" and not is_at_tool(column.at):
