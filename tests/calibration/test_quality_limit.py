@@ -184,3 +184,51 @@ def test_an_extreme_that_was_only_reached_is_no_end_of_a_range(seed: int) -> Non
     cut = np.maximum(x, 20.5)
     flags, _ = run(clock(), T=("temperature", cut), **columns)
     assert (flags["T"][:1500][cut[:1500] == 20.5] & Flag.SATURATED).all()
+
+
+def clear(seed: int, coarse: float = 1.0, hours: float = 6.0, clouds: int = 12) -> Float1D:
+    """A clear sky about noon in whole W/m2, every 5 s for 6 h; clouds pass and make it darker."""
+    rng = np.random.default_rng(seed)
+    t_s = np.arange(int(hours * 720)) * 5.0
+    x = 550 * np.cos(2 * np.pi * (t_s - 3 * 3600) / 86400)
+    for at in rng.integers(0, len(x), clouds):
+        n = int(rng.integers(10, 60))
+        dim = 1 - 0.4 * np.abs(rng.normal(0, 1, len(x[at : at + n]))) * np.hanning(n)[: len(x[at : at + n])]
+        x[at : at + n] *= dim
+    return np.asarray(np.round(x / coarse) * coarse)
+
+
+def of_clear_sky(x: Float1D) -> Array:
+    others = {"T": ("temperature", noisy(1, len(x), noise=0.05) / 20 + 25)}
+    return np.asarray(run(clock(len(x), 5.0), G=("irradiance", x), **others)[0]["G"] & (Flag.HELD | Flag.SATURATED))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_clear_sky_about_noon_is_neither_held_nor_saturated(seed: int) -> None:
+    """It goes through its highest readings slowly, and comes there again after each cloud."""
+    rng = np.random.default_rng(seed)
+    for clouds in (0, 5, 12, 40):
+        x = clear(seed, clouds=clouds)
+        x[: len(x) // 4] = np.round(x[: len(x) // 4] * (1 - np.abs(rng.normal(0, 0.02, len(x) // 4))))
+        assert not of_clear_sky(x).any()
+        means = x.copy()
+        means[1::2] = (x[:-1:2] + x[1::2]) / 2  # as where it is brought to the rows of another logger
+        assert not of_clear_sky(means).any()
+
+
+@pytest.mark.parametrize(("start", "minutes", "flagged"), [(2160, 15, False), (2160, 55, True), (3000, 55, True)])
+def test_the_sun_stands_for_half_an_hour_at_most(start: int, minutes: int, flagged: bool) -> None:
+    """By whole W/m2 it stands for so long about noon, at 550 W/m2."""
+    rng = np.random.default_rng(1)
+    x = clear(1, clouds=0)
+    passing = slice(len(x) // 8, len(x) // 3)
+    x[passing] = np.round(x[passing] * (1 - 0.1 * np.abs(rng.normal(0, 1, passing.stop - passing.start))))
+    half = minutes * 6
+    x[start - half : start + half] = x[start - half]
+    assert bool((of_clear_sky(x)[start - half : start + half] != 0).all()) is flagged
+
+
+def test_a_reading_below_others_about_it_is_no_clear_sky() -> None:
+    x = np.round(400 + np.random.default_rng(2).normal(0, 12, 4320))
+    x[2000:2040] = 396.0
+    assert of_clear_sky(x)[2000:2040].all()

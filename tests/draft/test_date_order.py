@@ -70,6 +70,20 @@ def test_a_source_with_other_dates_tells_it_where_one_order_fits(tmp_path: Path,
 
 
 @pytest.mark.parametrize("order", list(ORDERS))
+@pytest.mark.parametrize(("days", "told"), [(((3, 3), (3, 4)), True), (((3, 3), (4, 4)), False)])
+def test_a_date_that_fits_both_ways_tells_nothing(
+    tmp_path: Path, order: str, days: tuple[tuple[int, int], ...], told: bool
+) -> None:
+    """3 March is 03/03 either way; beside it another test does tell it."""
+    for name, (month, day) in zip("abcd", days, strict=False):
+        first = datetime(2026, month, day, 8)
+        log(tmp_path / f"{name}_nc.csv", first, ORDERS[order])
+        log(tmp_path / f"{name}_daq.csv", first, "%Y-%m-%d", "Column [degC],Hall [degC]")
+    (source,) = [s for s in drafted(tmp_path).values() if s.table]
+    assert source.table == {"time": {"format": order if told else "unknown"}}
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
 @pytest.mark.parametrize(
     ("days", "asked"),
     [

@@ -118,3 +118,34 @@ def test_a_jump_test_finds_its_probe_where_each_signal_has_a_stream() -> None:
     assert jump("Y").is_of("s1", "Y"), "the second signal of the tests, and the first here"
     assert not jump("Y").is_of("s0", "X")
     assert not jump("Y", "Y").is_of("s1", "Y"), "two of one name are told apart by their streams"
+
+
+def beside(path: Path, y: list[float], z: list[float]) -> None:
+    path.parent.mkdir(exist_ok=True)
+    rows = "".join(f"{i},{a:.4f},{b:.4f},22.0\n" for i, (a, b) in enumerate(zip(y, z, strict=True)))
+    path.write_text(f"time [s],Probe Y [V],Probe Z [V],T1 [degC]\n{rows}")
+
+
+@pytest.mark.parametrize(
+    ("name", "height", "both"),
+    [
+        ("jump", 1.7, True),
+        ("jump", -1.7, True),
+        ("jump", 0.5, False),  # across the axis
+        ("jump_Y", 1.7, False),  # of one axis by its name
+    ],
+)
+def test_a_jump_test_that_moves_the_probes_of_two_axes_is_of_both(
+    tmp_path: Path, name: str, height: float, both: bool
+) -> None:
+    """Whether the other axis was moved, too, is asked beside it."""
+    still = [5 + i / 10_000 for i in range(3000)]
+    beside(tmp_path / "lab" / "S3000.csv", still, still)
+    beside(tmp_path / "lab" / f"{name}.csv", staircase(2.0), staircase(height))
+    made = draft_files(tmp_path / "lab").draft
+    assert [j.signal for j in made.jumps] == ["Probe Y [V]", "Probe Z [V]"][: 1 + both]
+    (other,) = [c for c in made.channels if c.name == "Probe_Z"]
+    assert (other.calibration == "jump_Probe_Z") is both
+    asked = "; ".join(other.said.questions)
+    assert ("did the axis Z move in jump.csv? 'Probe Y [V]' moved at the same time" in asked) is both
+    assert ("calibration? a jump test" in asked) is not both

@@ -55,3 +55,21 @@ def test_what_supports_a_screw_is_its_bearing(name: str, at: str) -> None:
 def test_the_housing_of_the_second_spindle_is_not_that_of_the_first(name: str, at: str, sure: bool) -> None:
     found = guess(name, "degC")
     assert (found.at, found.sure) == (at, sure)
+
+
+@pytest.mark.parametrize("topic", ["cn", "/cn", "nc", "commande"])
+@pytest.mark.parametrize(
+    ("name", "unit", "at"),
+    [
+        ("vitesse_broche", "rpm", "spindle"),
+        ("puissance_broche_kw", "kW", "spindle"),
+        ("T_moteur_Y", "degC", "axis.y.motor"),
+    ],
+)
+def test_a_commande_numerique_is_no_c_axis(topic: str, name: str, unit: str, at: str) -> None:
+    assert guess(f"{topic}.{name}", unit).at == at
+
+
+@pytest.mark.parametrize("name", ["Cn", "C n", "C speed", "n_C", "C1_rpm", "Drehzahl C"])
+def test_the_speed_of_a_c_axis_is_one(name: str) -> None:
+    assert guess(name, "rpm").at in ("table", "rotary.c")

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from dataclasses import replace
 
-from thermodata.draft.campaign.orientation import calibration_of, reads_a_length, sign_of
+from thermodata.draft.campaign.orientation import calibration_of, moved_too, reads_a_length, sign_of
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.folder.legend import IN_LEGEND
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
@@ -72,6 +72,8 @@ def channels_of(
         keys = [(s.stream, s.name) for s in one.spellings]
         twin = signal.name in twice
         jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
+        if jump is None and said.quantity == "displacement" and not twin:
+            jump, said = moved_too(signal, said, jumps)
         if jump is not None and said.quantity == "voltage":
             said = _moved_probe(said, called(signal))
         named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written

@@ -13,7 +13,7 @@ from thermodata.draft.probes.which_way import ASKED, calibration_for
 from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.naming import words
+from thermodata.draft.words.naming import parts_of, words
 from thermodata.plugin import Signal
 
 _SHOWN_STEPS = 12
@@ -95,6 +95,23 @@ def calibration_of(
         asked = "calibration? a jump test, or kind: scale with a gain in um/V"
         return None, replace(said, sure=False, questions=(*said.questions, asked))
     return _drafted(name, signal, said, jump, calibrations)
+
+
+def moved_too(signal: Signal, said: Guess, jumps: Sequence[JumpTest]) -> tuple[JumpTest | None, Guess]:
+    """The jump test of another axis's probe in which this one, which has none of its own, moved nearly as far, and the
+    question whether its axis was moved, too: what is across an axis answers by less. None where the file is called
+    after one axis, or the probes may be of the same one."""
+    for jump in jumps if said.axis else ():
+        if jump.signal is None or axis_of(words(jump.file.path.stem)) is not None:
+            continue
+        moved = axis_of(words(parts_of(jump.written or jump.signal[1])[-1]))
+        for other in jump.others:
+            own = replace(jump, signal=other.signal, steps=other.steps, dwell_s=other.dwell_s, written=None, others=())
+            if moved in (None, (said.axis or "").lower()) or not own.is_of(signal.stream, signal.name):
+                continue
+            asked = f"did the axis {said.axis} move in {jump.file.path.name}? '{jump.signal[1]}' moved at the same time"
+            return own, replace(said, sure=False, questions=(*said.questions, asked))
+    return None, said
 
 
 def sign_of(

@@ -60,8 +60,12 @@ def fitting_others(group: Group, groups: Sequence[Group], files: Sequence[RawFil
         for test, own in group.tests.items():
             there = [f.start_ns for f in other.tests.get(test, ()) if f.start_ns is not None and not f.asked]
             for start in (f.start_ns for f in own if id(f) in open_files and f.start_ns is not None):
-                for order, ns in (("dmy", start), ("mdy", swapped(start))):
-                    fits[order] += any(abs(ns - at) < _DAY_NS for at in there)
+                near = {
+                    order: any(abs(ns - at) < _DAY_NS for at in there)
+                    for order, ns in (("dmy", start), ("mdy", swapped(start)))
+                }
+                if len(set(near.values())) > 1:  # 03/03 fits both ways, and tells nothing
+                    fits.update(near)
         best = [order for order, many in fits.items() if many]
         if len(best) == 1:
             found.setdefault(best[0], other.source)

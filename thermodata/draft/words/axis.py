@@ -17,7 +17,9 @@ _ROTARY = re.compile(
     r"(?<!\S)(?:axis|achse|osa|asse|axe|eje|eixo|tengely|eksen|ось|ax|rotary|torquemotor|act|ist|pos|mot|motor|load|"
     r"curr|current|torque|speed|drehzahl|otacky) ?([abc])(?!\S)"
     r"|(?<!\S)([abc])(?: \d)? ?(?:jiku|zhou|axis|achse|osa|act|actm|actw|abs|pos|load|mot|motor|"
-    r"n|speed|drehzahl|otacky|rpm)(?!\S)"
+    r"speed|drehzahl|otacky|rpm)(?!\S)"
+    # 'cn' is the C axis's speed where nothing else is said: 'cn vitesse broche' is of a commande numérique
+    r"|(?<!\S)([abc])(?: \d)? n(?!\S)|^([abc])n$"
     r"|(?<!\S)([abc]) ?[轴軸]"
 )
 
@@ -25,5 +27,5 @@ _ROTARY = re.compile(
 def axis_of(text: str) -> str | None:
     """The one axis letter (lower case) that a name (as words()) speaks of; None where none or several."""
     found = {a or b for a, b in _LINEAR.findall(text)}
-    found |= {a or b or c for a, b, c in _ROTARY.findall(text)}
+    found |= {letter for letters in _ROTARY.findall(text) for letter in letters if letter}
     return found.pop() if len(found) == 1 else None
