@@ -58,9 +58,9 @@ def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     found: dict[PurePosixPath, PurePosixPath] = {}
     for alike in together.values():
         alike.sort(key=lambda p: -sizes[p])
-        named = _names_within_names(alike)
+        kin = _names_within_names(alike)
         for short in alike:
-            longer = (p for p in named.get(short, ()) if sizes[p] > sizes[short] and p not in found)
+            longer = (p for p in kin.get(short, ()) if sizes[p] > sizes[short] and p not in found)
             called = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
             of = next((p for p in called if _equal(folder / short, folder / p, sizes[short])), None)
             if of is not None:
