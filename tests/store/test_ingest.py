@@ -11,8 +11,10 @@ import pytest
 from store_fakes import CAMPAIGN, START_NS, NpzReader, daq, times, write_campaign, write_log
 
 from thermodata.errors import CalibrationError, SpecError, UsageError
+from thermodata.plugin import Loss
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
+from thermodata.store.ingest.losses import loss_row, told_once
 from thermodata.store.ingest.run import ingest
 
 
@@ -430,3 +432,12 @@ def test_a_source_without_a_file_in_one_test_is_a_note(store: Store, campaign: P
     summary = ingest(store, campaign)
     assert summary.losses == []
     assert any("no file of source 'nc'" in note for note in summary.notes)
+
+
+def test_a_loss_of_a_file_is_told_of_all_tests_that_any_of_its_sources_tells_it_of() -> None:
+    loss = Loss("a.csv line 3", None, None, 0.1, "odd")
+    rows = [loss_row("odd", test=test, source=s, file="a.csv", loss=loss) for test, s in (("A", "nc"), ("C", "daq"))]
+    rows[0]["tests"].append("B")
+    rows[1]["tests"].append("D")
+    (told,) = told_once(rows)
+    assert (told["tests"], told["sources"]) == (["A", "B", "C", "D"], ["nc", "daq"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from store_fakes import daq, write_log
 from thermodata.errors import FormatError, StoreError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
+from thermodata.store.ingest.resolve import SourceFiles
 from thermodata.store.ingest.run import IngestSummary, ingest
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
 
@@ -299,3 +301,16 @@ def test_a_huge_file_that_changes_while_it_is_looked_at_is_not_refused_for_that(
     monkeypatch.setattr(Choosy, "meddle", end)
     assert not ingest(store, choosy).losses
     assert hashes(store) == [hashlib.sha256(good.encode()).hexdigest()]
+
+
+def test_files_come_as_they_are_listed_however_they_are_written_and_however_many(tmp_path: Path) -> None:
+    listed = tuple(f"./b/{k:04d}.csv" for k in reversed(range(3000)))
+    paths = tuple(name.removeprefix("./") for name in listed)
+    files = SourceFiles((*listed, "log*"), (*paths, "log.2", "log.1", "log"), (), False, True)
+    began = time.process_time()
+    assert files.in_order(set(files.paths)) == list(files.paths)
+    gone = SourceFiles(files.patterns, files.paths[5:], (), False, True)
+    assert all(map(gone.claims, files.paths))
+    assert not gone.claims("b/9.csv")
+    assert gone.in_order(set(files.paths))[:3000] == list(paths)
+    assert time.process_time() - began < 10  # a pattern compiled for each of each took minutes

@@ -12,10 +12,18 @@ import numpy as np
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF, Pairs, bad_rows, quality_pairs, shared, values_of
+from thermodata.reader.text.rows.quality_columns import (
+    QUALITY_OF,
+    Pairs,
+    bad_rows,
+    may_be_quality,
+    quality_pairs,
+    shared,
+    values_of,
+)
 from thermodata.reader.zone import NAT
 
-ROWS = 20_000  # whose cells are looked at
+_MOST_ROWS, _LEAST_ROWS, _MOST_CELLS = 20_000, 2000, 400_000  # that are looked at: of a wide table fewer rows
 _NO_NUMBER = "NaN"  # a cell that says it, where others say nothing
 
 
@@ -32,6 +40,11 @@ class Related:
         """What is said of a column: the values that it tells the quality of."""
         values = values_of(self.quality).get(name)
         return {QUALITY_OF: ", ".join(values)} if values else {}
+
+
+def rows_looked_at(columns: int) -> int:
+    """The first rows of so many columns, which tell what these say of each other."""
+    return min(_MOST_ROWS, max(_LEAST_ROWS, _MOST_CELLS // max(1, columns)))
 
 
 class Relating:
@@ -73,16 +86,21 @@ def related(
     that have any; told_by_cells: False where only what is declared stands; beyond: names of other streams of the file,
     which may be declared as well. UsageError: `declared_standing`; QuestionError: `declared_zero`."""
     said = said or {}
-    cells = {name: _cells(v[:ROWS], empty.get(name)) for name, v in values.items()}
-    quality = quality_pairs(cells, lambda zero, name: declared_zero(said, zero, name, where))
+    rows = rows_looked_at(len(values))
+    head = {name: v[:rows] for name, v in values.items()}
+    # of a column that is called no quality its name is all that counts
+    called = {name: _cells(v, empty.get(name)) if may_be_quality(name) else [] for name, v in head.items()}
+    quality = quality_pairs(called, lambda zero, name: declared_zero(said, zero, name, where))
     note = None
     told = _declared(said.get(KEY), list(values), beyond, where)
     own = {name for name, _ in quality.values()}
     if told is None:
         seen = t_ns[t_ns != NAT]
         told = frozenset()
-        if told_by_cells and not (seen.size > 1 and seen[-1] < seen[0]):
-            told, note = find_standing({name: c for name, c in cells.items() if name not in own})
+        head = {name: v for name, v in head.items() if name not in own}
+        backwards = seen.size > 1 and seen[-1] < seen[0]
+        if told_by_cells and not backwards and any(_has_gaps(v, empty.get(name)) for name, v in head.items()):
+            told, note = find_standing({name: _cells(v, empty.get(name)) for name, v in head.items()})
     told |= {own for value, (own, _) in quality.items() if value in told}
     return Related(told, quality, tuple(n for n in (note, *shared(quality)) if n))
 
@@ -98,6 +116,14 @@ def _declared(said: object, names: Sequence[str], beyond: Collection[str], where
     unknown = [one for one in map(str, said) if not called(one, [*names, *beyond])]
     declared_standing(unknown, names, where)
     return frozenset(name for one in map(str, said) for name in called(one, names))
+
+
+def _has_gaps(values: Array, empty: Bool1D | None) -> bool:
+    """Whether some of its cells hold nothing, and not all."""
+    if values.dtype.kind == "O":
+        holds = {v is not None and bool(str(v).strip()) for v in values.tolist()}
+        return len(holds) == 2
+    return empty is not None and bool(empty[: values.size].any()) and not empty[: values.size].all()
 
 
 def _cells(values: Array, empty: Bool1D | None) -> list[str]:

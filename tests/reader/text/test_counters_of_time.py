@@ -16,12 +16,12 @@ from thermodata.testing.reader import load
 ROLL = 2**32
 
 
-def _asked(folder: Path, name: str, counts: Sequence[int]) -> str:
+def _asked(folder: Path, name: str, counts: Sequence[int], part: str = "ask") -> str:
     rows = [f"{n},{20 + k / 9:.3f},{21 + k / 50:.2f}" for k, n in enumerate(counts)]
     (folder / "a.csv").write_text("\n".join([f"{name},T1,T2", *rows, ""]), encoding="utf-8")
     with pytest.raises(QuestionError) as asked:
         load(Reader(), folder / "a.csv", Source())
-    return asked.value.ask
+    return str(getattr(asked.value, part))
 
 
 @pytest.mark.parametrize(("name", "unit"), [("millis", "ms"), ("micros", "us"), ("millis()", "ms"), ("n", "ms")])
@@ -34,6 +34,7 @@ def test_a_counter_that_begins_anew_is_offered_as_the_time(tmp_path: Path, name:
 def test_one_that_goes_on_is_offered_without(tmp_path: Path) -> None:
     asked = _asked(tmp_path, "millis", [5000 * k for k in range(300)])
     assert asked.endswith("or is 'millis' the time? then time: {column: 1, unit: ms}")
+    assert "a column: {column: 1, unit: ms}" in _asked(tmp_path, "millis", [5000 * k for k in range(300)], "hint")
 
 
 @pytest.mark.parametrize("fall", [10_000, 2**31 - 10_000, 2**32 + 10**6])

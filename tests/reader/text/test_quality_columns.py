@@ -33,6 +33,8 @@ from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs,
         ({"T1": ["20"], "T2 quality": ["192"]}, {}),
         ({"quality": ["20"], "T1": ["1"]}, {}),
         ({"quality": ["98", "97"], "T1": ["1"]}, {}),  # per cent
+        ({"T1": ["20"], "StatusCode": ["0", "1"]}, {}),  # a machine that stands, and runs
+        ({"T1": ["20"], "StatusCode": ["0", "2147483648"]}, {"T1": ("StatusCode", True)}),
         ({"T1": ["20"], "T2": ["20"], "Quality": ["192", "0"]}, {"T1": ("Quality", False), "T2": ("Quality", False)}),
         ({"Value": ["20"], "Quality": ["Good", "Bad"]}, {"Value": ("Quality", False)}),
         (  # one behind each value

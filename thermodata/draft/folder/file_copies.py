@@ -4,6 +4,7 @@ and what else is another state of a file: its beginning, half-written, or correc
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
 
@@ -57,13 +58,33 @@ def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
     found: dict[PurePosixPath, PurePosixPath] = {}
     for alike in together.values():
         alike.sort(key=lambda p: -sizes[p])
-        for i, short in enumerate(alike):
-            longer = (p for p in alike[:i] if sizes[p] > sizes[short] and p not in found)
+        kin = _names_within_names(alike)
+        for short in alike:
+            longer = (p for p in kin.get(short, ()) if sizes[p] > sizes[short] and p not in found)
             called = (p for p in longer if _is_named_after(short, p) or _is_named_after(p, short))
             of = next((p for p in called if _equal(folder / short, folder / p, sizes[short])), None)
             if of is not None:
                 found[short] = of
     return found
+
+
+def _names_within_names(paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, list[PurePosixPath]]:
+    """Path -> those of them that its name holds, or that hold its name, as they are listed."""
+    stems: dict[str, list[int]] = {}
+    for k, path in enumerate(paths):
+        stems.setdefault(_beside(path).stem, []).append(k)
+    lengths = sorted({len(stem) for stem in stems} - {0})
+    found: dict[int, set[int]] = {}
+    # by the pieces of each name, for pairs are too many in a folder of thousands of files
+    for stem, own in stems.items():
+        shorter = lengths[: bisect_left(lengths, len(stem))]
+        pieces = {stem[i : i + n] for n in shorter for i in range(len(stem) - n + 1)}
+        for other in pieces & stems.keys():
+            for one in own:
+                found.setdefault(one, set()).update(stems[other])
+            for one in stems[other]:
+                found.setdefault(one, set()).update(own)
+    return {paths[one]: [paths[k] for k in sorted(others)] for one, others in found.items()}
 
 
 def unfinished_in(paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:

@@ -63,12 +63,12 @@ def told_once(losses: Iterable[dict[str, Any]]) -> Losses:
     of_files: dict[tuple[Any, ...], dict[str, Any]] = {}
     for row in losses:
         first = of_files.get((row["file"], row["where"], row["reason"])) if row["file"] else None
+        tests = row.get("tests", [row["test"]] if row["test"] else [])  # an earlier version noted no list
         if first is None:
-            own = [row["test"]] if row["test"] else []  # an earlier version noted no list
-            once.append({**row, "tests": list(row.get("tests", own)), "sources": list(row.get("sources", []))})
+            once.append({**row, "tests": list(tests), "sources": list(row.get("sources", []))})
             of_files[row["file"], row["where"], row["reason"]] = once[-1]
         else:
-            first["tests"] += [row["test"]] if row["test"] and row["test"] not in first["tests"] else []
+            first["tests"] += [t for t in tests if t not in first["tests"]]
             first["sources"] += [s for s in row.get("sources", []) if s not in first["sources"]]
     return once
 
@@ -112,6 +112,8 @@ def tell(
     is told once of a file, with all tests and sources that miss it, whether these read it alike or each in its own
     way."""
     told = _by_place(own.losses)
+    every = list(every)
+    of_all = [_by_place(said.losses) for said in every] if again else []
     for loss in (x for r in raws for x in r.losses):
         note = f"{loss.where}: {loss.reason}; no channel reads that column"
         noted = [said for said in every if note in said.notes]
@@ -127,6 +129,6 @@ def tell(
                 said.notes.remove(note)
             own.losses.append(loss_row(loss.reason, test=test, source=source, file=file, loss=loss))
         else:
-            of_others = (_by_place(said.losses).get((file, loss.where, loss.reason)) for said in every)
+            of_others = (rows.get((file, loss.where, loss.reason)) for rows in of_all)
             for row in (row for row in of_others if row is not None and test not in row["tests"]):
                 row["tests"].append(test)

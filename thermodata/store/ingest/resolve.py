@@ -37,15 +37,15 @@ class SourceFiles:
 
     def in_order(self, paths: Iterable[str]) -> list[str]:
         """Paths, also of files that are no longer there, as the patterns list them, and under each as names count."""
-        many = len(self.patterns) > 1
-        return sorted(paths, key=lambda path: (self._listed(path) if many else 0, *_in_order(path)))
-
-    def _listed(self, path: str) -> int:
-        return next((k for k, p in enumerate(self.patterns) if re.fullmatch(_regex(p), path)), len(self.patterns))
+        listed = {path: k for k, path in enumerate(self.paths)}
+        paths = list(paths)
+        if all(path in listed for path in paths):
+            return sorted(paths, key=listed.__getitem__)
+        return sorted(paths, key=lambda path: (_listed(self.patterns, path), *_in_order(path)))
 
     def claims(self, path: str) -> bool:
         """Whether a path that is no longer there would still belong."""
-        return any(re.fullmatch(_regex(p), path) for p in self.patterns)
+        return _listed(self.patterns, path) < len(self.patterns)
 
 
 def patterns_of(campaign: Campaign, test: Test, source: str) -> tuple[tuple[str, ...], bool, bool]:
@@ -185,6 +185,26 @@ def _check(pattern: str, where: str) -> None:
             expected="a path relative to the campaign file, without '..'",
             hint="put the files into the campaign's folder, or the campaign file above them",
         )
+
+
+def _listed(patterns: tuple[str, ...], path: str) -> int:
+    """The number of the first pattern that a path fits, from 0; how many there are where none does."""
+    names, globs = _told_apart(patterns)
+    named = names.get(path, len(patterns))
+    return next((k for k, pattern in globs if k < named and pattern.fullmatch(path)), named)
+
+
+@lru_cache(maxsize=64)
+def _told_apart(patterns: tuple[str, ...]) -> tuple[dict[str, int], list[tuple[int, re.Pattern[str]]]]:
+    """(names -> their numbers, the numbers and patterns of what is none), as a test may list thousands of files."""
+    names: dict[str, int] = {}
+    globs: list[tuple[int, re.Pattern[str]]] = []
+    for k, pattern in enumerate(patterns):
+        if glob.has_magic(pattern):
+            globs.append((k, re.compile(_regex(pattern))))
+        else:
+            names.setdefault(PurePosixPath(Path(pattern)).as_posix(), k)
+    return names, globs
 
 
 def _regex(pattern: str) -> str:

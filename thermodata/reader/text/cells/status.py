@@ -52,12 +52,14 @@ def tells_quality(name: str) -> int | None:
     return next((k for k, pattern in enumerate(_NAMES) if pattern.fullmatch(name)), None)
 
 
-def are_qualities(statuses: Iterable[str]) -> bool:
-    """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent."""
+def are_qualities(statuses: Iterable[str], name: str = "quality") -> bool:
+    """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent, and
+    no 0 and 1 of a machine that stands and runs under a bare "StatusCode", for no status of OPC UA is 1."""
+    none = frozenset({1}) if "status" in name.casefold() else frozenset()
     texts = {s.strip().casefold() for s in statuses} - {""}
     words = {text for text in texts if text.startswith((*_GOOD_WORDS, *_BAD_WORDS))}
     codes = {_code(text) for text in texts - words}
-    known = all(c is not None and (c in _KNOWN or c > 255) for c in codes)
+    known = all(c is not None and (c in _KNOWN - none or c > 255) for c in codes)
     return known and (bool(codes & _GOOD) or any(is_good(word, True) for word in words))
 
 

@@ -78,16 +78,15 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     low = names[place].strip().lower().removesuffix("()")
     unit = epoch or _COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
-    then = f"time: {{column: {place + 1}, unit: {unit}}}" + (
-        ", and clock: {resets: allow} beside table" if rolls else ""
-    )
+    column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
+    then = f"time: {column}" + (", and clock: {resets: allow} beside table" if rolls else "")
     other = f"; or is '{names[place]}' the time{also}? then {then}" if rising is not None else ""
     return QuestionError(
         "no time column found",
         where=where,
         expected="a column of dates, or one called time or with s, min or h as its unit",
         got=", ".join(names[:12]),
-        hint="declare the time from row to row: table: {time: {period: 60 s}}; or a column: {column: 1, unit: s}",
+        hint=f"declare the time from row to row: table: {{time: {{period: 60 s}}}}; or a column: {column}",
         ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
         declare={"time": {"period": UNKNOWN}},
         meanwhile={"time": {"period": 1.0}},

@@ -50,10 +50,16 @@ def quality_pairs(
     return {value: (name, zeros[word]) for value, (name, word) in found.items()}
 
 
+def may_be_quality(name: str) -> bool:
+    """Whether a column is called a quality: the cells of others tell `quality_pairs` nothing."""
+    return any(pattern.match(name) for pattern in (_QUALITY, _ROUND, _BARE))
+
+
 def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]:
     """Value column -> (a column that is called quality and no more, its word): of one such column all values of its
     row, of several each those that stand before it, or behind it where the first does."""
-    bare = {n: m["word"].casefold() for n in columns if (m := _BARE.match(n)) and are_qualities(map(clean, columns[n]))}
+    matches = {name: match for name in columns if (match := _BARE.match(name))}
+    bare = {n: m["word"].casefold() for n, m in matches.items() if are_qualities(map(clean, columns[n]), n)}
     if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
         surest = min(words, key=lambda word: (tells_quality(bare_header(word)) or 0, word))
         bare = {name: word for name, word in bare.items() if word == surest}

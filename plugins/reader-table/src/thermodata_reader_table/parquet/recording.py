@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text import split_unit
-from thermodata.reader.typed_columns import ROWS, Related, Relating, related
+from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata_reader_table.parquet.columns import values_of
@@ -65,13 +65,14 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
 def related_columns(table: Table) -> Related:
     """What the columns of a table, which is of one series, say of each other in its first rows."""
     columns = table.columns()
-    head = next(table.batches(ROWS), None)
+    rows = rows_looked_at(len(columns))
+    head = next(table.batches(rows), None)
     if head is None:
         return Related()
     with damage_as_format_error(table.path):
         values = {name: values_of(head.column(i), dtype) for i, name, dtype in columns}
         empty = _empty(head, columns)
-    t_ns = table.stamps(ROWS).t_ns
+    t_ns = table.stamps(rows).t_ns
     by_cells = table.time is not None
     return related(table.source.table, values, empty, t_ns, table.path.name, told_by_cells=by_cells)
 
