@@ -23,7 +23,8 @@ from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.run import Loaded, chosen_id, load
+from thermodata.modelling.add import chosen_id
+from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed

@@ -95,7 +95,7 @@ class Fit(Shown):
 
     def add(self, candidate: str | int, *, plain: bool = False) -> Fit:
         """A new version with an effect more: a rank or id of the diagnosis, or any 'effect:channels'."""
-        from thermodata.modelling.run import add
+        from thermodata.modelling.add import add
 
         return Fit(self.store, add(self.store, self.id, candidate, plain=plain))
 
