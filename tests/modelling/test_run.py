@@ -12,7 +12,7 @@ import yaml
 
 from thermodata.errors import UsageError
 from thermodata.modelling import run
-from thermodata.modelling.add import add
+from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
 from thermodata.report.collect import collect
@@ -243,6 +243,10 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     )
     with pytest.raises(UsageError, match="no candidate of rank 7"):
         add(store, parent.model, "7")
+    with pytest.raises(UsageError, match="rank 1 is one of the diagnosis of dZ"):
+        chosen_id(store, parent.model, "1", "dY")
+    assert chosen_id(store, parent.model, "1", "dZ") == "coolant:coolant_on"
+    assert chosen_id(store, parent.model, "coolant:coolant_on", "dY") == "coolant:coolant_on"
     assert "coolant.tau" in add(store, parent.model, "1").parameters
     direct = add(store, parent.model, EffectSpec(effect="ambient_frame"))
     assert "ambient_frame.gain" in direct.parameters

@@ -44,9 +44,9 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
 
 
-def chosen_id(store: Store, model: str, candidate: str | int) -> str:
+def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:
     """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
-    rank."""
+    rank, and for one where the diagnosis is of another response than is named."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     name = str(candidate)
@@ -54,6 +54,13 @@ def chosen_id(store: Store, model: str, candidate: str | int) -> str:
         diagnosis = load_diagnosis(store, model)
         if diagnosis is None:
             raise UsageError(f"model '{model}' has no diagnosis yet", hint=f"thermodata diagnose {model}")
+        if response is not None and diagnosis.response != response:
+            raise UsageError(
+                f"rank {name} is one of the diagnosis of {diagnosis.response}",
+                expected=f"an id, or a rank of the diagnosis of {response}",
+                got=name,
+                hint=f"thermodata diagnose {model} --response {response}",
+            )
         ranks = {c.rank: c.id for c in diagnosis.candidates}
         if int(name) not in ranks:
             raise UsageError(

@@ -87,11 +87,12 @@ class Fit(Shown):
 
         return Verdict(self, diagnose(self.store, self.id, response=response))
 
-    def confirm(self, candidate: str | int) -> Confirmation:
-        """Opens the locked tests for an effect of your choice, by rank or id; the look is counted."""
+    def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation:
+        """Opens the locked tests for an effect of your choice, by rank or id; the look is counted. response: of which,
+        where the model has several; by default of that which was diagnosed."""
         from thermodata.diagnosis.run import confirm_choice
 
-        return Confirmation(confirm_choice(self.store, self.id, candidate)[0])
+        return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
 
     def add(self, candidate: str | int, *, plain: bool = False) -> Fit:
         """A new version with an effect more: a rank or id of the diagnosis, or any 'effect:channels'."""
