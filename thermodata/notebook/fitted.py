@@ -65,6 +65,12 @@ class Fit(Shown):
 
         return next((m.unit for m in model_rows(self.store) if m.model == self.id), "um")
 
+    def unit_of(self, response: str) -> str:
+        """Of the errors of one response."""
+        from thermodata.view.response_units import unit_of
+
+        return unit_of(self.store, response, self.result.campaigns)
+
     @property
     def parameters(self) -> dict[str, Parameter]:
         """'effect.parameter' -> value, unit and 95 % interval."""
