@@ -16,7 +16,7 @@ from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
 from thermodata.report.lost import lost_sentence
-from thermodata.report.words import change
+from thermodata.report.words import change, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Check, FitResult, Parameter
@@ -166,9 +166,12 @@ class Fit(Shown):
         return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
 
     def summary(self) -> str:
-        if self.result.before is None:
-            return fit_text(self.result)
-        return "\n\n".join([before_after_text(self.result), fit_text(self.result, scores=False)])
+        from thermodata.view.response_units import response_units
+
+        text = fit_text(self.result, scores=self.result.before is None)
+        if self.result.before is not None:
+            text = f"{before_after_text(self.result)}\n\n{text}"
+        return in_units(text, response_units(self.store, self.responses, self.result.campaigns))
 
     def html(self) -> str:
         before = {(s.campaign, s.test, s.response): s.rmse_um for s in self.result.before or [] if s.phase == "all"}

@@ -11,7 +11,7 @@ from thermodata.report.course_chart import course_chart
 from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 from thermodata.report.headline import capital
 from thermodata.report.verdict import claims_of, told, verdict_sentence
-from thermodata.report.words import in_unit
+from thermodata.report.words import in_unit, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate
@@ -87,7 +87,7 @@ class Verdict(Shown, Generic[F]):
         return next((c.id for c in self.result.candidates if str(c.rank) == str(candidate)), candidate)
 
     def summary(self) -> str:
-        return in_unit(diagnosis_text(self.result).replace("[um]", f"[{self.unit}]".ljust(4)), self.unit)
+        return in_units(diagnosis_text(self.result), {self.result.response: self.unit})
 
     def html(self) -> str:
         from html import escape
