@@ -12,6 +12,7 @@ import yaml
 
 from thermodata.errors import UsageError
 from thermodata.modelling import run
+from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
 from thermodata.report.collect import collect
@@ -101,7 +102,7 @@ def test_a_fit_tells_the_rows_of_a_prediction_file_that_have_no_value(store: Sto
 
 def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"), name="short"))
-    grown = run.add(store, "short", "feed_screw:T_nut")
+    grown = add(store, "short", "feed_screw:T_nut")
     assert grown.parent == parent.model
     assert grown.before is not None
     before = {s.test: s.rmse_um for s in grown.before if s.phase == "all"}
@@ -125,7 +126,7 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
 
 def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="back"))
-    grown = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    grown = add(store, parent.model, "feed_screw:T_nut", plain=True)
     back = remove(store, grown.model, "feed_screw")
     assert (back.parameters, back.checks) == (parent.parameters, parent.checks)
     assert [(s.role, s.rmse_um) for s in back.scores] == [(s.role, s.rmse_um) for s in parent.scores]
@@ -154,7 +155,7 @@ def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, 
     lost = next(t.test for t in world.tests if t.role == "calibration")
     store = stored(world, tmp_path, without={lost: "T_nut"})
     parent = run.fit(store, spec("spindle_bearing", name="some"))
-    grown = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    grown = add(store, parent.model, "feed_screw:T_nut", plain=True)
     assert [(t.test, t.response, t.why) for t in grown.lost or []] == [(lost, "dZ", "no driver for feed_screw")]
     kept = [s for s in parent.scores if s.test != lost]
     before = pooled(kept, "calibration", responses=["dZ"])
@@ -183,9 +184,9 @@ def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, 
 
 def test_what_is_removed_is_a_version_of_its_own_whatever_was_fitted_before(store: Store, spec: Spec) -> None:
     base = run.fit(store, spec("spindle_bearing", name="paths"))
-    one = run.add(store, base.model, "feed_screw:T_nut", plain=True)
-    both = run.add(store, one.model, "ambient_frame:T_hall", plain=True)
-    other = run.add(store, base.model, "ambient_frame:T_hall", plain=True)
+    one = add(store, base.model, "feed_screw:T_nut", plain=True)
+    both = add(store, one.model, "ambient_frame:T_hall", plain=True)
+    other = add(store, base.model, "ambient_frame:T_hall", plain=True)
     removed = remove(store, both.model, "feed_screw")  # the effects of `other`, come to another way
     assert removed.parameters == other.parameters
     assert removed.model not in (other.model, base.model)
@@ -194,24 +195,24 @@ def test_what_is_removed_is_a_version_of_its_own_whatever_was_fitted_before(stor
     assert [m.model for m in model_chain(store, other.model)] == [base.model, other.model]
     # what is fitted, added or removed again is the same version, and its name leads past it
     said = f"this model was fitted before: {one.model} is its name, 'paths' is the newer version {removed.model}"
-    assert run.add(store, base.model, "feed_screw:T_nut", plain=True).notes == [said]
+    assert add(store, base.model, "feed_screw:T_nut", plain=True).notes == [said]
     assert not find_model(store, one.model).result.notes
 
 
 def test_what_add_takes_in_besides_is_said_and_plain_leaves_it(store: Store, spec: Spec) -> None:
     # without its coolant the rest of this model is wrong in a way that a second lag of the speed's heat can use
     parent = run.fit(store, spec({"effect": "lag", "drivers": {"u": "speed"}}, name="speed"))
-    grown = run.add(store, parent.model, "feed_screw:T_nut")
+    grown = add(store, parent.model, "feed_screw:T_nut")
     assert grown.added == ["feed_screw", *(note.split()[0] for note in grown.notes if "is a second lag of" in note)]
     assert set(grown.added) == {k.split(".")[0] for k in grown.parameters} - {"lag"}
-    plain = run.add(store, parent.model, "feed_screw:T_nut", plain=True)
+    plain = add(store, parent.model, "feed_screw:T_nut", plain=True)
     assert (plain.added, plain.notes) == (["feed_screw"], [])
 
 
 def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec("spindle_bearing", name="bare"))
     with pytest.raises(UsageError, match="no diagnosis"):
-        run.add(store, parent.model, 1)
+        add(store, parent.model, 1)
     found = Candidate(
         rank=1,
         id="coolant:coolant_on",
@@ -241,9 +242,13 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
         ),
     )
     with pytest.raises(UsageError, match="no candidate of rank 7"):
-        run.add(store, parent.model, "7")
-    assert "coolant.tau" in run.add(store, parent.model, "1").parameters
-    direct = run.add(store, parent.model, EffectSpec(effect="ambient_frame"))
+        add(store, parent.model, "7")
+    with pytest.raises(UsageError, match="rank 1 is one of the diagnosis of dZ"):
+        chosen_id(store, parent.model, "1", "dY")
+    assert chosen_id(store, parent.model, "1", "dZ") == "coolant:coolant_on"
+    assert chosen_id(store, parent.model, "coolant:coolant_on", "dY") == "coolant:coolant_on"
+    assert "coolant.tau" in add(store, parent.model, "1").parameters
+    direct = add(store, parent.model, EffectSpec(effect="ambient_frame"))
     assert "ambient_frame.gain" in direct.parameters
 
 

@@ -16,6 +16,7 @@ from thermodata.report.figures import part_chart, points_for, residual_scale
 from thermodata.report.glossary import ERRORS
 from thermodata.report.headline import error_sentence, headline
 from thermodata.report.page import render, what_is_left
+from thermodata.schema.result import Check
 
 from .conftest import diagnosis
 
@@ -75,6 +76,22 @@ def test_verification_tests_that_helped_to_choose_are_no_test_any_more(data: Rep
     rows = error_rows(dataclasses.replace(data, scores=scores, reason=None))
     assert [(r.word, r.tested) for r in rows] == [("verification", False), ("fitted", False)]
     assert headline_error(rows) == rows[-1], "what the fit has seen says nothing better"
+
+
+def test_verification_tests_are_said_to_be_fitted_for_what_they_were(data: ReportData) -> None:
+    """An effect was chosen by two of them, one of which also holds samples of a calibration test."""
+    fitted = [s.model_copy(update={"role": "verification (in-sample)"}) for s in data.scores if "ver" in s.role]
+    first = fitted[0].model_copy(update={"phase": "all"})
+    again = Check(name=f"overlap:{first.campaign}/{first.test}", value=1.0, threshold=0.0, passed=False, advice="")
+
+    def note(*tests: str) -> str:
+        scores = [s for s in data.scores if "ver" not in s.role]
+        scores += [first.model_copy(update={"test": test}) for test in tests]
+        made = dataclasses.replace(data, scores=scores, checks=[again])
+        return next(r.note for r in error_rows(made) if r.word == "verification")
+
+    assert note(first.test) == "fitted too by now: some hold samples of calibration tests"
+    assert note(first.test, "other") == "fitted too by now: they took part in the choice"
 
 
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:

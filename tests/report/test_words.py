@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.words import probability_text
+from thermodata.report.words import in_units, probability_text
 
 
 @pytest.mark.parametrize(
@@ -12,3 +12,12 @@ from thermodata.report.words import probability_text
 )
 def test_no_probability_is_told_as_zero(p: float, text: str) -> None:
     assert probability_text(p) == text
+
+
+def test_a_text_with_tables_is_in_the_units_of_its_responses() -> None:
+    text = "RMSE [um]\n0.5 um"
+    assert in_units(text, {"dZ": "um"}) == text
+    assert in_units(text, {"T": "K"}) == "RMSE [K] \n0.5 K"
+    assert in_units("RMSE [um]", {"dZ": "um", "T": "K"}).endswith(
+        "[*] in the unit of the row's response: dZ [um], T [K]"
+    )

@@ -21,7 +21,7 @@ from thermodata.store.keep.check import check_store
 from thermodata.view.models import model_rows
 from thermodata.view.predictions import Prediction
 from thermodata.view.residuals import against, predicted_tests, residuals
-from thermodata.web.pages.compare import _correlated
+from thermodata.web.pages.compare_charts import correlated
 from thermodata.web.work import Work
 
 from .client import Client
@@ -153,9 +153,9 @@ def test_a_residual_over_its_own_driver_is_found(lab: Path) -> None:
     assert np.all(np.diff(found.bins) >= 0)
 
 
-def correlated(parts: list[Prediction]) -> tuple[np.ndarray, np.ndarray]:
+def drawn_correlation(parts: list[Prediction]) -> tuple[np.ndarray, np.ndarray]:
     """(lag [s], correlation) as the page draws them."""
-    chart = _correlated(parts)
+    chart = correlated(parts)
     return np.asarray(chart.x) * 3600, np.asarray(chart.panels[0].series[0].y)
 
 
@@ -170,10 +170,10 @@ def test_noise_forgets_and_a_slow_residual_remembers() -> None:
     noise, slow = rng.normal(size=2000), np.sin(2 * np.pi * t_s / 36000)
     valid = np.ones(2000, bool)
     valid[500:600] = False
-    _, c = correlated([left(t_s, noise, valid)])
+    _, c = drawn_correlation([left(t_s, noise, valid)])
     assert c[0] == pytest.approx(1.0)
     assert np.abs(c[1:]).max() < 0.1
-    lag, c = correlated([left(t_s, slow, valid)])
+    lag, c = drawn_correlation([left(t_s, slow, valid)])
     assert c[np.isclose(lag, 9000.0)] == pytest.approx(0.0, abs=0.1)
     assert c[np.isclose(lag, 18000.0)] == pytest.approx(-1.0, abs=0.1)
 
@@ -181,12 +181,12 @@ def test_noise_forgets_and_a_slow_residual_remembers() -> None:
 def test_a_drift_over_the_whole_test_correlates_by_no_more_than_one() -> None:
     t_s = np.arange(360) * 60.0  # as long as the longest lag: a handful of pairs at its end
     drift = np.linspace(-1.0, 1.0, 360)
-    lag, c = correlated([left(t_s, drift), left(t_s, 3 * drift)])
+    lag, c = drawn_correlation([left(t_s, drift), left(t_s, 3 * drift)])
     assert c[0] == pytest.approx(1.0)
     assert np.all(np.abs(c) <= 1.0)
     # the figure of the report, of `show` and of Python
     assert c == pytest.approx(autocorrelation([drift, 3 * drift], len(lag) - 1))
-    assert len(correlated([left(t_s[:1], drift[:1])])[0]) == 1
+    assert len(drawn_correlation([left(t_s[:1], drift[:1])])[0]) == 1
 
 
 def test_contributions_stand_beside_each_other_on_one_scale(writer: Client, lab: Path) -> None:

@@ -86,22 +86,12 @@ def known_failure(error: Exception) -> ThermodataError | None:
 
 
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
-    """A text that says um, in the unit of the response: a model may be one of temperatures. Of responses in several
-    units each row is in its own, and a line below says which."""
-    from thermodata.report.words import in_unit
+    """A text that says um, in the units of the responses (`report.words.in_units`)."""
+    from thermodata.report.words import in_units
     from thermodata.view.response_units import response_units
 
     names = [response] if isinstance(response, str) else response
-    units = response_units(session.store(), names)
-    each = set(units.values())
-    # headings keep their width, or the columns below would not stand under them
-    if len(each) > 1:
-        told = ", ".join(f"{name} [{units[name]}]" for name in names if name in units)
-        return f"{text.replace('[um]', ' [*]')}\n\n[*] in the unit of the row's response: {told}"
-    if not each or "um" in each:
-        return text
-    unit = each.pop()
-    return in_unit(text.replace("[um]", f"[{unit}]".ljust(4)), unit)
+    return in_units(text, response_units(session.store(), names))
 
 
 def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Command]:

@@ -124,7 +124,8 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         )
 
     step.title(3, "fit: the baseline model, with the effects that one would expect")
-    from thermodata.modelling.run import add, fit
+    from thermodata.modelling.add import add
+    from thermodata.modelling.run import fit
     from thermodata.schema.load import load_model
 
     base = fit(store, load_model(folder / "model.yaml"), base=folder)

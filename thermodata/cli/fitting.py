@@ -171,7 +171,7 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line
-    from thermodata.modelling.run import add
+    from thermodata.modelling.add import add
     from thermodata.store.base.counting import watched
     from thermodata.view.response_units import response_units
 

@@ -23,7 +23,8 @@ from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.modelling.run import Loaded, chosen_id, load
+from thermodata.modelling.add import chosen_id
+from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, phases_of
 from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
@@ -99,8 +100,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     """(what the locked tests say of an effect that the user chose, whether that was known already).
 
     candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. response: by default that of the stored
-    diagnosis. Opening the lock is counted, but for an
-    answer that the store holds. UsageError: no such candidate, or no locked test that both models can predict.
+    diagnosis. Opening the lock is counted, but for an answer that the store holds. UsageError: no such candidate, a
+    rank of another response's diagnosis, or no locked test that both models can predict.
     """
     from thermodata.store.catalogue.looks import count_locked_look, locked_looks
     from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
@@ -110,13 +111,13 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     asked = load_diagnosis(store, model.identity) if response is None else None
     index = response_index(model.fitted, tests, asked.response if asked is not None else response)
     of = model.fitted.responses[index]
-    chosen = _chosen(model, of, chosen_id(store, model.identity, candidate))
+    chosen = _chosen(model, of, chosen_id(store, model.identity, candidate, response))
     name, key = chosen.id, _key(model)
     question = f"confirm {name}" if len(model.fitted.responses) == 1 else f"confirm {name} of {of.name}"
     kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
         known = as_held(Confirmed.model_validate_json(kept))
-        return known.model_copy(update={"probability": _claimed_with(store, model.identity, name)}), True
+        return known.model_copy(update={"probability": _claimed_with(store, model.identity, of.name, name)}), True
     usable = [t for t in tests if of.can_predict(t)]
     asked_of = sound(model.fitted, index, model.data, usable, effects(), ends_of_logs(store, model))
     again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, of.name)}
@@ -161,7 +162,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
             for key, b, a in confirmation.each
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
-        probability=_claimed_with(store, model.identity, name),
+        probability=_claimed_with(store, model.identity, of.name, name),
         put_right=told(put_right),
     )
     result = held(found, None if shape is None else shape.holds)
@@ -169,11 +170,13 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     return result, False
 
 
-def _claimed_with(store: Store, model: str, candidate: str) -> float | None:
+def _claimed_with(store: Store, model: str, response: str, candidate: str) -> float | None:
+    """Its probability where the stored diagnosis claims it for this response."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     found = load_diagnosis(store, model)
-    claimed = [c for c in found.candidates if c.claimed and c.id == candidate] if found is not None else []
+    asked = found.candidates if found is not None and found.response == response else []
+    claimed = [c for c in asked if c.claimed and c.id == candidate]
     return claimed[0].probability if claimed else None
 
 

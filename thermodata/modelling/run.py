@@ -17,15 +17,11 @@ from thermodata.modelling.inputs import coarse_readings, shifted
 from thermodata.modelling.inputs.roles import find_tests, opened, resolve_roles
 from thermodata.modelling.model_file import nested, prediction
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
-from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.model_file.transfer import NAME
 from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.modelling.versions.candidate import with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result, model_id
-from thermodata.modelling.versions.second_lag import with_second_lags
-from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -174,32 +170,6 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
     return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
 
 
-def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
-    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
-    left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
-    are left out (`unsound`).
-    `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
-    from thermodata.store.catalogue.models import find_model, load_diagnosis
-
-    parent = find_model(store, ref)
-    old = load(store, parent.model)
-    if isinstance(candidate, EffectSpec):
-        grown = with_effect(parent.spec, candidate)
-    else:
-        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
-    before = make_result(old.fitted, old.data, parent.model).scores
-    # what was found before the data changed may be mended
-    diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
-    grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
-    if not plain:
-        refined = with_second_lags(grown, old.data)
-        grown, notes = refined.spec, [*notes, *refined.notes]
-    had = term_ids(parent.spec.effects)
-    added = [i for i in term_ids(grown.effects) if i not in had]
-    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
-
-
 def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
     """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
     findings of the model. UsageError for a named test that is unknown, locked, or has nothing to carry over to."""
@@ -261,27 +231,6 @@ def profiles(store: Store, ref: str) -> Profiles:
     """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
     model = load(store, ref)
     return profiles_of(model.fitted, model.data)
-
-
-def chosen_id(store: Store, model: str, candidate: str | int) -> str:
-    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
-    rank."""
-    from thermodata.store.catalogue.models import load_diagnosis
-
-    name = str(candidate)
-    if name.isdigit():
-        diagnosis = load_diagnosis(store, model)
-        if diagnosis is None:
-            raise UsageError(f"model '{model}' has no diagnosis yet", hint=f"thermodata diagnose {model}")
-        ranks = {c.rank: c.id for c in diagnosis.candidates}
-        if int(name) not in ranks:
-            raise UsageError(
-                f"no candidate of rank {name}",
-                expected=", ".join(f"{r} ({i})" for r, i in ranks.items()) or "none: the diagnosis has no candidates",
-                got=name,
-            )
-        name = ranks[int(name)]
-    return name
 
 
 def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model:

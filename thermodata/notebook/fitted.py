@@ -16,7 +16,7 @@ from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
 from thermodata.report.lost import lost_sentence
-from thermodata.report.words import change
+from thermodata.report.words import change, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Check, FitResult, Parameter
@@ -65,6 +65,12 @@ class Fit(Shown):
 
         return next((m.unit for m in model_rows(self.store) if m.model == self.id), "um")
 
+    def unit_of(self, response: str) -> str:
+        """Of the errors of one response."""
+        from thermodata.view.response_units import unit_of
+
+        return unit_of(self.store, response, self.result.campaigns)
+
     @property
     def parameters(self) -> dict[str, Parameter]:
         """'effect.parameter' -> value, unit and 95 % interval."""
@@ -87,15 +93,16 @@ class Fit(Shown):
 
         return Verdict(self, diagnose(self.store, self.id, response=response))
 
-    def confirm(self, candidate: str | int) -> Confirmation:
-        """Opens the locked tests for an effect of your choice, by rank or id; the look is counted."""
+    def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation:
+        """Opens the locked tests for an effect of your choice, by rank or id; the look is counted. response: of which,
+        where the model has several; by default of that which was diagnosed."""
         from thermodata.diagnosis.run import confirm_choice
 
-        return Confirmation(confirm_choice(self.store, self.id, candidate)[0])
+        return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
 
     def add(self, candidate: str | int, *, plain: bool = False) -> Fit:
         """A new version with an effect more: a rank or id of the diagnosis, or any 'effect:channels'."""
-        from thermodata.modelling.run import add
+        from thermodata.modelling.add import add
 
         return Fit(self.store, add(self.store, self.id, candidate, plain=plain))
 
@@ -159,9 +166,12 @@ class Fit(Shown):
         return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
 
     def summary(self) -> str:
-        if self.result.before is None:
-            return fit_text(self.result)
-        return "\n\n".join([before_after_text(self.result), fit_text(self.result, scores=False)])
+        from thermodata.view.response_units import response_units
+
+        text = fit_text(self.result, scores=self.result.before is None)
+        if self.result.before is not None:
+            text = f"{before_after_text(self.result)}\n\n{text}"
+        return in_units(text, response_units(self.store, self.responses, self.result.campaigns))
 
     def html(self) -> str:
         before = {(s.campaign, s.test, s.response): s.rmse_um for s in self.result.before or [] if s.phase == "all"}

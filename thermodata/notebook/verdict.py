@@ -11,6 +11,7 @@ from thermodata.report.course_chart import course_chart
 from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 from thermodata.report.headline import capital
 from thermodata.report.verdict import claims_of, told, verdict_sentence
+from thermodata.report.words import in_unit, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate
@@ -37,10 +38,9 @@ class Diagnosed(Protocol[F_co]):
 
     @property
     def name(self) -> str: ...
-    @property
-    def unit(self) -> str: ...
+    def unit_of(self, response: str) -> str: ...
     def add(self, candidate: str | int, *, plain: bool = False) -> F_co: ...
-    def confirm(self, candidate: str | int) -> Confirmation: ...
+    def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation: ...
 
 
 class Verdict(Shown, Generic[F]):
@@ -57,7 +57,12 @@ class Verdict(Shown, Generic[F]):
     @property
     def sentence(self) -> str:
         """The verdict with its figures."""
-        return verdict_sentence(self.result)
+        return in_unit(verdict_sentence(self.result), self.unit)
+
+    @property
+    def unit(self) -> str:
+        """Of the errors of the response that was diagnosed."""
+        return self.of.unit_of(self.result.response)
 
     @property
     def claims(self) -> list[Candidate]:
@@ -71,14 +76,18 @@ class Verdict(Shown, Generic[F]):
 
     def add(self, candidate: str | int = 1, *, plain: bool = False) -> F:
         """A new version with a candidate: its rank or id."""
-        return self.of.add(candidate, plain=plain)
+        return self.of.add(self._own(candidate), plain=plain)
 
     def confirm(self, candidate: str | int = 1) -> Confirmation:
         """Opens the locked tests for an effect of your choice; the look is counted."""
-        return self.of.confirm(candidate)
+        return self.of.confirm(self._own(candidate), self.result.response)
+
+    def _own(self, candidate: str | int) -> str | int:
+        """A rank is one of this verdict, whatever the model was asked since."""
+        return next((c.id for c in self.result.candidates if str(c.rank) == str(candidate)), candidate)
 
     def summary(self) -> str:
-        return diagnosis_text(self.result)
+        return in_units(diagnosis_text(self.result), {self.result.response: self.unit})
 
     def html(self) -> str:
         from html import escape
@@ -93,7 +102,7 @@ class Verdict(Shown, Generic[F]):
         shown = [c for c in told(self.result) if c.courses]
         if not shown:
             raise UsageError("there is no candidate to draw", where=f"diagnosis of {self.result.model}")
-        charts = {f"{c.rank}. {c.id}": course_chart(c, self.of.unit) for c in shown}
+        charts = {f"{c.rank}. {c.id}": course_chart(c, self.unit) for c in shown}
         return Plot(f"what {self.of.name} misses", charts)
 
 

@@ -106,9 +106,9 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     before, after = _of_role(data, role)
     if after is None:
         return None
-    in_sample = any("in-sample" in s.role for s in data.scores if base_role(s.role) == role)
-    overlap = any(c.name.startswith("overlap:") for c in data.checks)
-    why = "some hold samples of calibration tests" if overlap else "they took part in the choice"
+    in_sample = {f"{s.campaign}/{s.test}" for s in data.scores if base_role(s.role) == role and s.role != role}
+    overlap = {c.name.partition(":")[2] for c in data.checks if c.name.startswith("overlap:")}
+    why = "some hold samples of calibration tests" if in_sample <= overlap else "they took part in the choice"
     note = f"fitted too by now: {why}" if in_sample else ""
     whose = f"of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     if role == "calibration":

@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
+    from collections.abc import Collection, Iterable, Mapping
 
     from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
     from thermodata.schema.result import Score
@@ -37,6 +37,20 @@ def number(value: Any, digits: int = 3) -> str:
 def in_unit(text: str, unit: str | None) -> str:
     """A text that says um, in the unit of the response that it is of (None: um): a model may be one of temperatures."""
     return text if unit in (None, "um") else re.sub(r"(?<=\d )um\b", str(unit), text)
+
+
+def in_units(text: str, units: Mapping[str, str]) -> str:
+    """A text with tables that says um, in the units of its responses. Of responses in several units each row is in its
+    own, and a line below says which."""
+    each = set(units.values())
+    # headings keep their width, or the columns below would not stand under them
+    if len(each) > 1:
+        told = ", ".join(f"{name} [{unit}]" for name, unit in units.items())
+        return f"{text.replace('[um]', ' [*]')}\n\n[*] in the unit of the row's response: {told}"
+    if not each or "um" in each:
+        return text
+    unit = each.pop()
+    return in_unit(text.replace("[um]", f"[{unit}]".ljust(4)), unit)
 
 
 def typeset(text: str) -> str:

@@ -23,7 +23,7 @@ def diagnose(store: Path, tell: Tell, model: str) -> dict[str, Any]:
 
 def add(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
     """`thermodata add MODEL CANDIDATE`."""
-    from thermodata.modelling.run import add as run
+    from thermodata.modelling.add import add as run
 
     with watched(tell):
         result = run(Store(store), model, candidate)

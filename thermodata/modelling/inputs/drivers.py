@@ -69,8 +69,7 @@ def names_of(text: str) -> tuple[str, ...]:
 def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
     """Whether the test has all that the binding reads, with at least one valid sample each."""
     return all(
-        all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text))
-        and _is_known(test, text)
+        all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text)) and is_known(test, text)
         for text in binding.values()
     )
 
@@ -80,7 +79,7 @@ def shifted_in(test: TestData, text: str) -> tuple[str, ...]:
     return tuple(n for n in names_of(text) if n in test.channels and test.channels[n].shifted)
 
 
-def _is_known(test: TestData, text: str) -> bool:
+def is_known(test: TestData, text: str) -> bool:
     """False where a number that a sensor is off by does not go out with the start: in a product, or a condition."""
     shifted = shifted_in(test, text)
     if not shifted or text.isidentifier():
@@ -117,7 +116,7 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         values = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})
         raw = np.asarray(values, dtype=np.float64)
         relative = relative and not tree.logical  # a condition is a state: zero is off
-    if not _is_known(test, text):
+    if not is_known(test, text):
         good = np.zeros_like(good)
     return np.where(good, raw, np.nan), good & np.isfinite(raw), relative
 

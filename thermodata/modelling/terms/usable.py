@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.inputs.drivers import is_known, names_of, shifted_in
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import has_response
 from thermodata.modelling.terms.of_tests import OfTests
@@ -30,10 +30,9 @@ def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[
 
 def _ruled_out(terms: Sequence[BoundTerm], test: TestData) -> str:
     """Which channel is logged there and is ruled out by which flag, and what to do; '' where it was not logged."""
-    read = {
-        n for t in terms if not isinstance(t.effect, OfTests) for x in t.binding_of(test).values() for n in names_of(x)
-    }
-    flags = {n: info.faulty or "offset" for n in sorted(read) if (info := test.channels.get(n)) and _is_out(test, n)}
+    texts = {x for t in terms if not isinstance(t.effect, OfTests) for x in t.binding_of(test).values()}
+    out = sorted({name for text in texts for name in _out(test, text)})
+    flags = {name: test.channels[name].faulty or "offset" for name in out}
     if not flags:
         return ""
     told = " and ".join(f"'{name}' is flagged '{flag}'" for name, flag in flags.items())
@@ -42,6 +41,14 @@ def _ruled_out(terms: Sequence[BoundTerm], test: TestData) -> str:
     )
 
 
-def _is_out(test: TestData, name: str) -> bool:
-    info = test.channels[name]
-    return info.shifted or (info.faulty is not None and not np.isfinite(test.values.get(name, np.empty(0))).any())
+def _out(test: TestData, text: str) -> list[str]:
+    """The channels of a driver that flags rule out there. One that is off by a constant is ruled out where that does
+    not go out with the start, and drives as ever elsewhere."""
+    faulty = [
+        name
+        for name in names_of(text)
+        if (info := test.channels.get(name)) and info.faulty is not None
+        if not np.isfinite(test.values.get(name, np.empty(0))).any()
+    ]
+    logged = all(name in test.values for name in names_of(text))
+    return [*faulty, *(shifted_in(test, text) if logged and not is_known(test, text) else ())]

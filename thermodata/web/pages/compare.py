@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
-import numpy as np
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.chart.colour import EFFECTS
 from thermodata.chart.pack import script_json
-from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.difference import Difference
 from thermodata.modelling.compare.differences import Course, between, over_tests
-from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.glossary import IN_SAMPLE
@@ -29,16 +24,15 @@ from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.models import ModelRow, model_rows, term_order
-from thermodata.view.predictions import Prediction, residual_courses, residual_strips
-from thermodata.view.residuals import Key, against, predicted_tests, residuals
+from thermodata.view.predictions import residual_courses
+from thermodata.view.residuals import Key, predicted_tests, residuals
 from thermodata.view.response_units import response_units, told_together
 from thermodata.web.command import command
+from thermodata.web.pages.compare_charts import correlated, maps, over_channel
 from thermodata.web.pages.contributions import contribution_chart
 from thermodata.web.pages.drawn import pair
 from thermodata.web.render import desk_of, page
 
-BINS = 120
-_MOST_LAG_S = 6 * 3600.0
 _LISTED = 12  # the newest models, which stand there to be ticked; older ones are folded up
 _SAME = 0.005  # of the pinned error: less is no difference
 
@@ -82,7 +76,10 @@ def show(request: Request) -> Response:
     over = given.get("over", "")
     stored = model_chain(store, newest.model)
     chain = versions(stored, chain_units(store, stored))
-    together = told_together(pinned.responses, response_units(store, pinned.responses, pinned.campaigns))
+    names_of_all = list(dict.fromkeys(name for m in chosen for name in m.responses))
+    units = response_units(store, names_of_all, {c for m in chosen for c in m.campaigns})
+    of_response = units.get(str(response), pinned.unit)
+    together = told_together(pinned.responses, units)
     names = test_names(keys)
     shown = _shown_test(store, models, pinned.model, given.get("test", ""), lines, keys)
     beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
@@ -103,20 +100,23 @@ def show(request: Request) -> Response:
         lines=[line for line in lines if line.differs or not only],
         hidden=sum(not line.differs for line in lines) if only else 0,
         only=only,
-        most=max((e for line in lines for e in line.errors if e is not None), default=1.0),
+        units=units,
+        mixed=len({units.get(line.response) for line in lines}) > 1,
+        several=len({line.response for line in lines}) > 1,
+        most=_largest(lines, units),
         roles=_roles(on_common([r.scores for r in results]), together),
         compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
-        heat=[(m, script_json(heat.as_json())) for m, heat in _maps(store, chosen, keys, str(response))],
+        heat=[(m, script_json(heat.as_json())) for m, heat in maps(store, chosen, keys, str(response), of_response)],
         in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
         waterfall=_waterfall(chain),
         lost=capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         undo=_undo(chosen[-1], models),
-        autocorrelation=script_json(_correlated(parts).as_json()) if parts else None,
+        autocorrelation=script_json(correlated(parts).as_json()) if parts else None,
         over=over,
-        against=script_json(_over(store, parts, over, newest.unit).as_json()) if over and parts else None,
+        against=script_json(over_channel(store, parts, over, of_response).as_json()) if over and parts else None,
         channels=_channels(store, pinned),
         response=response,
         pair=pair,
@@ -124,7 +124,7 @@ def show(request: Request) -> Response:
         shown_test=shown,
         labels=labels,
         beside=beside,
-        beside_charts=[_drawn(part, only, labels, pinned.unit, order) for part in beside],
+        beside_charts=[_drawn(part, only, labels, units.get(part.response, pinned.unit), order) for part in beside],
         alike=sum(not e.differs for part in beside for e in part.effects) if only else 0,
         banded=any(sd is not None for part in beside for e in part.effects for sd in e.deviations),
         unpredicted=[labels[m] for m in labels if beside and m not in beside[0].models],
@@ -193,6 +193,15 @@ def _lines(scores: list[list[Score]]) -> list[Line]:
     ]
 
 
+def _largest(lines: Sequence[Line], units: Mapping[str, str]) -> dict[str | None, float]:
+    """unit -> the largest error in it, which is the scale of its bars."""
+    found: dict[str | None, float] = {}
+    for line in lines:
+        unit = units.get(line.response)
+        found[unit] = max([found.get(unit, 0.0), *(e for e in line.errors if e is not None)])
+    return {unit: most or 1.0 for unit, most in found.items()}
+
+
 def _in_sample(score: Score) -> bool:
     return score.role != base_role(score.role)
 
@@ -242,32 +251,6 @@ def _parameters(results: Sequence[FitResult]) -> list[tuple[str, list[FitResult 
     return [(name, [result if name in result.parameters else None for result in results]) for name in names]
 
 
-def _maps(
-    store: Store, models: list[ModelRow], keys: list[tuple[str, str]], response: str
-) -> list[tuple[ModelRow, HeatMap]]:
-    """A map of each model on the scale of the pinned one: a fall must be seen."""
-    made, limit = [], 0.0
-    for model in models:
-        strips = residual_strips(store, model.model, keys, response, BINS)
-        if not strips:
-            continue
-        values = np.vstack([strips.get(k, np.full(BINS, np.nan)) for k in keys])
-        limit = limit or float(np.nanquantile(np.abs(values), 0.99)) or 1.0
-        heat = HeatMap(
-            f"Residual of {response} by {model.label} over every test",
-            Axis("share of the test", "%"),
-            model.unit,
-            list(test_names(keys).values()),
-            values,
-            [BINS] * len(keys),
-            0.0,
-            100 / BINS,
-            limit,
-        )
-        made.append((model, heat))
-    return made
-
-
 def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float | None]]:
     """(version, its error, the error before it)."""
     known = [v for v in chain if v.all_um is not None]
@@ -276,46 +259,6 @@ def _waterfall(chain: tuple[Version, ...]) -> list[tuple[Version, float, float |
 
 def _undo(newest: ModelRow, models: list[ModelRow]) -> ModelRow | None:
     return next((m for m in models if m.model == newest.parent), None)
-
-
-def _correlated(parts: list[Prediction]) -> Chart:
-    left = [np.where(p.valid, p.residual, np.nan) for p in parts]
-    steps = np.concatenate([np.diff(p.t_s) for p in parts])
-    step_s = float(np.median(steps)) if len(steps) else 1.0
-    correlation = autocorrelation(left, lags_told(left, step_s, _MOST_LAG_S))
-    lag_s = step_s * np.arange(len(correlation))
-    near = [Limit(1 / np.e, "1/e")]
-    panel = Panel(
-        "autocorrelation of the residual",
-        "",
-        [Series("autocorrelation", "", correlation, "residual", style="line")],
-        height=140,
-        zero=True,
-        limits=near,
-    )
-    return Chart("How long the residual remembers", Axis("lag", "h"), lag_s / 3600, [panel], tools=False)
-
-
-def _over(store: Store, parts: list[Any], channel: str, unit: str) -> Chart:
-    found = against(store, parts, channel)
-    span = _wide(found.value)
-    panel = Panel(
-        f"residual over {channel}",
-        unit,
-        [
-            Series("residual", unit, found.residual, "residual", x=found.value, style="points", label=""),
-            Series("mean", unit, found.means, EFFECTS[0], x=found.bins, width=2.4, label=""),
-        ],
-        height=220,
-        zero=True,
-    )
-    axis = Axis(channel, found.unit, range=span)
-    return Chart(f"Residual over {channel}", axis, np.empty(0), [panel], tools=False)
-
-
-def _wide(values: Float1D) -> tuple[float, float]:
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    return (low, high) if high > low else (low - 0.5, high + 0.5)
 
 
 def _channels(store: Store, model: ModelRow) -> list[str]:

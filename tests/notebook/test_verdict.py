@@ -1,0 +1,56 @@
+"""A verdict in a notebook: in the unit of its response, and acted on by its own ranks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from thermodata.notebook.verdict import Verdict
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
+
+
+class Asked:
+    """A model that was asked of a temperature, and notes what it is told to do."""
+
+    name = "both"
+
+    def __init__(self) -> None:
+        self.told: list[Any] = []
+
+    def unit_of(self, response: str) -> str:
+        return {"dZ": "um", "T_nut": "K"}[response]
+
+    def add(self, candidate: str | int, *, plain: bool = False) -> None:
+        self.told.append((candidate, plain))
+
+    def confirm(self, candidate: str | int, response: str | None = None) -> Any:
+        self.told.append((candidate, response))
+
+
+def verdict(of: Asked) -> Verdict[None]:
+    coolant = Candidate(
+        rank=1, id="coolant:coolant_on", effect="coolant", family="coolant", drivers=["coolant_on"], claimed=True,
+        p_value=0.01, rmse_um_before=5.0, rmse_um_after=3.0, fit_before=50.0, fit_after=70.0,
+    )  # fmt: skip
+    found = Diagnosis(
+        model="a", response="T_nut", verdict="none", noise_um=0.1, rmse_um=0.5, explainable=0.0, weak_spots=[],
+        candidates=[coolant], artefacts=[],
+    )  # fmt: skip
+    return Verdict(of, found)
+
+
+def test_a_rank_is_one_of_this_verdict_whatever_was_asked_since() -> None:
+    of = Asked()
+    one = verdict(of)
+    one.confirm(1)
+    one.add("1", plain=True)
+    one.confirm("lag:T_hall")
+    assert of.told == [("coolant:coolant_on", "T_nut"), ("coolant:coolant_on", True), ("lag:T_hall", "T_nut")]
+
+
+def test_a_verdict_on_a_temperature_is_in_kelvin() -> None:
+    one = verdict(Asked())
+    assert "0.500 K" in one.sentence
+    assert "0.500 K" in one.summary()
+    assert " um" not in one.summary()
+    assert "[um]" not in one.summary()

@@ -1,0 +1,81 @@
+"""The page Compare of a model with responses in two units."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from thermodata.schema.model import Model
+from thermodata.schema.result import FitResult, Score
+from thermodata.store.catalogue.models import save_fit
+
+from ..view.conftest import Builder
+from .client import Client
+from .conftest import client_of
+
+MODEL = "a" * 12
+RESPONSES = ("dZ", "T_nut")
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Client:
+    """One model of a displacement, which it misses by 30 um, and of a temperature, which it misses by 0.2 K."""
+    import pyarrow as pa
+
+    t_s, b = np.arange(60) * 60.0, Builder(tmp_path / "store")
+    course = np.sin(t_s / 900)
+    b.test("c", "a", role="calibration", kind="spindle")
+    b.channel("c", "a", "dZ", quantity="displacement", unit="um")
+    b.channel("c", "a", "T_nut", quantity="temperature", unit="degC")
+    b.tidy("c", "a", t_s, {"dZ": 30 * course, "T_nut": 20 + course})
+    store = b.store()
+    spec = Model.model_validate(
+        {
+            "schema": "thermodata/model/1",
+            "name": "both",
+            "campaign": "c",
+            "response": [{"channel": name} for name in RESPONSES],
+            "effects": [{"effect": "drift"}],
+        }
+    )
+    left = {"dZ": 30 * course, "T_nut": 0.2 * course}
+    tables = {
+        ("c", "a", name): pa.table(
+            {"t_s": t_s, "measured": y, "predicted": 0 * t_s, "residual": y, "valid": np.ones(60, bool)}
+        )
+        for name, y in left.items()
+    }
+    scores = [
+        Score(
+            model=MODEL, campaign="c", test="a", role="calibration", response=name, phase="all", fit=0.0,
+            rmse_um=rmse, ptp_um=2.0, ptp_residual_um=2.0, max_um=1.0, n=60,
+        )
+        for name, rmse in (("dZ", 30.0), ("T_nut", 0.2))
+    ]  # fmt: skip
+    result = FitResult(
+        model=MODEL, name="both", parent=None, campaigns=["c"], response=list(RESPONSES), parameters={}, scores=scores,
+        checks=[],
+    )  # fmt: skip
+    save_fit(store, spec=spec, result=result, parent=None, data_version="v1", predictions=tables)
+    return client_of(store.path)[0]
+
+
+def test_each_row_of_errors_is_in_the_unit_of_its_response(client: Client) -> None:
+    page = client.get("/compare").text
+    table = page[page.index("Test by test") :]
+    heads = re.findall(r"<th[^>]*>([^<]*)</th>", table[: table.index("</thead>")])
+    assert not any("µm" in head for head in heads)
+    assert "<td>dZ [µm]</td>" in table
+    assert "<td>T_nut [K]</td>" in table
+
+
+@pytest.mark.parametrize(("response", "unit"), [("dZ", "um"), ("T_nut", "K")])
+def test_charts_of_a_residual_are_in_the_unit_of_its_response(client: Client, response: str, unit: str) -> None:
+    page = client.get(f"/compare?response={response}&over=T_nut").text
+    chart = re.search(r'<script type="application/json" id="against">(.*?)</script>', page, flags=re.DOTALL)
+    assert chart is not None
+    assert json.loads(chart[1])["panels"][0]["unit"] == unit

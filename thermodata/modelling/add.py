@@ -1,0 +1,72 @@
+"""The next version of a model: with an effect more, as a diagnosis ranks it or a user names it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.errors import UsageError
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.run import fit, load
+from thermodata.modelling.versions.candidate import with_candidate, with_effect
+from thermodata.modelling.versions.result import make_result
+from thermodata.modelling.versions.second_lag import with_second_lags
+from thermodata.modelling.versions.unsound import heeding
+from thermodata.schema.model import EffectSpec
+from thermodata.schema.result import FitResult
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
+    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
+    left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
+    are left out (`unsound`).
+    `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
+    from thermodata.store.catalogue.models import find_model, load_diagnosis
+
+    parent = find_model(store, ref)
+    old = load(store, parent.model)
+    if isinstance(candidate, EffectSpec):
+        grown = with_effect(parent.spec, candidate)
+    else:
+        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
+    before = make_result(old.fitted, old.data, parent.model).scores
+    # what was found before the data changed may be mended
+    diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
+    grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
+    if not plain:
+        refined = with_second_lags(grown, old.data)
+        grown, notes = refined.spec, [*notes, *refined.notes]
+    had = term_ids(parent.spec.effects)
+    added = [i for i in term_ids(grown.effects) if i not in had]
+    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
+
+
+def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:
+    """What a user names: the id of a rank of the stored diagnosis, or the name as it is; UsageError for no such
+    rank, and for one where the diagnosis is of another response than is named."""
+    from thermodata.store.catalogue.models import load_diagnosis
+
+    name = str(candidate)
+    if name.isdigit():
+        diagnosis = load_diagnosis(store, model)
+        if diagnosis is None:
+            raise UsageError(f"model '{model}' has no diagnosis yet", hint=f"thermodata diagnose {model}")
+        if response is not None and diagnosis.response != response:
+            raise UsageError(
+                f"rank {name} is one of the diagnosis of {diagnosis.response}",
+                expected=f"an id, or a rank of the diagnosis of {response}",
+                got=name,
+                hint=f"thermodata diagnose {model} --response {response}",
+            )
+        ranks = {c.rank: c.id for c in diagnosis.candidates}
+        if int(name) not in ranks:
+            raise UsageError(
+                f"no candidate of rank {name}",
+                expected=", ".join(f"{r} ({i})" for r, i in ranks.items()) or "none: the diagnosis has no candidates",
+                got=name,
+            )
+        name = ranks[int(name)]
+    return name
