@@ -65,14 +65,14 @@ sys.exit(main(["--store", {store!r}, "ingest", {campaign!r}]))
 """
 
 
+def heeding() -> None:
+    """What the background of a shell starts ignores Ctrl-C, and so would what it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def pressed(command: list[str], after: str = "", wait_s: float = 3.0) -> tuple[int, str]:
     """(exit code, last line of what is said) of a process that is interrupted at work, with all that it has started, as
     a terminal does it. after: what it prints before that; wait_s: else how long that takes."""
-
-    def heeding() -> None:
-        """What the background of a shell starts ignores it."""
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-
     running = subprocess.Popen(
         command,
         stdout=subprocess.PIPE,
@@ -91,7 +91,7 @@ def pressed(command: list[str], after: str = "", wait_s: float = 3.0) -> tuple[i
     finally:
         running.kill()
     assert "Traceback" not in said
-    return running.returncode, said.strip().splitlines()[-1]
+    return running.returncode, "".join(said.strip().splitlines()[-1:])
 
 
 def test_a_query_is_interrupted(campaign: Path) -> None:
@@ -108,7 +108,8 @@ def test_an_interrupted_opening_is_no_damage(campaign: Path) -> None:
 def test_an_interrupt_that_a_library_swallows_ends_an_ingest_all_the_same(tmp_path: Path) -> None:
     path, store = write_campaign(tmp_path / "lab"), tmp_path / "store"
     code = SWALLOWED.format(store=str(store), campaign=str(path))
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
+    command = [sys.executable, "-c", code]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False, preexec_fn=heeding)
     assert (ended.returncode, ended.stdout.strip()) == (130, "surveyed")
     assert ended.stderr.strip() == "error: interrupted"
     assert check_store(Store(store)).damaged == []

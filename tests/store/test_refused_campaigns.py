@@ -109,7 +109,7 @@ def measuring(folder: Path, text: str) -> Path:
         ('"speed > 3 um"', "units that don't fit", ".measuring), expression", ""),
         ('{when: "speed == 0 and T_aa > 1"}', "no channel 'T_aa'", ".measuring.when)", "'T_a'"),
         ("{in_range: T_aa}", "no channel 'T_aa'", ".measuring.in_range)", "'T_a'"),
-        ("{in_range: {T_aa: [1 degC, 2 degC]}}", "no channel 'T_aa'", ".measuring.in_range)", "'T_a'"),
+        ("{in_range: {T_aa: [1 degC, 2 degC]}}", "no channel 'T_aa'", ".measuring.in_range.T_aa)", "'T_a'"),
     ],
 )
 def test_a_measuring_that_no_test_could_have(

@@ -18,12 +18,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         from thermodata.cli.app import run
 
-        return run(argv)
+        code = run(argv)
     except KeyboardInterrupt:  # before there is anything that could say it better
         import sys
 
         sys.stderr.write("error: interrupted\n")
-        return INTERRUPTED
+        code = INTERRUPTED
+    if code == INTERRUPTED:
+        # CPython takes one that came through the execution of a text, as data classes are made by, for one that nobody
+        # caught, and would end by the signal; the next text makes it forget that
+        exec("")
+    return code
 
 
 __all__ = ["main"]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
-from thermodata.report.data import Version
 from thermodata.schema.counted import counted
-from thermodata.schema.result import Check, Score
+
+if TYPE_CHECKING:
+    from thermodata.report.data import Version
+    from thermodata.schema.result import Check, Score
 
 _NAMED = 6  # tests that a sentence names
 
