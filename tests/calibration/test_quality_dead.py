@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_between import POINTS, Course, Levels
 from thermodata.calibration.quality_dead import dead_throughout
+from thermodata.calibration.quality_levels import POINTS, Course, Levels
 from thermodata.plugin import Float1D
 
 T_S = np.linspace(0, 6 * 3600, POINTS)

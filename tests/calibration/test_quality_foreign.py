@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_between import Course, Levels
 from thermodata.calibration.quality_foreign import foreign_part
+from thermodata.calibration.quality_levels import Course, Levels
 
 H = 3600.0
 

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_between import Levels, offsets_between_tests
+from thermodata.calibration.quality_between import offsets_between_tests
+from thermodata.calibration.quality_levels import Levels
 from thermodata.calibration.quality_starts import Start, off_from_start
 from thermodata.plugin import Float1D
 

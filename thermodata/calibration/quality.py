@@ -16,9 +16,9 @@ from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible,
 from thermodata.calibration.quality_range import Limits
 from thermodata.calibration.quality_spike import spikes
 from thermodata.calibration.quality_step import offset_steps, stood_before
+from thermodata.calibration.quality_sun import RESTS_BELOW, is_clear_sky, least_count_of_sun, rests
 from thermodata.calibration.quality_time import TimeFlags, time_flags
 from thermodata.calibration.quality_value import RunStats, held_runs, run_stats, true_runs
-from thermodata.calibration.tread import exact_tread_of
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.schema.places import is_at_tool
@@ -42,11 +42,6 @@ _INERT = frozenset({"displacement", "tilt", "temperature", "temperature_differen
 # ... and of these which rest on no end: no pump that is off holds them at 0, and no air is more than saturated.
 _FREEZES = frozenset({"temperature", "temperature_difference"})
 _TOLD = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.OUT_OF_RANGE)
-# Quantities that rest, exactly, and up to where: by night no sun shines, but for a lamp and the sensor's offset [W/m2].
-RESTS_BELOW = {"irradiance": 30.0}
-_DAWN = 300.0 / 3600e9  # [W/m2/ns] the clear sky's steepest dawn; what comes quicker is no night that begins or ends
-_SUN_NS = 24 * 3600e9 / (2 * np.pi)  # in which it goes on by a radian
-_LEAP = 0.25  # of a reading of the sun: a cable or a lamp leaps to it on both sides
 MOST_EVENTS = 2000  # of a channel and flag; `concise` makes fewer of them
 
 
@@ -120,12 +115,12 @@ def _column(
     events = _limits(name, column, flags, t_ns, stats.get(name))
     if name in stats:
         x = np.asarray(column.values, dtype=np.float64)
-        count = _least_count(x, column.quantity, stats[name])
+        count = least_count_of_sun(x, column.quantity, stats[name])
         others = {k: columns[k].values for k in stats if k != name} if len(stats[name].starts) else {}
         for start, stop, stuck, why in held_runs(x, t_ns, stats[name], others, stats, column.elsewhere):
             if (flags[start:stop] & np.uint16(Flag.SATURATED | Flag.OUT_OF_RANGE)).all():
                 continue  # at the end of its range a reading stands still
-            if _rests(x, t_ns, start, stop, column.quantity) or (count and _clear_sky(x, t_ns, start, stop, count)):
+            if rests(x, t_ns, start, stop, column.quantity) or (count and is_clear_sky(x, t_ns, start, stop, count)):
                 continue
             flag = Flag.STUCK if stuck else Flag.HELD
             flags[start:stop] |= np.uint16(flag)
@@ -154,41 +149,6 @@ def _column(
                 flags[start:stop] |= np.uint16(flag)
                 events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
     return flags, _capped(events)
-
-
-def _rests(x: Float1D, t_ns: Int1D, start: int, stop: int, quantity: str) -> bool:
-    """Whether samples [start, stop), one reading, are a rest: low, and come or gone at the pace of a dawn on one side
-    at least. A cable that is off leaps on both."""
-    low = RESTS_BELOW.get(quantity)
-    if low is None or not x[start] <= low:
-        return False
-
-    def dawns(a: int, b: int) -> bool:
-        # a reading that is none says nothing
-        return a < 0 or b >= len(x) or not abs(x[b] - x[a]) > low + _DAWN * float(t_ns[b] - t_ns[a])
-
-    return dawns(start - 1, start) or dawns(stop - 1, stop)
-
-
-def _least_count(x: Float1D, quantity: str, own: RunStats) -> float:
-    """Of a reading of the sun; 0 of other quantities."""
-    return max(exact_tread_of([x]), own.finest) if quantity == "irradiance" else 0.0
-
-
-def _clear_sky(x: Float1D, t_ns: Int1D, first: int, stop: int, count: float) -> bool:
-    """Whether one reading of the sun, in samples from `first` to `stop`, is a clear sky's: it lasts no longer than
-    the sun takes about noon to change that by the least count of the sensor, and what is read just before and
-    after is no brighter than the sun may make it in that time. Clouds make it darker only, and not at once on both
-    sides."""
-    if not 0 < count < x[first] or t_ns[stop - 1] - t_ns[first] > 2 * _SUN_NS * np.arccos(1 - count / x[first]):
-        return False
-    before, after = slice(max(0, 2 * first - stop), first), slice(stop, 2 * stop - first)
-    away = np.concatenate([t_ns[first] - t_ns[before], t_ns[after] - t_ns[stop - 1]])
-    beside = np.concatenate([x[before], x[after]])
-    leaps = [abs(x[row] - x[first]) for row in (first - 1, stop) if 0 <= row < len(x)]
-    return bool((beside <= x[first] + count + x[first] * away / _SUN_NS).all()) and not (
-        len(leaps) > 1 and min(leaps) > _LEAP * x[first]
-    )
 
 
 def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: RunStats | None) -> list[QualityEvent]:
@@ -227,10 +187,10 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
             if here.any():
                 mark(Flag.SATURATED, here, f"{side} limit {limit:.6g}, as in other tests: {SAY_RANGE}")
         if not code.any() and not declared:
-            count = _least_count(y, column.quantity, stats)
+            count = least_count_of_sun(y, column.quantity, stats)
             for hit, _, why in clipped(y, stats, column.quantity, rests_below=RESTS_BELOW.get(column.quantity)):
                 where = np.flatnonzero(hit)
-                if count and _clear_sky(y, t_ns, int(where[0]), int(where[-1]) + 1, count):
+                if count and is_clear_sky(y, t_ns, int(where[0]), int(where[-1]) + 1, count):
                     continue
                 if (hit & ~at_end).any():
                     mark(Flag.SATURATED, hit & ~at_end, why)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality_between import Levels
+from thermodata.calibration.quality_levels import Levels
 from thermodata.store.ingest.losses import Losses, loss_row
 
 ZERO_K = 273.15

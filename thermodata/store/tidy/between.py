@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thermodata.calibration.quality_between import POINTS, Course, Levels, offsets_between_tests
+from thermodata.calibration.quality_between import offsets_between_tests
 from thermodata.calibration.quality_dead import dead_throughout
 from thermodata.calibration.quality_foreign import foreign_part
+from thermodata.calibration.quality_levels import POINTS, Course, Levels
 from thermodata.calibration.quality_range import Limits, ends_of_ranges
 from thermodata.calibration.quality_still import Reading, read_elsewhere
 from thermodata.calibration.quality_value import RunStats, refreshed, run_stats
