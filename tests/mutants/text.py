@@ -29,6 +29,7 @@ BESIDE = {
     "file/locate.py": ("locate",),
     "file/losses.py": ("losses", "delimited"),
     "cells/number.py": ("number",),
+    "cells/quotes.py": ("number", "quotes"),
     "clocks/odd_clocks.py": ("clock_pattern",),
     "rows/quality_columns.py": ("quality_columns",),
     "rows/odd_rows.py": ("three_ways", "rows_width"),
@@ -85,7 +86,7 @@ MUTANTS = [
         "Arrow rounds",
     ),
     text("cells/number.py", r"-?\d{{1,15}}(?:", r"-?\d{{1,16}}(?:", "Arrow rounds integers of 16 digits"),
-    text("cells/number.py", " or '\"' * (text.count('\"') % 2)", "", "a quote alone is an empty cell"),
+    text("cells/quotes.py", " or '\"' * (text.count('\"') % 2)", "", "a quote alone is an empty cell"),
     text("cells/number.py", "if points and commas:", "if False:", "files of two decimal marks are read by one"),
     text(
         "cells/number.py",

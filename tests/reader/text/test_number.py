@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.number import (
     EXACT,
-    clean,
     is_empty,
     is_number,
     is_overload,
@@ -20,6 +19,7 @@ from thermodata.reader.text.cells.number import (
     values_of,
     why_none,
 )
+from thermodata.reader.text.cells.quotes import clean
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,8 @@ Each room stands on those above it:
 
 from __future__ import annotations
 
-from thermodata.reader.text.cells.number import clean, decimal_mark
+from thermodata.reader.text.cells.number import decimal_mark
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.encoding import decode, decode_head, file_encoding, find_encoding
 from thermodata.reader.text.file.lines import last_line_is_whole
 from thermodata.reader.text.names.header import looks_like_unit, split_unit

@@ -15,7 +15,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.text.rows.footer import footer_notes

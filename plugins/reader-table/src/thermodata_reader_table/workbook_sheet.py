@@ -13,7 +13,8 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cells.cell import is_empty
-from thermodata.reader.text.cells.number import clean, decimal_mark, values_of
+from thermodata.reader.text.cells.number import decimal_mark, values_of
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.page.layout import STREAM, Group, Layout
 from thermodata.reader.text.preamble.head_start import ORDERS
@@ -23,19 +24,20 @@ from thermodata.reader.text.tables.zone_named import named_note
 from thermodata.reader.text.times.clock_numbers import clock_of_numbers
 from thermodata.reader.text.times.date_parts import column_times, declared_parts
 from thermodata.reader.text.times.days import NOTE, is_once
-from thermodata.reader.text.times.time_cells import belongs_to_time
-from thermodata.reader.text.times.time_formats import (
+from thermodata.reader.text.times.in_memory import (
     Stamps,
-    find_formats,
     times_of_dates,
     times_of_day,
     times_of_numbers,
     times_of_texts,
 )
+from thermodata.reader.text.times.time_cells import belongs_to_time
+from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata_reader_table.workbook_cells import joined, joined_words, part_of_date, seconds_of
 from thermodata_reader_table.workbook_days import local_times
 from thermodata_reader_table.workbook_start import begun
 from thermodata_reader_table.workbook_swapped import swapped_times
@@ -186,7 +188,7 @@ class Table:
         names = [self.layout.names[i] for i in group.time]
         numbers = any(clock_of_numbers(n, cells) for n, cells in zip(names[1:], columns[1:], strict=True))
         if declared_parts(group.form, len(columns)) or numbers:
-            parts = [[_part(cell) for cell in cells] for cells in columns]
+            parts = [[part_of_date(cell) for cell in cells] for cells in columns]
             forms = find_formats(names, parts, group.form, self.where)
             return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
         if len(columns) == 2 and is_once(columns[0]):
@@ -194,19 +196,19 @@ class Table:
             order = group.form if group.form in ORDERS else None
             return times_of_dates(local_times(columns[0], columns[1], order, self.where).view("datetime64[ns]"), zone)
         worded = any(belongs_to_time(cells) for cells in columns[1:])
-        joined = [_of_words(cells) if worded else _joined(cells) for cells in zip(*columns, strict=True)]
-        if (turned := swapped_times(joined, zone, group.form, self.where)) is not None:
+        moments = [joined_words(cells) if worded else joined(cells) for cells in zip(*columns, strict=True)]
+        if (turned := swapped_times(moments, zone, group.form, self.where)) is not None:
             return turned
-        if any(isinstance(j, str) and j for j in joined):
-            texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in joined]
+        if any(isinstance(j, str) and j for j in moments):
+            texts = [j if isinstance(j, str) else str(j).replace(" 00:00:00", " 0:00:00") for j in moments]
             return self._of_texts(texts, zone, group.form)
-        if any(isinstance(j, dt.timedelta) for j in joined):
+        if any(isinstance(j, dt.timedelta) for j in moments):
             micro = dt.timedelta(microseconds=1)
-            t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in joined], np.int64)
+            t = np.array([(j // micro) * 1000 if isinstance(j, dt.timedelta) else NAT for j in moments], np.int64)
             if any(isinstance(c, dt.time) for c in columns[0]):
                 return times_of_day(t)
             return Stamps(t, False, ("durations: counted as the cells say",))
-        naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in joined], "datetime64[ns]")
+        naive = np.array([j.isoformat() if isinstance(j, dt.datetime) else "NaT" for j in moments], "datetime64[ns]")
         return times_of_dates(naive, zone)
 
     def _of_texts(self, texts: list[str], zone: str | None, form: str | None) -> Stamps:
@@ -223,7 +225,7 @@ class Table:
         """Local times of days that are counted from a date [ns], shape (n,), NAT where there is none; a cell that is
         formatted as a date holds such a count too, and is given as what it shows."""
         dated = [isinstance(c, dt.date) for c in cells]
-        shown = [_joined((c,)).isoformat() if is_date else "NaT" for c, is_date in zip(cells, dated, strict=True)]
+        shown = [joined((c,)).isoformat() if is_date else "NaT" for c, is_date in zip(cells, dated, strict=True)]
         counts = tuple(None if is_date else c for c, is_date in zip(cells, dated, strict=True))
         counted = to_ns(self._numbers(counts)[0], epoch.seconds, epoch.zero_s)
         return np.where(dated, np.array(shown, "datetime64[ns]").view(np.int64), counted)
@@ -252,7 +254,7 @@ class Table:
         unit = None
         if filled and sum(isinstance(c, dt.timedelta | dt.time) for c in filled) * 2 > len(filled):
             self.notes.append(f"column '{name}' holds durations or times of day: they are read as seconds")
-            cells, unit = tuple(_seconds(c) for c in cells), "s"
+            cells, unit = tuple(seconds_of(c) for c in cells), "s"
         numbers, odd, over = self._numbers(cells)
         if odd and len(odd) * 2 > len(filled):
             texts = np.array([None if c is None else clean(str(c)) or None for c in cells], object)
@@ -261,49 +263,3 @@ class Table:
             reason = f"{counted(len(odd), 'cell', 'is no number', 'are no numbers')}, such as '{odd[0]}'"
             self.losses.append(Loss(f"{self.where} column '{name}'", None, None, len(odd) / len(cells), reason, name))
         return numbers, unit, over
-
-
-def _seconds(cell: Any) -> Any:
-    if isinstance(cell, dt.time):
-        return (dt.datetime.combine(dt.date.min, cell) - dt.datetime.min).total_seconds()
-    return cell.total_seconds() if isinstance(cell, dt.timedelta) else cell
-
-
-def _part(cell: Any) -> str:
-    """The text of a number that is part of a date: a workbook keeps all of them as floats."""
-    if cell in ("", None):
-        return ""
-    if isinstance(cell, dt.date):
-        return str(_bare_day(cell))
-    return str(int(cell)) if isinstance(cell, float) and cell.is_integer() else str(cell).strip()
-
-
-def _joined(cells: tuple[Any, ...]) -> Any:
-    """One date and time of a row's time cells."""
-    if len(cells) == 1:
-        cell = cells[0]
-        if isinstance(cell, dt.time):
-            return dt.datetime.combine(dt.date.min, cell) - dt.datetime.min
-        if isinstance(cell, dt.date) and not isinstance(cell, dt.datetime):
-            return dt.datetime.combine(cell, dt.time())
-        return cell
-    day, clock = cells[0], cells[1]
-    if isinstance(day, dt.date) and isinstance(clock, dt.time | dt.timedelta | dt.datetime):
-        midnight = dt.datetime(day.year, day.month, day.day)
-        if isinstance(clock, dt.timedelta):
-            return midnight + clock
-        return dt.datetime.combine(midnight.date(), clock.time() if isinstance(clock, dt.datetime) else clock)
-    return " ".join(str(c).strip() for c in cells)
-
-
-def _of_words(cells: tuple[Any, ...]) -> str:
-    """One text of a row's time cells, words among them: '2026-03-14 01:00:00 PM'; '' where one is empty."""
-    if any(map(is_empty, cells)):
-        return ""
-    clocked = any(isinstance(c, dt.time | dt.timedelta) or ":" in str(c) for c in cells[1:])
-    return " ".join(str(_bare_day(c) if clocked and not k else c).strip() for k, c in enumerate(cells))
-
-
-def _bare_day(day: Any) -> Any:
-    """The date of a moment at midnight, as a workbook keeps a day."""
-    return day.date() if isinstance(day, dt.datetime) else day

@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.plugin import Source
 from thermodata.reader.text.preamble.begin import ROWS, FirstTimes, declared_start, find_begin, unused_start
+from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
 from thermodata.reader.text.times.local_clock import DayCount
-from thermodata.reader.text.times.time_formats import Stamps, times_of_dates
 from thermodata.reader.zone import NAT, local_to_utc_ns
 
 

@@ -15,7 +15,8 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.times import timestamp
-from thermodata.reader.text.times.time_formats import Stamps, find_formats, times_of_dates
+from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
+from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 

@@ -27,6 +27,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D
 from thermodata.reader.text.cells import arrow
 from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
+from thermodata.reader.text.cells.quotes import clean
 
 TRUE = frozenset({"true", "wahr"})
 FALSE = frozenset({"false", "falsch"})
@@ -51,7 +52,6 @@ _ONE_GROUP = {
 _PADDED_SIGN = re.compile(r"^([+-]) +")
 _INTEGER = re.compile(r"[+-]?\d{1,40}", re.ASCII)
 _FORTRAN = re.compile(r"([+-]?(?:\d+[.,]\d*|[.,]\d+))[dD]([+-]\d{2,3})", re.ASCII)  # it always writes all of these
-_QUOTED_PARTS = re.compile(r'"[^"]+"(?:\[[^\]"]*\])?(?:\."[^"]+"(?:\[[^\]"]*\])?)+')
 _POINT = re.compile(r"^[+-]?\d*\.\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+\.\d*(?:[eE][+-]?\d+)?$")
 _COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\d+)?$")
 
@@ -63,25 +63,6 @@ def spelled(text: str) -> str:
         text = text.replace("\u2212", "-")
     found = _FORTRAN.fullmatch(text)
     return f"{found[1]}e{found[2]}" if found else text
-
-
-def clean(cell: str) -> str:
-    """A cell without blanks, quotes and a stray byte order mark around it. A quote alone stays: it is no empty cell;
-    and so do those of its parts."""
-    if cell and cell[0] > '"' < cell[-1] and cell.isascii():  # nearly every cell; blanks and quotes come before
-        return cell
-    text = cell.strip().strip("\ufeff").strip()
-    bare = text.strip('"').strip()
-    return _without_outer_quotes(text) if '"' in bare else bare or '"' * (text.count('"') % 2)
-
-
-def _without_outer_quotes(text: str) -> str:
-    """A cell that holds quotes: where they are of its parts ('ns=3;s="DB"."T01"') they stay, at both ends too."""
-    if _QUOTED_PARTS.fullmatch(text):
-        return text
-    if text[0] == '"' == text[-1]:
-        return text[1:-1].replace('""', '"').strip()
-    return text.strip('"').strip() if text.count('"') % 2 else text
 
 
 def is_empty(cell: str) -> bool:

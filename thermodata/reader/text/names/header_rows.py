@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.text.cells.cell import TIME_WORD, Cell, is_number, is_stamp
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.units_row import (
     STATISTIC,

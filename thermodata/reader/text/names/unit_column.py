@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.plugin import Block, Bool1D, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.quantity import is_unit, normal_unit
 
 _DEGREES = ("C", "F", "K")

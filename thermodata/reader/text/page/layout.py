@@ -20,7 +20,7 @@ from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.preamble.head_interval import with_interval
-from thermodata.reader.text.times.time_formats import Stamps
+from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
 

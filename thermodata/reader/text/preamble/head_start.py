@@ -10,7 +10,7 @@ from itertools import product
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TIME_OF_DAY
 from thermodata.reader.text.preamble.head_words import Says, said_by
 from thermodata.reader.text.preamble.zone_places import without_places

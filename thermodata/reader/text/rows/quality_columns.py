@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.interleaved import bare_header
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, tells_quality, zero_is_good
 
 _WORD = (

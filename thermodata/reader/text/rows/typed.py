@@ -15,7 +15,8 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells import arrow
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import EXACT, Values, clean, null_words, text_array
+from thermodata.reader.text.cells.number import EXACT, Values, null_words, text_array
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import count
 from thermodata.reader.text.rows.grid import TIME, BadLine, Grid, Rows
 from thermodata.reader.text.rows.odd_rows import SHOWN, CutRows, converted, line_by_line

@@ -12,7 +12,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells import delimiter as delimiters
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign

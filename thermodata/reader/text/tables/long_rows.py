@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
-from thermodata.reader.text.cells.number import clean, is_number
+from thermodata.reader.text.cells.number import is_number
+from thermodata.reader.text.cells.quotes import clean
 
 _FEWEST_ROWS = 10
 _MOST_NAMES = 200  # that one column may hold

@@ -11,7 +11,7 @@ from functools import cached_property
 from thermodata.reader.series import Series
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
 from thermodata.reader.text.names.header import told_alike

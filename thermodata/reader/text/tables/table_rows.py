@@ -10,7 +10,8 @@ import numpy as np
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
 from thermodata.reader.text.cells.arrow import values
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import clean, to_float, why_none
+from thermodata.reader.text.cells.number import to_float, why_none
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.preamble.begin import Begin

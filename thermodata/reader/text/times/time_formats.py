@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.time_pattern import (
@@ -34,10 +31,8 @@ from thermodata.reader.text.times.clock_letters import refuse_unread, with_clock
 from thermodata.reader.text.times.clock_numbers import clock_of_numbers
 from thermodata.reader.text.times.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.times.date_parts import PART, declared_parts
-from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.text.times.spans import SPAN, are_spans
-from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.zone import NAT
 
 _FEW, _MANY = 40, 4000
 _SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")
@@ -45,18 +40,6 @@ _HUNDREDS = re.compile(r"\s*\d{3,}:")  # hours in three digits
 _HINT = "declare table: {time: {format: dmy}} or mdy, or strptime's letters: '%d/%m/%Y %H:%M:%S'"
 _MIDNIGHT_NS = 3600 * 10**9  # within which the row after midnight follows
 _ORDERS = ("dmy", "mdy", "ymd")  # what may be declared in place of letters
-
-
-@dataclass(frozen=True, slots=True)
-class Stamps:
-    """t_ns: shape (n,), `NAT` where a cell holds no time; absolute: False for times of day without a date, and for
-    durations; zero_ns: what a relative time of 0 is in the cells; of_day: whether that is a time of day."""
-
-    t_ns: Int1D
-    absolute: bool
-    notes: tuple[str, ...]
-    zero_ns: int = 0
-    of_day: bool = False
 
 
 def share(cells: Sequence[str], form: TimeFormat) -> float:
@@ -258,45 +241,3 @@ def _ask_for_year(cells: Sequence[str], where: str) -> None:
 def _dates(cells: Sequence[str]) -> list[str]:
     """One cell a day: the first ten letters hold day and month."""
     return list({c.strip()[:10]: c for c in cells if c.strip()}.values())
-
-
-# ---- a column in memory --------------------------------------------------------------------------
-
-
-def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | None, where: str) -> Stamps:
-    """Times of a column of texts, in UTC; times of day without a date count from the first.
-
-    FormatError where day and month could be either way round in the whole column.
-    """
-    (form,) = find_formats([""], [list(cells)], declared, where)
-    ns = timestamp.parse(list(cells), form)
-    if form.role == "time":
-        return times_of_day(ns, form.cycle_ns, form.of_day)
-    if form.zoned:
-        return Stamps(ns, True, ())
-    utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
-    return Stamps(utc, True, tuple(notes))
-
-
-def times_of_dates(naive: npt.NDArray[np.datetime64], timezone: str | None) -> Stamps:
-    """The same from cells that are dates already (a workbook's)."""
-    utc, notes = local_to_utc_ns(naive, timezone)
-    return Stamps(utc, True, tuple(notes))
-
-
-def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
-    """Times of a column of numbers. unit: of time_units.check_unit()."""
-    if unit in SECONDS:
-        return Stamps(to_ns(values, SECONDS[unit]), False, ())
-    epoch = EPOCHS[unit]
-    t_ns = to_ns(values, epoch.seconds, epoch.zero_s)
-    return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
-
-
-def times_of_day(of_day_ns: Int1D, cycle_ns: int = DAY_NS, of_day: bool = True) -> Stamps:
-    """Times of day without a date count from the first; each step back by half a day is the next midnight. of_day:
-    False for durations that are written like them."""
-    days = DayCount(cycle_ns)
-    since = days.relative(of_day_ns)
-    good = of_day_ns[of_day_ns != NAT]
-    return Stamps(since, False, (DayCount.note(cycle_ns),), int(good[0]) if good.size else 0, of_day)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import clean
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import tells_quality, zero_is_good
 from thermodata.reader.text.cells.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
 from thermodata.reader.text.rows.grid import Grid

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from thermodata.plugin import Int1D
 from thermodata.reader.header_words import LABEL_WORDS, NAME_WORDS
-from thermodata.reader.text.cells.number import clean, is_empty, is_number
+from thermodata.reader.text.cells.number import is_empty, is_number
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import is_date_text, is_time_of_day
 from thermodata.reader.zone import NAT
 

@@ -15,7 +15,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import clean, is_number, to_float
+from thermodata.reader.text.cells.number import is_number, to_float
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import chunks, from_line, sample, split_last_line
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses

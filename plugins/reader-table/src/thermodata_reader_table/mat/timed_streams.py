@@ -12,7 +12,7 @@ from thermodata.plugin import Int1D, Source
 from thermodata.reader import time_units
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
-from thermodata.reader.text.times import time_formats
+from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
@@ -42,7 +42,7 @@ class TimedStream:
             rows = np.arange(start, min(stop, self.time.length), dtype=np.float64)
             return time_units.to_ns(self.time.zero_s + rows * self.time.step_s, 1.0)
         assert self.unit is not None
-        return time_formats.times_of_numbers(self.time.load(start, stop), self.unit, None).t_ns
+        return in_memory.times_of_numbers(self.time.load(start, stop), self.unit, None).t_ns
 
 
 class Clocked:
@@ -77,14 +77,14 @@ class Clocked:
         absolute = False
         if time.texts is not None:
             form = one_time(self.source.table, self.where).get("format") or self._of_datestr(time.texts)
-            found = time_formats.times_of_texts(time.texts, self.source.timezone, form, f"{self.where} {time.path}")
+            found = in_memory.times_of_texts(time.texts, self.source.timezone, form, f"{self.where} {time.path}")
             whole, absolute = found.t_ns, found.absolute
             self._note(found.notes)
         elif time.load is not None:
             unit = self._unit(time)
             absolute = time_units.is_absolute(unit)
             if absolute and time_units.EPOCHS[unit].local:
-                found = time_formats.times_of_numbers(time.load(0, time.length), unit, self.source.timezone)
+                found = in_memory.times_of_numbers(time.load(0, time.length), unit, self.source.timezone)
                 whole = found.t_ns
                 self._note(found.notes)
         names = tuple(unique([c.name for c in stream.columns]))

@@ -13,7 +13,8 @@ from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.clocks.odd_clocks import clock_question
 from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, filled, have_days, is_once
-from thermodata.reader.text.times.time_formats import Stamps, find_formats, times_of_dates, times_of_day
+from thermodata.reader.text.times.in_memory import Stamps, times_of_dates, times_of_day
+from thermodata.reader.text.times.time_formats import find_formats
 
 
 def as_cells(column: Any) -> list[Cell]:

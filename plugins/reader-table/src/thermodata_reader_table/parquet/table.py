@@ -21,9 +21,9 @@ from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.page.layout import period_s
-from thermodata.reader.text.times import time_formats
+from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.date_parts import find_parts
-from thermodata.reader.text.times.time_formats import times_of_numbers
+from thermodata.reader.text.times.in_memory import times_of_numbers
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
@@ -195,7 +195,7 @@ class Table:
             meanwhile={"time": {"column": names[0]}},
         )
 
-    def stamps(self, rows: int | None = None) -> time_formats.Stamps:
+    def stamps(self, rows: int | None = None) -> in_memory.Stamps:
         """The times of all rows, or of the first some: by the time column, or counted at the declared period."""
         import pyarrow as pa
 
@@ -205,9 +205,9 @@ class Table:
         kept = [[b.column(str(i)) for i in wanted] for b in batches]
         if self.time is None:
             steps = np.arange(sum(len(k[0]) for k in kept))
-            return time_formats.Stamps(to_ns(steps, self.period or 0.0), False, ())
+            return in_memory.Stamps(to_ns(steps, self.period or 0.0), False, ())
         if not kept:
-            return time_formats.Stamps(np.zeros(0, np.int64), False, ())
+            return in_memory.Stamps(np.zeros(0, np.int64), False, ())
         with damage_as_format_error(self.path):
             columns = [
                 pa.chunked_array([c for k in kept for c in k[n].chunks], self.schema.field(i).type)
@@ -217,7 +217,7 @@ class Table:
                 return joined([self.names[i] for i in wanted], columns, self.source.timezone, self.form, self.path.name)
             return self._times(columns[0])
 
-    def _times(self, column: Any) -> time_formats.Stamps:
+    def _times(self, column: Any) -> in_memory.Stamps:
         """Times of the time column, or of a part of it. Local times want the whole column: the order of all its
         rows tells the hour that repeats."""
         import pyarrow as pa
@@ -225,17 +225,17 @@ class Table:
 
         kind = column.type
         if self.unit == "duration":
-            return time_formats.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
+            return in_memory.Stamps(nanoseconds(column.cast(pa.duration("ns"))), False, ())
         if self.unit is not None:
             values = column.to_numpy() if pt.is_integer(kind) and not column.null_count else numbers(column)
             return times_of_numbers(values, self.unit, self.source.timezone)
         if not (pt.is_timestamp(kind) or pt.is_date(kind)):
-            return time_formats.times_of_texts(texts(column), self.source.timezone, self.form, self.path.name)
+            return in_memory.times_of_texts(texts(column), self.source.timezone, self.form, self.path.name)
         zone = getattr(kind, "tz", None)
         naive = nanoseconds(column.cast(pa.timestamp("ns", zone)))
         if zone is not None:
-            return time_formats.Stamps(naive, True, ())
-        return time_formats.times_of_dates(naive.view("datetime64[ns]"), self.source.timezone)
+            return in_memory.Stamps(naive, True, ())
+        return in_memory.times_of_dates(naive.view("datetime64[ns]"), self.source.timezone)
 
     def dtype(self, column: int) -> str:
         """numpy's name; integers and bool of a column that has missing values are float64."""

@@ -1,0 +1,68 @@
+"""The times of a whole column that is in memory, in UTC: texts, dates, numbers, times of day."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from thermodata.plugin import Array, Int1D
+from thermodata.reader.text.cells.time_pattern import DAY_NS
+from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.local_clock import DayCount
+from thermodata.reader.text.times.time_formats import find_formats
+from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.reader.zone import NAT, local_to_utc_ns
+
+
+@dataclass(frozen=True, slots=True)
+class Stamps:
+    """t_ns: shape (n,), `NAT` where a cell holds no time; absolute: False for times of day without a date, and for
+    durations; zero_ns: what a relative time of 0 is in the cells; of_day: whether that is a time of day."""
+
+    t_ns: Int1D
+    absolute: bool
+    notes: tuple[str, ...]
+    zero_ns: int = 0
+    of_day: bool = False
+
+
+def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | None, where: str) -> Stamps:
+    """Times of a column of texts, in UTC; times of day without a date count from the first.
+
+    FormatError where day and month could be either way round in the whole column.
+    """
+    (form,) = find_formats([""], [list(cells)], declared, where)
+    ns = timestamp.parse(list(cells), form)
+    if form.role == "time":
+        return times_of_day(ns, form.cycle_ns, form.of_day)
+    if form.zoned:
+        return Stamps(ns, True, ())
+    utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
+    return Stamps(utc, True, tuple(notes))
+
+
+def times_of_dates(naive: npt.NDArray[np.datetime64], timezone: str | None) -> Stamps:
+    """The same from cells that are dates already (a workbook's)."""
+    utc, notes = local_to_utc_ns(naive, timezone)
+    return Stamps(utc, True, tuple(notes))
+
+
+def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
+    """Times of a column of numbers. unit: of time_units.check_unit()."""
+    if unit in SECONDS:
+        return Stamps(to_ns(values, SECONDS[unit]), False, ())
+    epoch = EPOCHS[unit]
+    t_ns = to_ns(values, epoch.seconds, epoch.zero_s)
+    return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
+
+
+def times_of_day(of_day_ns: Int1D, cycle_ns: int = DAY_NS, of_day: bool = True) -> Stamps:
+    """Times of day without a date count from the first; each step back by half a day is the next midnight. of_day:
+    False for durations that are written like them."""
+    days = DayCount(cycle_ns)
+    since = days.relative(of_day_ns)
+    good = of_day_ns[of_day_ns != NAT]
+    return Stamps(since, False, (DayCount.note(cycle_ns),), int(good[0]) if good.size else 0, of_day)
