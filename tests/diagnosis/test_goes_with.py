@@ -221,7 +221,7 @@ def said(
     *found: Companion,
     suspect: Suspect | None = None,
     first: First | None = None,
-    warm: str | None = None,
+    warm: tuple[str, str] | None = None,
     **changed: object,
 ) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
@@ -260,8 +260,13 @@ def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_no
     assert "can't say where it is; least like it is what is logged near column" in text
 
 
-@pytest.mark.parametrize(("warm", "told"), [("t0", True), ("t1", False), (None, False)])
-def test_what_is_strongest_where_the_model_fails_at_a_warm_start_is_laid_to_that(warm: str | None, told: bool) -> None:
+@pytest.mark.parametrize(
+    ("warm", "told"),
+    [(a_test("t0", 4).key, True), (a_test("t1", 4).key, False), (("another", "t0"), False), (None, False)],
+)
+def test_what_is_strongest_where_the_model_fails_at_a_warm_start_is_laid_to_that(
+    warm: tuple[str, str] | None, told: bool
+) -> None:
     text = said(NOT_COLUMN, warm=warm)
     assert ("t0 is declared to start warm, and the model fails most at its start" in text) is told
     assert ("run it again from a cold start" in text) is told

@@ -23,7 +23,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.ranking import Ranked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import UsageError
-from thermodata.report.verdict import beside
+from thermodata.report.candidate_errors import beside
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.missing_heat import Unknown
 from thermodata.schema.model import Model

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.claims.at_rest import AtRest as Resting
 from thermodata.diagnosis.claims.detection import LARGE, Limit
 from thermodata.diagnosis.claims.other_axes import OtherAxes
 from thermodata.diagnosis.clocks.ends_of_logs import UNKNOWN, Ends
@@ -157,6 +158,19 @@ def shares_left(fitted: FittedModel, tests: Sequence[TestData]) -> list[float | 
     return left
 
 
+def _at_rest(found: Sequence[Resting], data: Dataset) -> list[AtRest]:
+    several = len({t.campaign for t in data.tests}) > 1
+    return [
+        AtRest(
+            channel=one.channel,
+            warms=list(one.warms),
+            effects=list(one.effects),
+            moves_in=["/".join(t.key) if several else t.test for t in one.moves_in],
+        )
+        for one in found
+    ]
+
+
 def _diagnosis(
     investigation: Investigation,
     judgement: Judgement,
@@ -199,17 +213,7 @@ def _diagnosis(
         limits=[]
         if judgement.claims
         else [_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
-        at_rest=[]
-        if judgement.claims
-        else [
-            AtRest(
-                channel=one.channel,
-                warms=list(one.warms),
-                effects=list(one.effects),
-                moves_in=[t.test for t in one.moves_in],
-            )
-            for one in investigation.at_rest
-        ],
+        at_rest=[] if judgement.claims else _at_rest(investigation.at_rest, data),
         chance=ladder.chance(investigation.measure),
     )
 

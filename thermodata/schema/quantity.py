@@ -207,6 +207,11 @@ def is_unit(text: str) -> bool:
     return True
 
 
+def difference_unit(unit: str) -> str:
+    """Of a difference of two values in a unit: K of temperatures."""
+    return "K" if unit == "degC" else unit
+
+
 def compound_unit(left: str, operator: Literal["*", "/"], right: str) -> str:
     """The unit of a product or quotient, '' where it has none; a temperature counts as a difference in it."""
     registry = _registry()

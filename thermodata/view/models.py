@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
+from thermodata.schema.quantity import difference_unit
 from thermodata.schema.terms import ids_of
 from thermodata.store.base.connection import fetch
-from thermodata.view.response_units import error_unit
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -82,7 +82,7 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> Model
         bool(r["stale"]),
         tuple(r["campaigns"]),
         tuple(r["response"].split(", ")),
-        error_unit(r["unit"]),
+        difference_unit(r["unit"]),
         tuple(e["effect"] for e in effects),
         tuple(ids_of((e["effect"], e.get("id")) for e in effects)),
         r["calibration"],

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from thermodata.schema.quantity import difference_unit
+
 if TYPE_CHECKING:
     from thermodata.store import Store
 
 _UNITS = """select distinct channel, unit from channel
 where list_contains($names, channel) and ($campaigns is null or list_contains($campaigns, campaign)) order by all"""
-
-
-def error_unit(unit: str) -> str:
-    """Of the errors of what is measured in a unit: K of a temperature."""
-    return "K" if unit == "degC" else unit
 
 
 def measured_units(store: Store, names: Sequence[str], campaigns: Collection[str] | None = None) -> dict[str, str]:
@@ -28,7 +25,7 @@ def measured_units(store: Store, names: Sequence[str], campaigns: Collection[str
 
 def response_units(store: Store, names: Sequence[str], campaigns: Collection[str] | None = None) -> dict[str, str]:
     """response -> unit of its errors, of those that the campaigns (None: any) have."""
-    return {name: error_unit(unit) for name, unit in measured_units(store, names, campaigns).items()}
+    return {name: difference_unit(unit) for name, unit in measured_units(store, names, campaigns).items()}
 
 
 def told_together(names: Sequence[str], units: Mapping[str, str]) -> list[str]:

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from thermodata.view.response_units import error_unit
+from thermodata.schema.quantity import difference_unit
 
 if TYPE_CHECKING:
     import duckdb
@@ -39,7 +39,7 @@ class Known:
     def of_errors(self, response: str) -> str | None:
         """The unit of a response's errors; None where it is not known, or several."""
         unit = self.channels.get(response)
-        return None if unit is None else error_unit(unit)
+        return None if unit is None else difference_unit(unit)
 
 
 def known_units(con: duckdb.DuckDBPyConnection) -> Known:

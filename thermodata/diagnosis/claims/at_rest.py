@@ -12,7 +12,7 @@ from thermodata.diagnosis.claims.detection import has_a_name
 from thermodata.effect.places import holds
 from thermodata.view.dataset import ChannelInfo, TestData
 
-COMMANDS = ("rotational_speed", "feed", "flow", "state", "position")
+MOVING = ("rotational_speed", "feed", "flow", "state", "position")
 STANDS = 0.05  # of what it does in the tests that move it: less is rest
 
 
@@ -38,7 +38,7 @@ def at_rest(
     found = []
     named = [one for one in pool if one.kin in (None, "near", "related") and has_a_name(one)]
     for name, info in channels.items():
-        if info.quantity not in COMMANDS or info.is_mask:
+        if info.quantity not in MOVING or info.is_mask:
             continue
         does = [_does(t, name, info.quantity) for t in others]
         most = max(does, default=0.0)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from thermodata.schema.model import EffectSpec, Model
     from thermodata.store import Store
     from thermodata.view.dataset import TestData
-from thermodata.view.response_units import error_unit
+from thermodata.schema.quantity import difference_unit
 
 
 def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
@@ -54,7 +54,7 @@ def contradicted(
     spread = _spread(response, locked)
     if left <= HALVES * spread:
         return judgement
-    unit = error_unit(response.unit)
+    unit = difference_unit(response.unit)
     reason = (
         f"the locked tests, opened when its last effect was claimed, were left with {left:.2g} {unit} of "
         f"{spread:.2g} {unit} (limit {HALVES:.0%}), though the open ones show nothing more"

@@ -14,8 +14,8 @@ import numpy as np
 
 from thermodata.modelling.terms.nuisance import unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
+from thermodata.schema.quantity import difference_unit
 from thermodata.view.dataset import Dataset, TestData
-from thermodata.view.response_units import error_unit
 
 TARGET_ROWS = 9000
 MIN_ROWS = 10
@@ -209,7 +209,7 @@ def build_problem(
                 )
             )
     noise = float(np.median(noises)) if noises else float("nan")
-    return Problem(response, error_unit(unit), data.step_s * every, tuple(blocks), noise)
+    return Problem(response, difference_unit(unit), data.step_s * every, tuple(blocks), noise)
 
 
 def _parts(mask: Bool1D, tests: int) -> list[Bool1D]:

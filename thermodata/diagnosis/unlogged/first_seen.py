@@ -22,23 +22,23 @@ def where(
     weak: Sequence[TestData],
     suspect: Suspect | None = None,
     first: First | None = None,
-    warm: str | None = None,
+    warm: tuple[str, str] | None = None,
 ) -> str:
     """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
-    first: what ranks first, and is plausible. warm: the name of the test at whose warm start the model
+    first: what ranks first, and is plausible. warm: the key of the test at whose warm start the model
     fails most."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
     said = [_capital(_body(heat)), told]
-    warm = name_of(strong[0], heat) if warm == strong[0].test else None
-    if warm is not None:
-        said.append(_began_warm(warm))
+    strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
+    if is_warm:
+        said.append(_began_warm(strongest))
     if suspect is not None:
         # one channel alone says little for or against an effect of several, or of heat that it doesn't measure
         found = [c for c in found if c.info.name not in suspect.channels]
         said.append(suspect.told)
     elif first is not None:
         found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
-    look_at = _to_look_at(strong[0], name_of(strong[0], heat), first, warm)
+    look_at = _to_look_at(strong[0], strongest, first, is_warm)
     return ". ".join([*said, *_place(found, look_at, suspect), *_direction(heat)])
 
 
@@ -128,11 +128,11 @@ def _began_warm(test: str) -> str:
     )
 
 
-def _to_look_at(strongest: TestData, name: str, first: First | None, warm: str | None) -> str:
+def _to_look_at(strongest: TestData, name: str, first: First | None, is_warm: bool) -> str:
     """What is logged and acts there, where that is plausible: else what is not logged, unless it began warm. name: of
     the test."""
     if first is None or strongest.key not in first.acts_in:
-        return "" if warm is not None else f"; note what runs in {name} and is not logged"
+        return "" if is_warm else f"; note what runs in {name} and is not logged"
     one = first.cause
     names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
     return (

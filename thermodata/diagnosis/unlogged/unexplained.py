@@ -27,11 +27,11 @@ def characterise(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem, suspect, first, next((s.test for s in spots[:1] if is_after_warm_start(s)), None)),
+        heat=_heat(problem, suspect, first, spots[0] if spots and is_after_warm_start(spots[0]) else None),
     )
 
 
-def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: str | None) -> MissingHeat | None:
+def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: WeakSpot | None) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
@@ -52,7 +52,9 @@ def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: 
         weak_tests=[first_seen.name_of(t, heat) for t in weak],
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
         goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
-        where=first_seen.where(heat, found, strong, weak, suspect, first, warm),
+        where=first_seen.where(
+            heat, found, strong, weak, suspect, first, (warm.campaign, warm.test) if warm is not None else None
+        ),
         courses=[_course(c) for c in heat.courses],
     )
 

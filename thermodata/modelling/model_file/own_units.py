@@ -6,7 +6,7 @@ from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.printed import WithUnit
-from thermodata.schema.quantity import value_in
+from thermodata.schema.quantity import difference_unit, value_in
 
 
 def in_own_units(
@@ -17,7 +17,7 @@ def in_own_units(
     units = {p.name: p.unit for p in effect.params} | {g.name: g.unit for g in effect.gains}
     units |= getattr(effect, "constants", {})
     if driver is not None and response is not None:
-        of_both = f"{_difference(response)}/{_difference(driver)}"
+        of_both = f"{difference_unit(response)}/{difference_unit(driver)}"
         units |= {g.name: of_both for g in effect.gains if g.unit == "um/u"}
 
     def own(name: str, value: float) -> float:
@@ -42,7 +42,3 @@ def in_unit(name: str, value: float, unit: str, where: str | None) -> float:
         raise SpecError(
             f"'{name}' has another unit", where=where, expected=f"{unit}, or what converts to it", got=value.text
         ) from error
-
-
-def _difference(unit: str) -> str:
-    return "K" if unit == "degC" else unit

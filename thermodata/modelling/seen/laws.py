@@ -18,6 +18,7 @@ from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Values
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.modelling.terms.parameters import gain_unit
+from thermodata.schema.quantity import difference_unit
 from thermodata.view.dataset import ChannelInfo
 
 
@@ -182,7 +183,7 @@ def _drive(term: FittedTerm, channels: Mapping[str, ChannelInfo], role: str, tex
     at_rest = all(n in channels and channels[n].quantity in ZERO_AT_REST for n in names)
     unit = units.get(text, "1") if text.isidentifier() else parse(text).unit({n: units.get(n, "1") for n in names})
     relative = not at_rest and not logical and need != "position"
-    return Drive(role, text, tree, relative, "K" if unit == "degC" and relative else unit or "1")
+    return Drive(role, text, tree, relative, difference_unit(unit or "1") if relative else unit or "1")
 
 
 def from_expression(node: nodes.Node, text: str) -> law.Node:

@@ -9,6 +9,7 @@ from thermodata.calibration.expression import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
 from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param
+from thermodata.schema.quantity import difference_unit
 from thermodata.schema.result import SAMPLE, Parameter
 
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
@@ -94,7 +95,7 @@ def driver_unit(response: FittedResponse, term: FittedTerm) -> str:
         unit: str | None = units.get(text)
     else:
         unit = parse(text).unit({name: units.get(name, "1") for name in parse(text).names})
-    return "K" if unit == "degC" else unit or "1"
+    return difference_unit(unit or "1")
 
 
 def interval(

@@ -17,8 +17,8 @@ from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.of_response import of_response
 from thermodata.report.pieces import names_of_pieces
-from thermodata.report.verdict import claims_of, explainable, listed, told, verdict_sentence
-from thermodata.report.words import heat_lines, in_unit, number
+from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.words import heat_lines, in_unit, listed, number
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store

@@ -11,9 +11,9 @@ from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
 from thermodata.schema.counted import counted
+from thermodata.schema.quantity import difference_unit
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
-from thermodata.view.response_units import error_unit
 from thermodata.view.window import Channel, Window
 
 _HOUR = 3600.0
@@ -63,7 +63,7 @@ def _of_model(predicted: Sequence[Prediction], order: Sequence[str], units: Mapp
     panels = []
     for p in predicted:
         unit = units.get(p.response, "um")
-        of_errors = error_unit(unit)
+        of_errors = difference_unit(unit)
         x = p.t_s / _HOUR
         measured = np.where(p.valid, p.measured, np.nan)
         panels += [
