@@ -8,12 +8,14 @@ from typing import Any
 
 import pytest
 
+from thermodata.report.candidate_errors import beside
 from thermodata.report.collect import _reason
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
-from thermodata.report.verdict import beside, explainable, in_parts, listed, named, probability, told, verdict_sentence
+from thermodata.report.verdict import explainable, in_parts, named, probability, told, verdict_sentence
+from thermodata.report.words import listed
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import ClockMoved, Diagnosis, PutRight
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from thermodata.report.candidate_errors import beside
 from thermodata.report.could_hide import could_hide
 from thermodata.report.fit_text import spots_text
 from thermodata.report.glossary import PARTS, explained
@@ -11,7 +12,7 @@ from thermodata.report.left_over import noise_words
 from thermodata.report.log_faults import log_faults
 from thermodata.report.of_response import of_response
 from thermodata.report.table import table
-from thermodata.report.verdict import beside, explainable, in_parts, probability, put_right, told, verdict_sentence
+from thermodata.report.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
 from thermodata.report.words import duration, heat_lines, number
 
 if TYPE_CHECKING:

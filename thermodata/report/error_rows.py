@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.modelling.compare.common import on_common
+from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
-from thermodata.report.verdict import beside, claims_of
+from thermodata.report.verdict import claims_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis

@@ -6,8 +6,8 @@ from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
 from thermodata.report.lost import lost_sentence
 from thermodata.report.of_response import of_response
-from thermodata.report.verdict import causes, claims_of, listed, verdict_sentence
-from thermodata.report.words import change, in_unit, number
+from thermodata.report.verdict import causes, claims_of, verdict_sentence
+from thermodata.report.words import change, in_unit, listed, number
 from thermodata.schema.diagnosis import Diagnosis
 
 

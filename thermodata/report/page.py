@@ -12,6 +12,7 @@ import numpy as np
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import block_mean
 from thermodata.report.bars import waterfall
+from thermodata.report.candidate_errors import beside
 from thermodata.report.could_hide import could_hide
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.error_rows import error_rows, headline_error
@@ -24,7 +25,7 @@ from thermodata.report.lost import lost_of_versions
 from thermodata.report.of_response import of_response
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
-from thermodata.report.verdict import beside, probability, told, verdict_sentence
+from thermodata.report.verdict import probability, told, verdict_sentence
 from thermodata.report.words import base_role, change, duration, heat_lines, in_unit, number, probability_text, typeset
 from thermodata.report.write import page_values, write_page
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from thermodata.report.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import left_over, on_left_out
-from thermodata.report.words import number, percent
+from thermodata.report.words import listed, number, percent
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
@@ -34,11 +33,6 @@ def probability(share: float | None) -> str:
     if share is None:
         return ""
     return "under 1 %" if share < 0.01 else percent(share)
-
-
-def listed(names: Sequence[str]) -> str:
-    """'a', 'a and b', 'a, b and c'."""
-    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
 
 
 def claims_of(found: Diagnosis) -> list[Candidate]:
@@ -109,9 +103,8 @@ def _verdict(found: Diagnosis) -> str:
     if found.verdict == "effect" and claims:
         return "; ".join(filter(None, [_missing(claims, found.rmse_um), beside]))
     if found.verdict == "unknown":
-        again = (
-            f"{beside}, {_left_out(refined, found.rmse_um)}: add {'it' if len(refined) == 1 else 'them'} and ask again"
-        )
+        errors, them = left_out_errors(refined, found.rmse_um), "it" if len(refined) == 1 else "them"
+        again = f"{beside}, {errors}: add {them} and ask again"
         return "; ".join(filter(None, [_unclaimed(found), again if beside else ""]))
     far = _far_on_locked(found)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
@@ -122,7 +115,7 @@ def _verdict(found: Diagnosis) -> str:
                 None,
                 [
                     NO_MORE,
-                    f"{beside}, {_left_out(refined, found.rmse_um)}",
+                    f"{beside}, {left_out_errors(refined, found.rmse_um)}",
                     open_still,
                 ],
             )
@@ -148,7 +141,7 @@ def _not_excluded(found: Diagnosis) -> str:
 
 
 def _missing(claims: Sequence[Candidate], left: float | None) -> str:
-    return f"missing: {causes(claims)}; {_left_out(claims, left)}{_locked(claims)}"
+    return f"missing: {causes(claims)}; {left_out_errors(claims, left)}{locked_errors(claims)}"
 
 
 def causes(claims: Sequence[Candidate]) -> str:
@@ -188,74 +181,6 @@ def as_named(candidate: str) -> str:
 
 def _how_sure(one: Candidate) -> str:
     return "" if one.probability is None else f"probability {probability(one.probability)}"
-
-
-def _left_out(some: Sequence[Candidate], left: float | None) -> str:
-    """What each gives on left-out tests. Over all of them an error may rise though it falls where the effect acts.
-    left: the error of the user's own model."""
-    if len(some) == 1:
-        others = listed(beside(some[0], left))
-        return _from_to("error on left-out tests" + (f" beside {others}:" if others else ""), some[0])
-    ids = {c.id for c in some}
-    if all(set(beside(c, left)) == ids - {c.id} for c in some):
-        each = [_from_to(c.effect, c) for c in some]
-        apart = len({number(c.rmse_um_after) for c in some}) > 1
-        turns = " (fitted in turn, the others as they stand, so these end apart)" if apart else ""
-        return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}{turns}"
-    each = [_from_to(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
-    return f"error on left-out tests: {', '.join(each)}"
-
-
-def _beside_or_alone(others: Sequence[str]) -> str:
-    return f"beside {listed(others)}" if others else "alone"
-
-
-def beside(one: Candidate, left: float | None) -> list[str]:
-    """Ids of the candidates that its errors on left-out tests have in the model too, without it and with it, as its
-    sentence names them; empty where they are of the user's own model. left: the error of that [um]."""
-    if one.beside is not None:
-        return one.beside
-    before = one.rmse_um_before
-    if before is None or (left is not None and math.isclose(before, left, rel_tol=1e-6)):
-        return []
-    found = re.search(r", beside (.+?), the error ", one.why)
-    return found[1].split(" and ") if found else []
-
-
-def _locked(claims: Sequence[Candidate]) -> str:
-    """Locked tests are scored with all claims together, from their first samples; a claim is judged by its shape."""
-    before, after = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
-    if before is None or after is None:
-        return ""
-    all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
-    if claims[0].locked_tests_asked == 0:
-        acts = "it hardly acts" if len(claims) == 1 else "they hardly act"
-        of = "its" if len(claims) == 1 else "their"
-        said = f"{acts} in the locked tests (under a fifth of {of} largest), so these were not asked"
-        return f"; {said} ({number(before)} -> {number(after)} um)"
-    figures = f"{number(before)} -> {number(after)} um"
-    shape = claims[0].locked_shape_um_before, claims[0].locked_shape_um_after
-    if after < before:
-        return f"; locked tests{all_of} {figures}"
-    if shape[0] is not None and shape[1] is not None and shape[1] >= shape[0]:
-        return (
-            f"; locked tests get worse{all_of} ({figures}, by their shape {number(shape[0])} -> {number(shape[1])} um)"
-        )
-    by = "" if shape[0] is None or shape[1] is None else f", {number(shape[0])} -> {number(shape[1])} um"
-    return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
-
-
-def _from_to(what: str, one: Candidate) -> str:
-    before, after = one.rmse_um_before, one.rmse_um_after
-    if before is None or after is None:
-        return f"{what} not known"
-    figures = f"{number(before)} -> {number(after)} um"
-    if after < before:
-        return f"{what} {figures}"
-    falls = next((r.value for r in one.rungs if r.name == "fall"), None)
-    if falls is not None and falls <= 0:
-        return f"{what} (does not fall, though the evidence speaks for it: {figures})"
-    return f"{what} (falls where it acts only; over all: {figures})"
 
 
 def _unclaimed(found: Diagnosis) -> str:

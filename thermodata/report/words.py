@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
     from thermodata.schema.result import Score
@@ -143,3 +143,8 @@ def _companion(one: HeatCompanion) -> str:
     if off > on:
         return f"{one.channel} (on in {percent(off)} while it is off, {percent(on)} else)"
     return f"{one.channel} (on in {percent(on)} while it runs, {percent(off)} else)"
+
+
+def listed(names: Sequence[str]) -> str:
+    """'a', 'a and b', 'a, b and c'."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

@@ -119,7 +119,7 @@ class AtRest(Result):
     channel: the command
     warms: temperatures at its place
     effects: of the library, which the model lacks and one of them drives
-    moves_in: the other tests that move it
+    moves_in: the other tests that move it; campaign/test where there are several campaigns
     """
 
     channel: str
