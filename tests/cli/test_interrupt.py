@@ -92,6 +92,24 @@ def pressed(command: list[str], after: str = "", wait_s: float = 3.0) -> tuple[i
     return running.returncode, "".join(said.strip().splitlines()[-1:])
 
 
+ENDING = """
+import atexit, os, signal, sys
+from thermodata.cli import main
+
+
+atexit.register(lambda: os.kill(os.getpid(), signal.SIGINT))
+sys.argv = ["thermodata", "plugins"]
+sys.exit(main())
+"""
+
+
+def test_what_is_done_is_not_killed_as_it_ends() -> None:
+    ended = subprocess.run(
+        [sys.executable, "-c", ENDING], capture_output=True, text=True, timeout=120, check=False, preexec_fn=heeding
+    )
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
 def test_a_query_is_interrupted(campaign: Path) -> None:
     command = [sys.executable, "-m", "thermodata", "--store", str(campaign / "thermodata.store"), "sql", QUERY]
     assert pressed(command) == INTERRUPTED

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import signal
 from collections.abc import Sequence
 
 from thermodata.errors import INTERRUPTED
@@ -28,6 +29,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         # CPython takes one that came through the execution of a text, as data classes are made by, for one that nobody
         # caught, and would end by the signal; the next text makes it forget that
         exec("")
+    if argv is None:
+        # the answer is given: an interpreter that ends gives Ctrl-C back to the system, which would kill it for nothing
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
     return code
 
 
