@@ -18,7 +18,7 @@ from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
-from thermodata.report.words import base_role, pooled
+from thermodata.report.words import base_role, listed, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
@@ -84,6 +84,7 @@ def show(request: Request) -> Response:
     shown = _shown_test(store, models, pinned.model, given.get("test", ""), lines, keys)
     beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
     labels = {m.model: m.label for m in chosen}
+    of_chain = told_together(newest.responses, response_units(store, newest.responses, newest.campaigns))
     order = term_order(models, labels)
     return page(
         request,
@@ -104,6 +105,8 @@ def show(request: Request) -> Response:
         mixed=len({units.get(line.response) for line in lines}) > 1,
         several=len({line.response for line in lines}) > 1,
         most=_largest(lines, units),
+        told_of=_some(together, pinned.responses),
+        told_of_chain=_some(of_chain, newest.responses),
         roles=_roles(on_common([r.scores for r in results]), together),
         compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
@@ -152,12 +155,17 @@ def _has(keys: Sequence[Key], named: str) -> bool:
     return any(named in (t, f"{c}/{t}") for c, t in keys)
 
 
+def _some(told: Sequence[str], responses: Sequence[str]) -> str:
+    """'dY and dZ', where an error is not over all responses of a model; '' where it is."""
+    return listed(told) if len(told) < len(responses) else ""
+
+
 def _drawn(
     part: Contributions, only: bool, labels: dict[str, str], unit: str, order: list[str]
-) -> tuple[Contributions, str]:
-    """What is listed of it, and its chart."""
-    listed = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
-    return listed, script_json(contribution_chart(listed, labels, unit, order).as_json())
+) -> tuple[Contributions, str, str]:
+    """What is listed of it, its chart, and the unit of both."""
+    shown = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
+    return shown, script_json(contribution_chart(shown, labels, unit, order).as_json()), unit
 
 
 def _chosen(models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:
