@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import re
 
 import pytest
@@ -57,6 +58,32 @@ def test_a_page_of_two_responses_says_which_an_error_and_a_weak_spot_are_of(blin
     for heading in ("<th>campaign</th>", "<th>response</th>"):
         assert heading in page
     assert "Of dZ, of which the model leaves most: 80 % of its variance, of dY 25 %." in page
+
+
+def test_a_page_of_two_units_has_a_map_and_a_scale_of_bars_for_each(blind: ReportData) -> None:
+    cool = [dataclasses.replace(t, response="T_nut", residual=t.residual / 100) for t in blind.tests]
+    tests = tuple(both for pair in zip(blind.tests, cool, strict=True) for both in pair)
+    scores = [s.model_copy(update={"rmse_um": (s.rmse_um or 0.0) / 100, "response": "T_nut"}) for s in blind.scores]
+    two = dataclasses.replace(
+        blind,
+        responses=("dZ", "T_nut"),
+        units={"dZ": "um", "T_nut": "K"},
+        tests=tests,
+        scores=[*blind.scores, *scores],
+        before=[*blind.scores, *scores],
+    )
+    page = render(two)
+    found = re.findall(r'<script type="application/json" id="(overview\d*)">(.*?)</script>', page, flags=re.DOTALL)
+    maps = {key: json.loads(text) for key, text in found}
+    assert {key: (m["unit"], m["targets"]) for key, m in maps.items()} == {
+        "overview": ("um", ["test0", "test2", "test4"]),
+        "overview1": ("K", ["test1", "test3", "test5"]),
+    }
+    assert maps["overview1"]["limit"] == pytest.approx(maps["overview"]["limit"] / 100)
+    assert all(f'data-chart="{key}"' in page for key in maps)
+    widths = re.findall(r'width="([\d.]+)%"', page[page.index('id="scores"') : page.index('id="parameters"')])
+    assert len(widths) > 2
+    assert widths[: len(widths) // 2] == widths[len(widths) // 2 :]
 
 
 @pytest.mark.parametrize("lost", [True, False])

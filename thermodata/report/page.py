@@ -26,7 +26,17 @@ from thermodata.report.of_response import of_response
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import probability, told, verdict_sentence
-from thermodata.report.words import base_role, change, duration, heat_lines, in_unit, number, probability_text, typeset
+from thermodata.report.words import (
+    base_role,
+    change,
+    duration,
+    heat_lines,
+    in_unit,
+    listed,
+    number,
+    probability_text,
+    typeset,
+)
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
@@ -89,6 +99,8 @@ def render(data: ReportData) -> str:
         of_response=of_response,
         unit_of=lambda found: typeset(data.unit_of(found)),
         capital=capital,
+        maps=[str(i or "") for i in range(len(_map_units(data)))],
+        told_together=_told_together(data),
         mixed=len({data.unit_of(name) for name in data.responses}) > 1,
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
@@ -122,14 +134,16 @@ def _figures(
     data: ReportData, styles: dict[str, tuple[str, str]], spots: list[tuple[int, WeakSpot]]
 ) -> dict[str, Chart | HeatMap]:
     made: dict[str, Chart | HeatMap] = {}
-    if data.tests:
-        limit = residual_scale([t.residual for t in data.first or data.tests])
-        targets = [f"test{i}" for i in range(len(data.tests))]
-        note = "Point at a strip to read it; click to see its test there."
-        if data.first:
+    for i, unit in enumerate(_map_units(data)):
+        at = str(i or "")
+        now, first = ([t for t in some if data.unit_of(t.response) == unit] for some in (data.tests, data.first))
+        limit = residual_scale([t.residual for t in first or now])
+        if first:
             about = f"Residual of every test in the first version, {data.versions[0].name}"
-            made["first"] = overview_map(data.first, data.unit, limit, [""] * len(data.first), about, "")
-        made["overview"] = overview_map(data.tests, data.unit, limit, targets, "Residual of every test", note)
+            made[f"first{at}"] = overview_map(first, unit, limit, [""] * len(first), about, "")
+        note = "Point at a strip to read it; click to see its test there."
+        targets = [f"test{j}" for j, t in enumerate(data.tests) if data.unit_of(t.response) == unit]
+        made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note)
     heat = _heat(data)
     if heat:
         drawn = heat_charts(heat.courses, data.unit_of(data.diagnosis), heat.direction is not None)
@@ -141,6 +155,11 @@ def _figures(
         own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
         made[f"test{i}"] = part_chart(part, own, styles, _noise(data, part.response), data.unit_of(part.response), most)
     return made
+
+
+def _map_units(data: ReportData) -> list[str]:
+    """Units of residuals, each of which has a map: kelvins have no colour on a scale of micrometres."""
+    return list(dict.fromkeys(data.unit_of(t.response) for t in data.tests))
 
 
 def _is_of(part: TestPart, data: ReportData, spot: WeakSpot) -> bool:
@@ -222,10 +241,19 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
     }
 
 
+def _told_together(data: ReportData) -> str:
+    """'dY and dZ', where errors of versions are not over all responses; '' where they are."""
+    return listed(data.told_together) if len(data.told_together) < len(data.responses) else ""
+
+
 def _score_rows(data: ReportData) -> dict[str, Any]:
     before = {(s.campaign, s.test, s.response): s.rmse_um for s in data.before if s.phase == "all"}
     rows = [{"row": s, "before": before.get((s.campaign, s.test, s.response))} for s in data.scores if s.phase == "all"]
-    errors = [e for r in rows for e in (r["before"], getattr(r["row"], "rmse_um", None)) if isinstance(e, float)]
+    most: dict[str, float] = {}
+    for s in data.scores:
+        if s.phase == "all":
+            unit, both = data.unit_of(s.response), (before.get((s.campaign, s.test, s.response)), s.rmse_um)
+            most[unit] = max([most.get(unit, 0.0), *(e for e in both if e is not None)])
     found = [c for d in (data.diagnosis, data.reason) if d for c in d.candidates]
     tried = [e for c in found for e in (c.rmse_um_before, c.rmse_um_after) if e]
-    return {"whole": rows, "most_score": max(errors, default=1.0) or 1.0, "most_candidate": max(tried, default=1.0)}
+    return {"whole": rows, "most_score": most, "most_candidate": max(tried, default=1.0)}
