@@ -94,6 +94,7 @@ def show(request: Request) -> Response:
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
         left_out={c.rank: _left_out(c) for c in shown},
         heat_names=names_of_pieces(heat.courses) if heat else [],
+        equivalents={e for c in (claims_of(found) if found else []) for e in c.equivalent},
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
         stumbles=STUMBLES,
