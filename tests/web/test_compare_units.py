@@ -92,7 +92,12 @@ def test_what_is_not_of_all_responses_says_of_which_it_is(client: Client) -> Non
 def test_each_contribution_is_in_the_unit_of_its_response(client: Client) -> None:
     page = client.get("/compare").text
     parts = page[page.index('id="contributions"') : page.index("Test by test")].split("<h3>")[1:]
-    assert {part.partition("<")[0]: set(re.findall(r"at most \[([^]]+)\]", part)) for part in parts} == {
-        "dZ": {"µm"},
-        "T_nut": {"K"},
-    }
+    # in the order of the model
+    assert [(part.partition("<")[0], set(re.findall(r"at most \[([^]]+)\]", part))) for part in parts] == [
+        ("dZ", {"µm"}),
+        ("T_nut", {"K"}),
+    ]
+
+
+def test_the_page_missing_says_which_response_its_errors_are_of(client: Client) -> None:
+    assert "error of dZ 30.0 µm in calibration" in re.sub(r"\s+", " ", client.get("/missing").text)

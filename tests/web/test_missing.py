@@ -66,6 +66,18 @@ def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) ->
     assert "the claim explains it, or more" not in text
 
 
+def test_what_a_claim_is_not_told_from_stands_once_in_the_headline(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    twins = ["feed_motor:T_bearing", "lag:T_nut_Z"]
+    fresh = [c.model_copy(update={"equivalent": twins}) if c.claimed else c for c in found.candidates]
+    save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
+    headline = re.search(r"<h1[^>]*>(.*?)</h1>", client_of(lab)[0].get("/missing").text)[1]  # type: ignore[index]
+    assert "not told from feed_motor (T_bearing), or lag:T_nut_Z: these tests can" in headline
+    assert headline.count("feed_motor") == 1
+
+
 def test_it_says_what_was_not_asked_and_why(reader: Client) -> None:
     text = reader.get("/missing").text
     assert "effects that were not asked" in text

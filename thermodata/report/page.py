@@ -16,13 +16,13 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.could_hide import could_hide
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.error_rows import error_rows, headline_error
-from thermodata.report.figures import overview_map, part_chart, points_for, residual_scale
+from thermodata.report.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
 from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.lost import lost_of_versions
-from thermodata.report.of_response import of_response
+from thermodata.report.of_response import of_response, some_of
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import probability, told, verdict_sentence
@@ -32,7 +32,6 @@ from thermodata.report.words import (
     duration,
     heat_lines,
     in_unit,
-    listed,
     number,
     probability_text,
     typeset,
@@ -99,8 +98,8 @@ def render(data: ReportData) -> str:
         of_response=of_response,
         unit_of=lambda found: typeset(data.unit_of(found)),
         capital=capital,
-        maps=[str(i or "") for i in range(len(_map_units(data)))],
-        told_together=_told_together(data),
+        maps=[str(i or "") for i in range(len(in_one_unit(data.tests, data.unit_of)))],
+        told_together=some_of(data.told_together, data.responses),
         mixed=len({data.unit_of(name) for name in data.responses}) > 1,
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
@@ -134,16 +133,16 @@ def _figures(
     data: ReportData, styles: dict[str, tuple[str, str]], spots: list[tuple[int, WeakSpot]]
 ) -> dict[str, Chart | HeatMap]:
     made: dict[str, Chart | HeatMap] = {}
-    for i, unit in enumerate(_map_units(data)):
-        at = str(i or "")
-        now, first = ([t for t in some if data.unit_of(t.response) == unit] for some in (data.tests, data.first))
-        limit = residual_scale([t.residual for t in first or now])
-        if first:
+    several, first = len(data.responses) > 1, in_one_unit(data.first, data.unit_of)
+    for i, (unit, now) in enumerate(in_one_unit(data.tests, data.unit_of).items()):
+        at, before = str(i or ""), first.get(unit, [])
+        limit = residual_scale([t.residual for t in before or now])
+        if before:
             about = f"Residual of every test in the first version, {data.versions[0].name}"
-            made[f"first{at}"] = overview_map(first, unit, limit, [""] * len(first), about, "")
-        note = "Point at a strip to read it; click to see its test there."
+            made[f"first{at}"] = overview_map(before, unit, limit, [""] * len(before), about, "", several=several)
+        note = "" if i else "Point at a strip to read it; click to see its test there."
         targets = [f"test{j}" for j, t in enumerate(data.tests) if data.unit_of(t.response) == unit]
-        made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note)
+        made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note, several=several)
     heat = _heat(data)
     if heat:
         drawn = heat_charts(heat.courses, data.unit_of(data.diagnosis), heat.direction is not None)
@@ -155,11 +154,6 @@ def _figures(
         own = [(rank, w) for rank, w in spots if _is_of(part, data, w)]
         made[f"test{i}"] = part_chart(part, own, styles, _noise(data, part.response), data.unit_of(part.response), most)
     return made
-
-
-def _map_units(data: ReportData) -> list[str]:
-    """Units of residuals, each of which has a map: kelvins have no colour on a scale of micrometres."""
-    return list(dict.fromkeys(data.unit_of(t.response) for t in data.tests))
 
 
 def _is_of(part: TestPart, data: ReportData, spot: WeakSpot) -> bool:
@@ -239,11 +233,6 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
         "about": typeset(" · ".join(filter(None, [part.kind.replace("_", " "), length, conditions]))),
         "facts": typeset(facts),
     }
-
-
-def _told_together(data: ReportData) -> str:
-    """'dY and dZ', where errors of versions are not over all responses; '' where they are."""
-    return listed(data.told_together) if len(data.told_together) < len(data.responses) else ""
 
 
 def _score_rows(data: ReportData) -> dict[str, Any]:

@@ -18,7 +18,8 @@ from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
-from thermodata.report.words import base_role, listed, pooled
+from thermodata.report.of_response import some_of
+from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
@@ -105,10 +106,10 @@ def show(request: Request) -> Response:
         mixed=len({units.get(line.response) for line in lines}) > 1,
         several=len({line.response for line in lines}) > 1,
         most=_largest(lines, units),
-        told_of=_some(together, pinned.responses),
-        told_of_chain=_some(of_chain, newest.responses),
+        told_of=some_of(together, pinned.responses),
+        told_of_chain=some_of(of_chain, newest.responses),
         roles=_roles(on_common([r.scores for r in results]), together),
-        compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
+        compared=lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)}),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in maps(store, chosen, keys, str(response), of_response)],
@@ -153,11 +154,6 @@ def _shown_test(
 
 def _has(keys: Sequence[Key], named: str) -> bool:
     return any(named in (t, f"{c}/{t}") for c, t in keys)
-
-
-def _some(told: Sequence[str], responses: Sequence[str]) -> str:
-    """'dY and dZ', where an error is not over all responses of a model; '' where it is."""
-    return listed(told) if len(told) < len(responses) else ""
 
 
 def _drawn(
