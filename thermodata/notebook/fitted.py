@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import UsageError, unknown_name
 from thermodata.notebook.courses import Contributions, Predictions
 from thermodata.notebook.figure import Plot
+from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
@@ -72,6 +73,12 @@ class Fit(Shown):
         return unit_of(self.store, response, self.result.campaigns)
 
     @property
+    def _units(self) -> dict[str, str]:
+        from thermodata.view.response_units import response_units
+
+        return response_units(self.store, self.responses, self.result.campaigns)
+
+    @property
     def parameters(self) -> dict[str, Parameter]:
         """'effect.parameter' -> value, unit and 95 % interval."""
         return self.result.parameters
@@ -84,7 +91,7 @@ class Fit(Shown):
     @property
     def scores(self) -> Listed:
         """A row a test, response and phase, by free-run simulation."""
-        return Listed((s.model_dump() for s in self.result.scores), _SCORES)
+        return _scores([self.result], _SCORES, self._units)
 
     def diagnose(self, response: str | None = None) -> Verdict[Fit]:
         """Which effect is missing; from the store where that was asked before, and nothing has changed since. response:
@@ -137,7 +144,7 @@ class Fit(Shown):
         found = [p for p in predictions(self.store, self.id, campaign, name) if p.response == response]
         if not found:
             raise UsageError(f"the store holds no prediction of {name}", hint=f"thermodata fit {self.id}")
-        return Contributions(self.id, found[0], self.unit)
+        return Contributions(self.id, found[0], self.unit_of(response))
 
     def residual_tests(self) -> ResidualTests:
         """Autocorrelation with Ljung-Box, and the residual against each state, over the calibration tests."""
@@ -166,12 +173,10 @@ class Fit(Shown):
         return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
 
     def summary(self) -> str:
-        from thermodata.view.response_units import response_units
-
         text = fit_text(self.result, scores=self.result.before is None)
         if self.result.before is not None:
             text = f"{before_after_text(self.result)}\n\n{text}"
-        return in_units(text, response_units(self.store, self.responses, self.result.campaigns))
+        return in_units(text, self._units)
 
     def html(self) -> str:
         before = {(s.campaign, s.test, s.response): s.rmse_um for s in self.result.before or [] if s.phase == "all"}
@@ -182,7 +187,7 @@ class Fit(Shown):
         heads: Sequence[tuple[str, str]] = _SCORES
         if before:
             heads = [*_SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
-        heads = [(key, text.replace("[um]", f"[{self.unit}]")) for key, text in heads]
+        rows, heads = in_own_units(rows, heads, self._units)
         fitted = [
             {"parameter": k, "value": p.value, "unit": p.unit, "range": span(self.result, k)}
             for k, p in self.result.readable.items()
@@ -223,9 +228,16 @@ class Comparison(Shown):
         self.store, self.results = store, list(results)
 
     @property
+    def _units(self) -> dict[str, str]:
+        from thermodata.view.response_units import response_units
+
+        names = list(dict.fromkeys(s.response for r in self.results for s in r.scores))
+        return response_units(self.store, names, {c for r in self.results for c in r.campaigns})
+
+    @property
     def scores(self) -> Listed:
         """All scores, with the model of each."""
-        return Listed((s.model_dump() for r in self.results for s in r.scores), (("model", "model"), *_SCORES))
+        return _scores(self.results, (("model", "model"), *_SCORES), self._units)
 
     @property
     def differences(self) -> Listed:
@@ -233,11 +245,13 @@ class Comparison(Shown):
         from thermodata.modelling.run import differences_of
 
         found = differences_of(self.store, [r.model for r in self.results])
-        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference")]
-        return Listed((d.to_json() for d in found), [*heads, ("low", "low"), ("high", "high")])
+        rows = [d.to_json() for d in found]
+        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference [um]")]
+        shown, heads = in_own_units(rows, [*heads, ("low", "low [um]"), ("high", "high [um]")], self._units)
+        return Listed(rows, heads, shown=shown)
 
     def summary(self) -> str:
-        return compare_text(self.results)
+        return in_units(compare_text(self.results), self._units)
 
     def html(self) -> str:
         rows: dict[tuple[str, str, str], dict[str, Any]] = {}
@@ -246,8 +260,8 @@ class Comparison(Shown):
                 key = (s.campaign, s.test, s.response)
                 rows.setdefault(key, {"test": f"{s.campaign}/{s.test}", "response": s.response})[r.model] = s.rmse_um
         heads = [("test", "test"), ("response", "response")]
-        heads += [(r.model, f"{r.name} {r.model[:6]}") for r in self.results]
-        return html_table(list(rows.values()), heads, "RMSE")
+        heads += [(r.model, f"{r.name} {r.model[:6]} [um]") for r in self.results]
+        return html_table(*in_own_units(rows.values(), heads, self._units), "RMSE")
 
     def plot(self) -> Plot:
         """The residual of every test by each model, on the scale of the first."""
@@ -255,6 +269,12 @@ class Comparison(Shown):
 
         found = overviews(self.store, [r.model for r in self.results])
         return Plot("residual of every test", found)
+
+
+def _scores(results: Sequence[FitResult], columns: Sequence[tuple[str, str]], units: Mapping[str, str]) -> Listed:
+    rows = [s.model_dump() for r in results for s in r.scores]
+    shown, heads = in_own_units(rows, columns, units)
+    return Listed(rows, heads, shown=shown)
 
 
 def stored_fit(store: Store, ref: str) -> Fit:
