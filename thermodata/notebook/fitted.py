@@ -3,36 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError, unknown_name
+from thermodata.notebook.comparison import SCORES, Comparison, compared, scores_of
 from thermodata.notebook.courses import Contributions, Predictions
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
-from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
+from thermodata.report.fit_text import before_after_text, fit_text, span
 from thermodata.report.lost import lost_sentence
 from thermodata.report.words import change, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Check, FitResult, Parameter
     from thermodata.store import Store
-
-_SCORES = (
-    ("campaign", "campaign"),
-    ("test", "test"),
-    ("role", "role"),
-    ("response", "response"),
-    ("fit", "FIT [%]"),
-    ("rmse_um", "RMSE [um]"),
-    ("max_um", "max [um]"),
-    ("n", "n"),
-)
 
 
 class Fit(Shown):
@@ -91,7 +81,7 @@ class Fit(Shown):
     @property
     def scores(self) -> Listed:
         """A row a test, response and phase, by free-run simulation."""
-        return _scores([self.result], _SCORES, self._units)
+        return scores_of([self.result], SCORES, self._units)
 
     def diagnose(self, response: str | None = None) -> Verdict[Fit]:
         """Which effect is missing; from the store where that was asked before, and nothing has changed since. response:
@@ -184,9 +174,9 @@ class Fit(Shown):
         for row in rows:
             row["before"] = before.get((row["campaign"], row["test"], row["response"]))
             row["change"] = change(row["before"], row["rmse_um"])
-        heads: Sequence[tuple[str, str]] = _SCORES
+        heads: Sequence[tuple[str, str]] = SCORES
         if before:
-            heads = [*_SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
+            heads = [*SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
         rows, heads = in_own_units(rows, heads, self._units)
         fitted = [
             {"parameter": k, "value": p.value, "unit": p.unit, "range": span(self.result, k)}
@@ -221,74 +211,11 @@ class Fit(Shown):
         raise unknown_name("test in the predictions of the model", named, [s.test for s in rows])
 
 
-class Comparison(Shown):
-    """Models on the data as they are now. results: one each, in the order that was asked."""
-
-    def __init__(self, store: Store, results: Sequence[FitResult]) -> None:
-        self.store, self.results = store, list(results)
-
-    @property
-    def _units(self) -> dict[str, str]:
-        from thermodata.view.response_units import response_units
-
-        names = list(dict.fromkeys(s.response for r in self.results for s in r.scores))
-        return response_units(self.store, names, {c for r in self.results for c in r.campaigns})
-
-    @property
-    def scores(self) -> Listed:
-        """All scores, with the model of each."""
-        return _scores(self.results, (("model", "model"), *_SCORES), self._units)
-
-    @property
-    def differences(self) -> Listed:
-        """Each model's error less that of the first, by test, with its interval of 95 %."""
-        from thermodata.modelling.run import differences_of
-
-        found = differences_of(self.store, [r.model for r in self.results])
-        rows = [d.to_json() for d in found]
-        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference [um]")]
-        shown, heads = in_own_units(rows, [*heads, ("low", "low [um]"), ("high", "high [um]")], self._units)
-        return Listed(rows, heads, shown=shown)
-
-    def summary(self) -> str:
-        return in_units(compare_text(self.results), self._units)
-
-    def html(self) -> str:
-        rows: dict[tuple[str, str, str], dict[str, Any]] = {}
-        for r in self.results:
-            for s in (s for s in r.scores if s.phase == "all"):
-                key = (s.campaign, s.test, s.response)
-                rows.setdefault(key, {"test": f"{s.campaign}/{s.test}", "response": s.response})[r.model] = s.rmse_um
-        heads = [("test", "test"), ("response", "response")]
-        heads += [(r.model, f"{r.name} {r.model[:6]} [um]") for r in self.results]
-        return html_table(*in_own_units(rows.values(), heads, self._units), "RMSE")
-
-    def plot(self) -> Plot:
-        """The residual of every test by each model, on the scale of the first."""
-        from thermodata.notebook.pictures import overviews
-
-        found = overviews(self.store, [r.model for r in self.results])
-        return Plot("residual of every test", found)
-
-
-def _scores(results: Sequence[FitResult], columns: Sequence[tuple[str, str]], units: Mapping[str, str]) -> Listed:
-    rows = [s.model_dump() for r in results for s in r.scores]
-    shown, heads = in_own_units(rows, columns, units)
-    return Listed(rows, heads, shown=shown)
-
-
 def stored_fit(store: Store, ref: str) -> Fit:
     """A version of the store: an id, a unique prefix, or a name (its newest)."""
     from thermodata.store.catalogue.models import find_model
 
     return Fit(store, find_model(store, ref).result)
-
-
-def compared(store: Store, refs: Sequence[str]) -> Comparison:
-    """Models of the store beside each other."""
-    from thermodata.modelling.run import compare
-
-    return Comparison(store, compare(store, refs))
 
 
 def history_of(store: Store, ref: str) -> Listed:
