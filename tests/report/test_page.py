@@ -88,7 +88,7 @@ def test_verification_tests_are_said_to_be_fitted_for_what_they_were(data: Repor
         scores = [s for s in data.scores if "ver" not in s.role]
         scores += [first.model_copy(update={"test": test}) for test in tests]
         made = dataclasses.replace(data, scores=scores, checks=[again])
-        return next(r.note for r in error_rows(made) if r.word == "verification")
+        return next(r.notes for r in error_rows(made) if r.word == "verification")
 
     assert note(first.test) == "fitted too by now: some hold samples of calibration tests"
     assert note(first.test, "other") == "fitted too by now: they took part in the choice"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.words import in_units, probability_text
+from thermodata.report.words import change, in_units, number, probability_text, typeset
 
 
 @pytest.mark.parametrize(
@@ -21,3 +21,8 @@ def test_a_text_with_tables_is_in_the_units_of_its_responses() -> None:
     assert in_units("RMSE [um]", {"dZ": "um", "T": "K"}).endswith(
         "[*] in the unit of the row's response: dZ [um], T [K]"
     )
+
+
+def test_a_page_has_a_dash_where_there_is_no_number() -> None:
+    assert [typeset(text) for text in (number(None), change(None, 1.0), number(-1.0))] == ["–", "–", "−1.00"]
+    assert typeset("lag-free") == "lag-free"

@@ -17,6 +17,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.glossary import IN_SAMPLE
 from thermodata.store import Store
+from thermodata.store.catalogue.models import find_model
 from thermodata.store.keep.check import check_store
 from thermodata.view.models import model_rows
 from thermodata.view.predictions import Prediction
@@ -46,13 +47,17 @@ def finished(client: Client, text: str, seconds: float = 300.0) -> tuple[str, st
 def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(writer: Client, lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     first = model_rows(store)[0]
-    assert "Add it</button>" in writer.get(f"/add?model={first.model}&candidate=1").text
+    offer = writer.get(f"/add?model={first.model}&candidate=1").text
+    assert "Add it</button>" in offer
+    assert "fitted to all its open tests" in offer
     answer = writer.post("/task/add", {"model": first.model, "candidate": "1"})
     assert answer.status == 200
     _, onward = finished(writer, answer.text)
     assert onward is not None
     assert onward.startswith("/compare?model=")
     assert [m.version for m in model_rows(store)] == [2, 1]
+    added = find_model(store, model_rows(store)[0].model).result
+    assert "verification (in-sample)" in {s.role for s in added.scores}  # as the offer said
     text = writer.get(onward).text
     limits = [json.loads(m)["limit"] for m in re.findall(r'id="heat\d">(.*?)</script>', text)]
     assert len(limits) == 2

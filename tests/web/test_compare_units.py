@@ -79,3 +79,25 @@ def test_charts_of_a_residual_are_in_the_unit_of_its_response(client: Client, re
     chart = re.search(r'<script type="application/json" id="against">(.*?)</script>', page, flags=re.DOTALL)
     assert chart is not None
     assert json.loads(chart[1])["panels"][0]["unit"] == unit
+
+
+def test_what_is_not_of_all_responses_says_of_which_it_is(client: Client) -> None:
+    words = re.sub(r"<[^>]+>", " ", client.get("/compare?response=T_nut").text)
+    assert "Of dZ: calibration 30.0" in words
+    assert "Of T_nut. One scale for all" in words
+    assert "Of T_nut in both 1, all open tests together" in words
+    assert re.search(r"<option selected>T_nut</option>", client.get("/compare?response=T_nut").text)
+
+
+def test_each_contribution_is_in_the_unit_of_its_response(client: Client) -> None:
+    page = client.get("/compare").text
+    parts = page[page.index('id="contributions"') : page.index("Test by test")].split("<h3>")[1:]
+    # in the order of the model
+    assert [(part.partition("<")[0], set(re.findall(r"at most \[([^]]+)\]", part))) for part in parts] == [
+        ("dZ", {"µm"}),
+        ("T_nut", {"K"}),
+    ]
+
+
+def test_the_page_missing_says_which_response_its_errors_are_of(client: Client) -> None:
+    assert "error of dZ 30.0 µm in calibration" in re.sub(r"\s+", " ", client.get("/missing").text)

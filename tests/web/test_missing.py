@@ -42,6 +42,42 @@ def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> 
     assert set(RUNG_TARGET) == set(STUMBLES)
 
 
+def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    other = {"id": "gain_by:lag,conditions.tool", "effect": "lag", "claimed": False, "refinement": True}
+    fresh = [one.model_copy(update=other), *(c for c in found.candidates if c is not one)]
+    save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
+    assert ">Add gain_by:lag,conditions.tool …</a>" in client_of(lab, write=True)[0].get("/missing").text
+
+
+def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    rival = one.model_copy(update={"id": "lag:T_nut", "claimed": False, "rank": 2, "why": "", "locked_tests_asked": 0})
+    claim = one.model_copy(update={"equivalent": ["lag:T_nut"]})
+    save_diagnosis(store, model, found.model_copy(update={"candidates": [claim, rival]}))
+    text = client_of(lab)[0].get("/missing").text
+    assert "these tests can’t tell it from what is claimed" in text
+    assert "the claim explains it, or more" not in text
+
+
+def test_what_a_claim_is_not_told_from_stands_once_in_the_headline(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    twins = ["feed_motor:T_bearing", "lag:T_nut_Z"]
+    fresh = [c.model_copy(update={"equivalent": twins}) if c.claimed else c for c in found.candidates]
+    save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
+    headline = re.search(r"<h1[^>]*>(.*?)</h1>", client_of(lab)[0].get("/missing").text)[1]  # type: ignore[index]
+    assert "not told from feed_motor (T_bearing), or lag:T_nut_Z: these tests can" in headline
+    assert headline.count("feed_motor") == 1
+
+
 def test_it_says_what_was_not_asked_and_why(reader: Client) -> None:
     text = reader.get("/missing").text
     assert "effects that were not asked" in text

@@ -6,32 +6,23 @@ import os
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError, unknown_name
+from thermodata.notebook.comparison import SCORES, Comparison, compared, scores_of
 from thermodata.notebook.courses import Contributions, Predictions
 from thermodata.notebook.figure import Plot
+from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.verdict import Confirmation, Verdict
-from thermodata.report.fit_text import before_after_text, compare_text, fit_text, span
+from thermodata.report.fit_text import before_after_text, fit_text, span
 from thermodata.report.lost import lost_sentence
 from thermodata.report.words import change, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.result import Check, FitResult, Parameter
     from thermodata.store import Store
-
-_SCORES = (
-    ("campaign", "campaign"),
-    ("test", "test"),
-    ("role", "role"),
-    ("response", "response"),
-    ("fit", "FIT [%]"),
-    ("rmse_um", "RMSE [um]"),
-    ("max_um", "max [um]"),
-    ("n", "n"),
-)
 
 
 class Fit(Shown):
@@ -72,6 +63,12 @@ class Fit(Shown):
         return unit_of(self.store, response, self.result.campaigns)
 
     @property
+    def _units(self) -> dict[str, str]:
+        from thermodata.view.response_units import response_units
+
+        return response_units(self.store, self.responses, self.result.campaigns)
+
+    @property
     def parameters(self) -> dict[str, Parameter]:
         """'effect.parameter' -> value, unit and 95 % interval."""
         return self.result.parameters
@@ -84,7 +81,7 @@ class Fit(Shown):
     @property
     def scores(self) -> Listed:
         """A row a test, response and phase, by free-run simulation."""
-        return Listed((s.model_dump() for s in self.result.scores), _SCORES)
+        return scores_of([self.result], SCORES, self._units)
 
     def diagnose(self, response: str | None = None) -> Verdict[Fit]:
         """Which effect is missing; from the store where that was asked before, and nothing has changed since. response:
@@ -137,7 +134,7 @@ class Fit(Shown):
         found = [p for p in predictions(self.store, self.id, campaign, name) if p.response == response]
         if not found:
             raise UsageError(f"the store holds no prediction of {name}", hint=f"thermodata fit {self.id}")
-        return Contributions(self.id, found[0], self.unit)
+        return Contributions(self.id, found[0], self.unit_of(response))
 
     def residual_tests(self) -> ResidualTests:
         """Autocorrelation with Ljung-Box, and the residual against each state, over the calibration tests."""
@@ -166,12 +163,10 @@ class Fit(Shown):
         return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
 
     def summary(self) -> str:
-        from thermodata.view.response_units import response_units
-
         text = fit_text(self.result, scores=self.result.before is None)
         if self.result.before is not None:
             text = f"{before_after_text(self.result)}\n\n{text}"
-        return in_units(text, response_units(self.store, self.responses, self.result.campaigns))
+        return in_units(text, self._units)
 
     def html(self) -> str:
         before = {(s.campaign, s.test, s.response): s.rmse_um for s in self.result.before or [] if s.phase == "all"}
@@ -179,10 +174,10 @@ class Fit(Shown):
         for row in rows:
             row["before"] = before.get((row["campaign"], row["test"], row["response"]))
             row["change"] = change(row["before"], row["rmse_um"])
-        heads: Sequence[tuple[str, str]] = _SCORES
+        heads: Sequence[tuple[str, str]] = SCORES
         if before:
-            heads = [*_SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
-        heads = [(key, text.replace("[um]", f"[{self.unit}]")) for key, text in heads]
+            heads = [*SCORES[:4], ("before", "before [um]"), ("rmse_um", "after [um]"), ("change", "change")]
+        rows, heads = in_own_units(rows, heads, self._units)
         fitted = [
             {"parameter": k, "value": p.value, "unit": p.unit, "range": span(self.result, k)}
             for k, p in self.result.readable.items()
@@ -216,59 +211,11 @@ class Fit(Shown):
         raise unknown_name("test in the predictions of the model", named, [s.test for s in rows])
 
 
-class Comparison(Shown):
-    """Models on the data as they are now. results: one each, in the order that was asked."""
-
-    def __init__(self, store: Store, results: Sequence[FitResult]) -> None:
-        self.store, self.results = store, list(results)
-
-    @property
-    def scores(self) -> Listed:
-        """All scores, with the model of each."""
-        return Listed((s.model_dump() for r in self.results for s in r.scores), (("model", "model"), *_SCORES))
-
-    @property
-    def differences(self) -> Listed:
-        """Each model's error less that of the first, by test, with its interval of 95 %."""
-        from thermodata.modelling.run import differences_of
-
-        found = differences_of(self.store, [r.model for r in self.results])
-        heads = [("test", "test"), ("response", "response"), ("model", "model"), ("difference_um", "difference")]
-        return Listed((d.to_json() for d in found), [*heads, ("low", "low"), ("high", "high")])
-
-    def summary(self) -> str:
-        return compare_text(self.results)
-
-    def html(self) -> str:
-        rows: dict[tuple[str, str, str], dict[str, Any]] = {}
-        for r in self.results:
-            for s in (s for s in r.scores if s.phase == "all"):
-                key = (s.campaign, s.test, s.response)
-                rows.setdefault(key, {"test": f"{s.campaign}/{s.test}", "response": s.response})[r.model] = s.rmse_um
-        heads = [("test", "test"), ("response", "response")]
-        heads += [(r.model, f"{r.name} {r.model[:6]}") for r in self.results]
-        return html_table(list(rows.values()), heads, "RMSE")
-
-    def plot(self) -> Plot:
-        """The residual of every test by each model, on the scale of the first."""
-        from thermodata.notebook.pictures import overviews
-
-        found = overviews(self.store, [r.model for r in self.results])
-        return Plot("residual of every test", found)
-
-
 def stored_fit(store: Store, ref: str) -> Fit:
     """A version of the store: an id, a unique prefix, or a name (its newest)."""
     from thermodata.store.catalogue.models import find_model
 
     return Fit(store, find_model(store, ref).result)
-
-
-def compared(store: Store, refs: Sequence[str]) -> Comparison:
-    """Models of the store beside each other."""
-    from thermodata.modelling.run import compare
-
-    return Comparison(store, compare(store, refs))
 
 
 def history_of(store: Store, ref: str) -> Listed:

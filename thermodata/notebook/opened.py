@@ -6,8 +6,9 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from thermodata.notebook.comparison import Comparison, compared
 from thermodata.notebook.courses import Contributions, Predictions
-from thermodata.notebook.fitted import Comparison, Fit, compared, history_of, stored_fit
+from thermodata.notebook.fitted import Fit, history_of, stored_fit
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, html_table
 from thermodata.notebook.verdict import Verdict

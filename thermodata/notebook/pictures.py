@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import MOST_POINTS
-from thermodata.report.figures import overview_map, part_chart, residual_scale
+from thermodata.report.figures import in_one_unit, overview_map, part_chart, residual_scale
 from thermodata.report.parts import test_parts
 from thermodata.report.spots import weak_spots_of
+from thermodata.schema.quantity import difference_unit
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
@@ -32,28 +33,27 @@ def pictures(store: Store, model: str, key: tuple[str, str], response: str) -> d
     styles = effect_styles(c.name for c in part.contributions)
     noise = found.noise_um if found is not None and found.response == response else None
     made[f"{part.campaign}/{part.test}"] = part_chart(
-        part, list(enumerate(spots, 1)), styles, noise, _unit(loaded, response), MOST_POINTS
+        part, list(enumerate(spots, 1)), styles, noise, _units(loaded)[response], MOST_POINTS
     )
     return made
 
 
 def overviews(store: Store, models: Sequence[str], response: str | None = None) -> dict[str, HeatMap]:
-    """The residual of every open test by each model, on the scale of the first."""
+    """The residual of every open test by each model, on the scale of the first; a map for each unit."""
     from thermodata.modelling.run import load
 
     made: dict[str, HeatMap] = {}
-    limit: float | None = None
+    limits: dict[str, float] = {}
     for model in models:
         loaded = load(store, model)
         parts = _of(test_parts(loaded), response)
-        if not parts:
-            continue
-        limit = limit or residual_scale([p.residual for p in parts])
-        name = f"{loaded.fitted.spec.name} {loaded.identity}"
-        about = f"Residual of every test by {name}"
-        made[f"residual by {name}"] = overview_map(
-            parts, _unit(loaded, parts[0].response), limit, [""] * len(parts), about, ""
-        )
+        name, several = f"{loaded.fitted.spec.name} {loaded.identity}", len({p.response for p in parts}) > 1
+        by_unit = in_one_unit(parts, _units(loaded).__getitem__)
+        for unit, some in by_unit.items():
+            limit = limits.setdefault(unit, residual_scale([p.residual for p in some]))
+            about, of = f"Residual of every test by {name}", f" [{unit}]" if len(by_unit) > 1 else ""
+            targets = [""] * len(some)
+            made[f"residual by {name}{of}"] = overview_map(some, unit, limit, targets, about, "", several=several)
     return made
 
 
@@ -61,5 +61,6 @@ def _of(parts: Sequence[TestPart], response: str | None) -> list[TestPart]:
     return [p for p in parts if response in (None, p.response)]
 
 
-def _unit(loaded: Loaded, response: str) -> str:
-    return next((r.unit for r in loaded.fitted.responses if r.name == response), "um")
+def _units(loaded: Loaded) -> dict[str, str]:
+    """response -> unit of its residual."""
+    return {r.name: difference_unit(r.unit) for r in loaded.fitted.responses}

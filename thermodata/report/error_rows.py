@@ -11,7 +11,7 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import claims_of
-from thermodata.report.words import base_role, pooled
+from thermodata.report.words import base_role, listed, pooled
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 
@@ -19,7 +19,8 @@ from thermodata.schema.diagnosis import Diagnosis
 @dataclass(frozen=True, slots=True)
 class ErrorRow:
     """One error of a model. word: of the glossary. before: without the last effect, None where there is none.
-    tested: whether the fit and the choice of effects have not seen these tests. unit: of the error."""
+    tested: whether the fit and the choice of effects have not seen these tests. unit: of the error. of: which of a
+    model's several responses it is of, '' where it has one."""
 
     word: str
     before: float | None
@@ -27,6 +28,11 @@ class ErrorRow:
     tested: bool
     note: str
     unit: str = "um"
+    of: str = ""
+
+    @property
+    def notes(self) -> str:
+        return "; ".join(filter(None, [self.note, f"of {self.of}" if self.of else ""]))
 
     @property
     def meaning(self) -> str:
@@ -66,11 +72,11 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
         if after is not None and before is not None:
             # what is claimed, but not added, is no error of this model yet: its own is the one before
             if claims:
-                return ErrorRow("locked", before, after, True, of.note, of.unit)
+                return ErrorRow("locked", before, after, True, "", of.unit, of.response)
             note = f"{after:.3g} {of.unit} with what is claimed"
-            return ErrorRow("locked", None, before, True, "; ".join(filter(None, [of.note, note])), of.unit)
+            return ErrorRow("locked", None, before, True, note, of.unit, of.response)
     before, after = _of_role(data, "locked")
-    return None if after is None else ErrorRow("locked", before, after, True, "", data.unit)
+    return None if after is None else ErrorRow("locked", before, after, True, "", data.unit, _whose(data))
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
@@ -79,22 +85,22 @@ def _left_out_row(data: ReportData) -> ErrorRow | None:
     left = data.reason.rmse_um if data.reason else None
     if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
         of = _of_response(data, data.reason)
-        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, of.note, of.unit)
+        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "", of.unit, of.response)
     if data.diagnosis and data.diagnosis.rmse_um is not None:
         of = _of_response(data, data.diagnosis)
-        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, of.note, of.unit)
+        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, "", of.unit, of.response)
     return None
 
 
 @dataclass(frozen=True, slots=True)
 class _Of:
-    note: str
+    response: str
     unit: str
 
 
 def _of_response(data: ReportData, found: Diagnosis | None) -> _Of:
     """What a diagnosis tells is of one response, where the other errors are of several."""
-    return _Of(f"of {found.response}" if found and len(data.responses) > 1 else "", data.unit_of(found))
+    return _Of(found.response if found and len(data.responses) > 1 else "", data.unit_of(found))
 
 
 def _of_role(data: ReportData, role: str) -> tuple[float | None, float | None]:
@@ -111,9 +117,10 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     overlap = {c.name.partition(":")[2] for c in data.checks if c.name.startswith("overlap:")}
     why = "some hold samples of calibration tests" if in_sample <= overlap else "they took part in the choice"
     note = f"fitted too by now: {why}" if in_sample else ""
-    whose = f"of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     if role == "calibration":
-        return ErrorRow(
-            "fitted", before, after, False, "; ".join(filter(None, ["calibration tests", whose])), data.unit
-        )
-    return ErrorRow("verification", before, after, not in_sample, "; ".join(filter(None, [note, whose])), data.unit)
+        return ErrorRow("fitted", before, after, False, "calibration tests", data.unit, _whose(data))
+    return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
+
+
+def _whose(data: ReportData) -> str:
+    return listed(data.told_together) if len(data.responses) > 1 else ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -159,15 +159,32 @@ def residual_scale(residuals: Sequence[Float1D]) -> float:
     return float(np.quantile(together, 0.99)) or 1.0 if len(together) else 1.0
 
 
+def in_one_unit(parts: Sequence[TestPart], unit_of: Callable[[str], str]) -> dict[str, list[TestPart]]:
+    """unit -> the parts whose residual is in it: kelvins have no colour on a scale of micrometres. unit_of: of a
+    response."""
+    found: dict[str, list[TestPart]] = {}
+    for part in parts:
+        found.setdefault(unit_of(part.response), []).append(part)
+    return found
+
+
 def overview_map(
-    parts: Sequence[TestPart], unit: str, limit: float, targets: Sequence[str], about: str, note: str
+    parts: Sequence[TestPart],
+    unit: str,
+    limit: float,
+    targets: Sequence[str],
+    about: str,
+    note: str,
+    *,
+    several: bool,
 ) -> HeatMap:
-    """The residual of every test as one coloured strip each: where the model fails, at a glance."""
+    """The residual of every test as one coloured strip each: where the model fails, at a glance. parts: in one unit.
+    several: whether the model has several responses, so that a strip names its own."""
     size = block_size(max(len(p.residual) for p in parts), 400)
     strips = [block_mean(p.residual, size) for p in parts]
     columns = max(len(s) for s in strips)
     z = np.array([np.pad(s, (0, columns - len(s)), constant_values=np.nan) for s in strips])
-    one, several = len({q.campaign for q in parts}) == 1, len({p.response for p in parts}) > 1
+    one = len({q.campaign for q in parts}) == 1
     names = [(p.test if one else f"{p.campaign}/{p.test}") + (f" {p.response}" if several else "") for p in parts]
     step_h = parts[0].step_s * size / 3600  # a model has one step
     return HeatMap(about, Axis(TIME, "h"), unit, names, z, [len(s) for s in strips], 0.0, step_h, limit, note, targets)

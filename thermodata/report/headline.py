@@ -31,7 +31,8 @@ def error_sentence(data: ReportData) -> str:
     row = headline_error(error_rows(data))
     if row is None:
         return ""
-    what = f"The error on {tests_of(row)}"
+    of = f" of {row.of}" if row.of else ""
+    what = f"The error{of} on {tests_of(row)}"
     if row.before is None:
         return f"{what} is {number(row.after)} {row.unit}"
     verb = "falls" if row.after < row.before else "does not fall"
@@ -51,6 +52,8 @@ def sentences(data: ReportData) -> list[str]:
     lines = [] if said else [error_sentence(data)]
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
+    if claims and data.reason and not data.diagnosis:
+        lines.append(capital(of_response(data.reason)))
     for claim in claims:
         # ids stay as they are typed
         why = f"{claim.id}: {claim.why}" if len(claims) > 1 else capital(claim.why)
@@ -58,14 +61,14 @@ def sentences(data: ReportData) -> list[str]:
     for claim in claims or (claims_of(data.diagnosis) if data.diagnosis and not data.added else []):
         if claim.equivalent:
             lines.append(f"These tests can't tell {claim.id} from {listed(claim.equivalent)}")
+    # errors of one response stand behind its name
+    of = capital(of_response(data.diagnosis)) if data.diagnosis else ""
     if data.diagnosis and (data.added or claims_of(data.diagnosis)):
+        lines.append(of)
         lines.append(("Now: " if data.added else "") + capital(_verdict(data, data.diagnosis)))
     elif data.diagnosis:
         # its first words are the headline
-        lines.insert(0, capital(_verdict(data, data.diagnosis).partition("; ")[2]))
-    of = data.diagnosis or (data.reason if claims else None)
-    if of is not None:
-        lines.append(capital(of_response(of)))
+        lines[:0] = [of, capital(_verdict(data, data.diagnosis).partition("; ")[2])]
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
 
 

@@ -16,17 +16,26 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.could_hide import could_hide
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.error_rows import error_rows, headline_error
-from thermodata.report.figures import overview_map, part_chart, points_for, residual_scale
+from thermodata.report.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
 from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.lost import lost_of_versions
-from thermodata.report.of_response import of_response
+from thermodata.report.of_response import of_response, some_of
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.system_charts import system_charts
 from thermodata.report.verdict import probability, told, verdict_sentence
-from thermodata.report.words import base_role, change, duration, heat_lines, in_unit, number, probability_text, typeset
+from thermodata.report.words import (
+    base_role,
+    change,
+    duration,
+    heat_lines,
+    in_unit,
+    number,
+    probability_text,
+    typeset,
+)
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
@@ -89,6 +98,8 @@ def render(data: ReportData) -> str:
         of_response=of_response,
         unit_of=lambda found: typeset(data.unit_of(found)),
         capital=capital,
+        maps=[str(i or "") for i in range(len(in_one_unit(data.tests, data.unit_of)))],
+        told_together=some_of(data.told_together, data.responses),
         mixed=len({data.unit_of(name) for name in data.responses}) > 1,
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
@@ -122,14 +133,16 @@ def _figures(
     data: ReportData, styles: dict[str, tuple[str, str]], spots: list[tuple[int, WeakSpot]]
 ) -> dict[str, Chart | HeatMap]:
     made: dict[str, Chart | HeatMap] = {}
-    if data.tests:
-        limit = residual_scale([t.residual for t in data.first or data.tests])
-        targets = [f"test{i}" for i in range(len(data.tests))]
-        note = "Point at a strip to read it; click to see its test there."
-        if data.first:
+    several, first = len(data.responses) > 1, in_one_unit(data.first, data.unit_of)
+    for i, (unit, now) in enumerate(in_one_unit(data.tests, data.unit_of).items()):
+        at, before = str(i or ""), first.get(unit, [])
+        limit = residual_scale([t.residual for t in before or now])
+        if before:
             about = f"Residual of every test in the first version, {data.versions[0].name}"
-            made["first"] = overview_map(data.first, data.unit, limit, [""] * len(data.first), about, "")
-        made["overview"] = overview_map(data.tests, data.unit, limit, targets, "Residual of every test", note)
+            made[f"first{at}"] = overview_map(before, unit, limit, [""] * len(before), about, "", several=several)
+        note = "" if i else "Point at a strip to read it; click to see its test there."
+        targets = [f"test{j}" for j, t in enumerate(data.tests) if data.unit_of(t.response) == unit]
+        made[f"overview{at}"] = overview_map(now, unit, limit, targets, "Residual of every test", note, several=several)
     heat = _heat(data)
     if heat:
         drawn = heat_charts(heat.courses, data.unit_of(data.diagnosis), heat.direction is not None)
@@ -225,7 +238,11 @@ def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:
 def _score_rows(data: ReportData) -> dict[str, Any]:
     before = {(s.campaign, s.test, s.response): s.rmse_um for s in data.before if s.phase == "all"}
     rows = [{"row": s, "before": before.get((s.campaign, s.test, s.response))} for s in data.scores if s.phase == "all"]
-    errors = [e for r in rows for e in (r["before"], getattr(r["row"], "rmse_um", None)) if isinstance(e, float)]
+    most: dict[str, float] = {}
+    for s in data.scores:
+        if s.phase == "all":
+            unit, both = data.unit_of(s.response), (before.get((s.campaign, s.test, s.response)), s.rmse_um)
+            most[unit] = max([most.get(unit, 0.0), *(e for e in both if e is not None)])
     found = [c for d in (data.diagnosis, data.reason) if d for c in d.candidates]
     tried = [e for c in found for e in (c.rmse_um_before, c.rmse_um_after) if e]
-    return {"whole": rows, "most_score": max(errors, default=1.0) or 1.0, "most_candidate": max(tried, default=1.0)}
+    return {"whole": rows, "most_score": most, "most_candidate": max(tried, default=1.0)}

@@ -54,7 +54,10 @@ def in_units(text: str, units: Mapping[str, str]) -> str:
 
 
 def typeset(text: str) -> str:
-    """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus."""
+    """A terminal's text as a page shows it: 'um' as 'µm', '->' as an arrow, hyphens before digits as minus, and a
+    dash where there is none."""
+    if text == "-":
+        return "–"
     text = re.sub(r"\bum\b", "µm", text).replace("->", "→")
     text = re.sub(r"(?<=\d) (?=%|µm|rpm)", "\u00a0", text)  # a number stays with its unit
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)

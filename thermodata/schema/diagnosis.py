@@ -20,6 +20,8 @@ class WeakSpot(Result):
     to_s: from the test's start [s]
     rmse_um: error in the window, in the response's unit
     state: what the machine did, in words
+    after_warm_start: whether the model fails there from the start of a test on that began warm: what warmed the
+        machine before is in no log of that test
     """
 
     campaign: str
@@ -28,6 +30,7 @@ class WeakSpot(Result):
     to_s: float
     rmse_um: float
     state: str
+    after_warm_start: bool = False
 
 
 Named = Annotated[str | None, BeforeValidator(lambda name: name or None)]

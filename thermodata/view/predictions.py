@@ -119,8 +119,9 @@ def _paths(
     """(response, path) of the files that are there, by test, in the order of the responses."""
     rows = fetch(
         con,
-        "select campaign, test, response, path from prediction where model = ? and list_contains(?, test) "
-        "order by response",
+        "select campaign, test, response, path from prediction p where model = ? and list_contains(?, test) "
+        "order by (select list_position(string_split(m.response, ', '), p.response) "
+        "from model m where m.model = p.model), response",
         [model, sorted({test for _, test in keys})],
     )
     found: dict[Key, list[tuple[str, str]]] = {}

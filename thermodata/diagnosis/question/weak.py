@@ -57,7 +57,8 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
             from_s=float(w.test.t_s[w.start]),
             to_s=float(w.test.t_s[w.stop - 1]),
             rmse_um=float(np.sqrt(w.sse / w.n)),
-            state=", ".join([*_start(w), describe_state(w.test, w.start, w.stop)]),
+            state=", ".join([AFTER_WARM] * _is_warm(w) + [describe_state(w.test, w.start, w.stop)]),
+            after_warm_start=_is_warm(w),
         )
         for w in spots[:SHOWN]
     ]
@@ -89,14 +90,8 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
     return windows
 
 
-def is_after_warm_start(spot: WeakSpot) -> bool:
-    """Whether the model fails there from the start of a test on that began warm: what warmed the machine before is in
-    no log of that test."""
-    return spot.state.startswith(AFTER_WARM)
-
-
-def _start(window: _Window) -> list[str]:
-    return [AFTER_WARM] if window.first and window.test.start_state == "warm" else []
+def _is_warm(window: _Window) -> bool:
+    return window.first and window.test.start_state == "warm"
 
 
 def describe_state(test: TestData, start: int, stop: int) -> str:

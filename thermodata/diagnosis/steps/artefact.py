@@ -44,6 +44,8 @@ LEAST_UM = 0.5  # and than this
 SHARP = 0.4  # least share of a step that happens between two samples: halves where a mean parts it
 WITHIN = 0.7  # and within three intervals, beyond what the steeper of the slopes beside it makes
 SEEN = 0.3  # the same of the response, and its inverse at most: a model jumps, too, where its drivers do
+# loads, powers and flows go with them
+NOTHING_ELSEWHERE = "no speed, feed, position or switch does that elsewhere"
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,7 +239,7 @@ def _stands_out(step: Step) -> str:
 def _made_by(step: Step) -> str:
     slipped = "a probe or fixture slipped"
     if not step.beside:
-        return f"no speed, feed or switch does that elsewhere: {slipped}"
+        return f"{NOTHING_ELSEWHERE}: {slipped}"
     verb, makes, it = ("change", "make", "they act") if len(step.beside) > 1 else ("changes", "makes", "it acts")
     return (
         f"{' and '.join(step.beside)} {verb} just then and {makes} no such step elsewhere: {slipped}, or {it} by what "

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.diagnosis.steps.artefact import Step
+from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE, Step
 from thermodata.plugin import Bool1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
@@ -126,7 +126,7 @@ def _why(steps: Sequence[Step], unit: str) -> str:
     ways, which = ("", "size and direction") if not (up and down) else (" to and fro", "size")
     return (
         f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_where(steps)}), and "
-        f"does not decay; no speed, feed or switch does that elsewhere: steps of one {which} that repeat point to "
+        f"does not decay; {NOTHING_ELSEWHERE}: steps of one {which} that repeat point to "
         "stick-slip or backlash of the machine, for a probe that slips does so by another amount each time. Nothing "
         "was taken out for them"
     )

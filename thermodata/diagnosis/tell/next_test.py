@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import reads
 from thermodata.diagnosis.claims.probability import elsewhere
-from thermodata.diagnosis.question.weak import is_after_warm_start
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import counted
 from thermodata.schema.diagnosis import WeakSpot
@@ -187,7 +186,7 @@ def to_find(
         closed = first.looked is None
         opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
         logged = f"{names} is logged and ranks first, so run a test that moves it alone{opened}; if it is not that, "
-    if not logged and spots and is_after_warm_start(spots[0]):
+    if not logged and spots and spots[0].after_warm_start:
         return (
             f"{counted(tests, 'test')} took part, so more of the same will not tell: the model fails most in "
             f"{spots[0].test}, {worst}, and what was warm before is in no log of it: run it again from a cold start"

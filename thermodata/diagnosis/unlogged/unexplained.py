@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.question.weak import is_after_warm_start
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.verdict.suspect import First, Suspect
@@ -27,7 +26,7 @@ def characterise(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem, suspect, first, spots[0] if spots and is_after_warm_start(spots[0]) else None),
+        heat=_heat(problem, suspect, first, spots[0] if spots and spots[0].after_warm_start else None),
     )
 
 

@@ -18,6 +18,7 @@ from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
+from thermodata.report.of_response import some_of
 from thermodata.report.words import base_role, pooled
 from thermodata.schema.result import FitResult, Score
 from thermodata.store import Store
@@ -84,6 +85,7 @@ def show(request: Request) -> Response:
     shown = _shown_test(store, models, pinned.model, given.get("test", ""), lines, keys)
     beside = contributions(store, [m.model for m in chosen], *shown) if shown else []
     labels = {m.model: m.label for m in chosen}
+    of_chain = told_together(newest.responses, response_units(store, newest.responses, newest.campaigns))
     order = term_order(models, labels)
     return page(
         request,
@@ -104,8 +106,10 @@ def show(request: Request) -> Response:
         mixed=len({units.get(line.response) for line in lines}) > 1,
         several=len({line.response for line in lines}) > 1,
         most=_largest(lines, units),
+        told_of=some_of(together, pinned.responses),
+        told_of_chain=some_of(of_chain, newest.responses),
         roles=_roles(on_common([r.scores for r in results]), together),
-        compared=capital(lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)})),
+        compared=lost_of_compared({m.label: r.scores for m, r in zip(chosen, results, strict=True)}),
         over_roles=_over_roles(lines, [_of_responses(each, together) for each in courses]),
         parameters=_parameters(results),
         heat=[(m, script_json(heat.as_json())) for m, heat in maps(store, chosen, keys, str(response), of_response)],
@@ -154,10 +158,10 @@ def _has(keys: Sequence[Key], named: str) -> bool:
 
 def _drawn(
     part: Contributions, only: bool, labels: dict[str, str], unit: str, order: list[str]
-) -> tuple[Contributions, str]:
-    """What is listed of it, and its chart."""
-    listed = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
-    return listed, script_json(contribution_chart(listed, labels, unit, order).as_json())
+) -> tuple[Contributions, str, str]:
+    """What is listed of it, its chart, and the unit of both."""
+    shown = replace(part, effects=tuple(e for e in part.effects if e.differs)) if only else part
+    return shown, script_json(contribution_chart(shown, labels, unit, order).as_json()), unit
 
 
 def _chosen(models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:

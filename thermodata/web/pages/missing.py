@@ -15,9 +15,9 @@ from thermodata.report.course_chart import course_chart
 from thermodata.report.headline import capital
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
-from thermodata.report.of_response import of_response
+from thermodata.report.of_response import of_response, worst_of
 from thermodata.report.pieces import names_of_pieces
-from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.verdict import as_named, claims_of, explainable, told, verdict_sentence
 from thermodata.report.words import heat_lines, in_unit, listed, number
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
@@ -26,7 +26,7 @@ from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import load_diagnosis
 from thermodata.view.describe import channel_infos
 from thermodata.view.models import ModelRow, model_rows
-from thermodata.view.response_units import unit_of
+from thermodata.view.response_units import response_units, told_together, unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.render import desk_of, page
@@ -70,6 +70,7 @@ def show(request: Request) -> Response:
     shown = told(found) if found else []
     heat = found.unknown.heat if found and found.unknown else None
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
+    together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
     nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
     return page(
         request,
@@ -80,6 +81,7 @@ def show(request: Request) -> Response:
         model=model,
         found=found,
         unit=unit,
+        error_of=worst_of(together, model.responses),
         headline=in_unit(_headline(found), unit) if found else "What does it miss?",
         about=_about(found, model, unit) if found else "",
         of_response=capital(of_response(found)) if found else "",
@@ -94,6 +96,7 @@ def show(request: Request) -> Response:
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
         left_out={c.rank: _left_out(c) for c in shown},
         heat_names=names_of_pieces(heat.courses) if heat else [],
+        equivalents={e for c in (claims_of(found) if found else []) for e in c.equivalent},
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
         stumbles=STUMBLES,
@@ -114,9 +117,9 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
 
 
 def _headline(found: Diagnosis) -> str:
-    """How sure, and what else it could be, in one sentence."""
+    """How sure, and what else it could be, each once, in one sentence."""
     sentence = verdict_sentence(found)
-    others = [e for c in claims_of(found) for e in c.equivalent]
+    others = [e for c in claims_of(found) for e in c.equivalent if as_named(e) not in sentence]
     if others:
         sentence = sentence.replace("; error on", f", or {listed(others)}: these tests can't tell; error on", 1)
     return sentence[:1].upper() + sentence[1:]
