@@ -91,3 +91,47 @@ def test_nothing_is_told_of_other_quantities_at_the_tool_or_alone() -> None:
     assert not flagged(x, machine(2), quantity="pressure").any(), "a pump that is off"
     assert not flagged(x, machine(2), at="tool").any()
     assert not flagged(x).any()
+
+
+def driven(rests: list[tuple[int, int]], noise_at_rest: float = 0.0, seed: int = 5) -> tuple[Float1D, Float1D]:
+    """A bed in a steady hall whose sensor counts in 0.1 K, with noise of 0.08 K while the spindle runs; and the speed.
+    rests: [rows) in which the spindle stands."""
+    rng = np.random.default_rng(seed)
+    speed = np.full(N, 4000.0)
+    for start, stop in rests:
+        speed[start:stop] = 0.0
+    noise = rng.normal(0, 1, N) * np.where(speed > 0, 0.08, noise_at_rest)
+    return np.asarray(np.round((21.02 + noise) / 0.1) * 0.1), speed
+
+
+def flagged_beside(x: Float1D, speed: Float1D, quantity: str = "rotational_speed") -> Array:
+    columns = {"T": ColumnInput(x, "temperature"), "n": ColumnInput(speed, quantity)}
+    columns |= {f"T{i}": ColumnInput(machine(i), "temperature") for i in (2, 3)}
+    return np.asarray(flag_stream(clock(N, 10.0), columns)[0]["T"]) & Flag.STUCK
+
+
+@pytest.mark.parametrize("rests", [[(FROM, TO)], [(FROM, N)], [(0, 600), (1500, 2100), (3000, 3600)]])
+def test_noise_that_goes_with_the_drives_is_no_failure_when_they_stop(rests: list[tuple[int, int]]) -> None:
+    x, speed = driven(rests)
+    assert not flagged_beside(x, speed).any()
+    assert not flagged_beside(x, speed / 1000, "feed").any()
+    assert flagged_beside(x, np.full(N, 4000.0)).any(), "nothing stops"
+    assert flagged_beside(x, speed, "power").any(), "what is no drive that stands says nothing"
+
+
+def test_a_sensor_that_flickers_at_rest_too_is_stuck_while_the_drives_stand() -> None:
+    x, speed = driven([(0, 300), (FROM, TO)], noise_at_rest=0.08)
+    assert not flagged_beside(x, speed).any()
+    assert flagged_beside(stands(x), speed)[FROM:TO].all()
+
+
+def test_a_sensor_that_stays_frozen_as_the_drives_start_again_is_stuck() -> None:
+    x, speed = driven([(FROM, TO)])
+    assert not flagged_beside(stands(x, FROM, TO + 40), speed).any(), "by so little chance may"
+    assert flagged_beside(stands(x, FROM, TO + 60), speed)[FROM : TO + 60].all()
+
+
+def test_a_sensor_that_leaps_as_it_comes_back_is_stuck() -> None:
+    x, speed = driven([(FROM, TO)])
+    x[TO:] += 1.0
+    assert flagged_beside(x, speed)[FROM:TO].all()

@@ -74,6 +74,32 @@ def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
     assert asked in said if asked else "unit:" not in said
 
 
+@pytest.mark.parametrize("name", ["T_furnace", "Ofentemperatur", "Abgas 1", "exhaust/T3", "kiln", "T hot gas"])
+@pytest.mark.parametrize(("low", "high"), [(600.0, 1200.0), (330.0, 390.0), (20.0, 900.0), (400.0, 700.0)])
+def test_what_burns_may_be_hot(name: str, low: float, high: float) -> None:
+    said = guess(name, "°C", "float64", values_of(np.linspace(low, high, 200)))
+    assert said.quantity == "temperature"
+    assert not [q for q in said.questions if "raw counts" in q or q.startswith("unit")]
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "low", "high", "asked"),
+    [
+        ("T_furnace", "°C", 2000.0, 4000.0, "raw counts, or K?"),
+        ("T_furnace", "°C", 293.0, 390.0, "unit: K, or °C?"),  # before it was lit
+        ("T_furnace", None, 600.0, 1200.0, "unit? (values 600 to 1200)"),
+        ("T_furnace", None, 300.0, 400.0, "unit? (values 300 to 400)"),  # kelvins of others
+        ("Hofende T", "°C", 600.0, 1200.0, "raw counts, or K?"),
+        ("T bearing front", "°C", 330.0, 390.0, "unit: K, or °C?"),
+    ],
+)
+def test_what_burns_is_asked_where_it_may_be_something_else(
+    name: str, unit: str | None, low: float, high: float, asked: str
+) -> None:
+    said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200)))
+    assert asked in " ".join(said.questions)
+
+
 MEASURED = [f"{20 + k / 97:.3f}" for k in range(200)]
 
 

@@ -4,6 +4,7 @@ file that goes on with it."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -60,3 +61,69 @@ def test_tests_of_other_names_stay_apart_though_one_ends_where_the_other_begins(
     files = {"S4000_20260407.txt": (20.0, 24.0), "S8000_20260408.txt": (0.0, 4.0)}
     found = _drafted(tmp_path, say, files)
     assert [t["id"] for t in found] == ["S4000_20260407", "S8000_20260408"]
+
+
+def _daily(folder: Path, say: Say, files: dict[str, tuple[int, float, float]]) -> tuple[list[list[str]], str]:
+    """(the files of each test; the draft). files: name -> day of April, and from and to [h] of that day, in UTC."""
+    for name, (day, begin, end) in files.items():
+        seconds = range(round(begin * 3600), round(end * 3600), 20)
+        times = [datetime(2026, 4, day, tzinfo=UTC) + timedelta(seconds=t) for t in seconds]
+        column = "T_hall" if name.startswith("hall") else "T_bed"
+        rows = [f"{t:%Y-%m-%dT%H:%M:%SZ},{20 + k % 997 / 300:.3f}" for k, t in enumerate(times)]
+        (folder / name).write_text("\n".join([f"time,{column} [degC]", *rows, ""]), encoding="utf-8")
+    assert say("init", folder).code == 0
+    text = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    drafted = yaml.safe_load(text)
+    own = [t.get("files") or {"log": f"{t['id']}.csv"} for t in drafted["tests"]]
+    return [[f for some in o.values() for f in ([some] if isinstance(some, str) else some)] for o in own], text
+
+
+NAMES = [f"Thermo_202604{day:02d}.csv" for day in (7, 8, 9)]
+
+
+def test_a_file_a_day_of_one_recording_is_one_test_though_its_rows_have_dates(tmp_path: Path, say: Say) -> None:
+    tests, text = _daily(tmp_path, say, dict(zip(NAMES, [(7, 20, 24), (8, 0, 24), (9, 0, 4)], strict=True)))
+    assert tests == [NAMES]
+    assert f"Thermo_20260407 goes on without a gap in {NAMES[1]}, {NAMES[2]}" in text
+
+
+def test_a_day_that_ends_by_local_time_goes_on_too(tmp_path: Path, say: Say) -> None:
+    tests, _ = _daily(tmp_path, say, dict(zip(NAMES, [(7, 12, 22), (7, 22, 46), (8, 22, 30)], strict=True)))
+    assert tests == [NAMES]
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        {NAMES[0]: (7, 8, 18), NAMES[1]: (8, 8, 18)},
+        {NAMES[0]: (7, 8, 24), NAMES[1]: (8, 0.1, 18)},
+        {NAMES[0]: (7, 8, 24.1), NAMES[1]: (8, 0, 18)},
+        {"S4000_20260407.csv": (7, 8, 24), "S8000_20260408.csv": (8, 0, 18)},
+        {NAMES[0]: (7, 8, 12), NAMES[2]: (7, 12, 18)},
+    ],
+    ids=["a night", "a gap", "an overlap", "another name", "days apart by their names"],
+)
+def test_what_does_not_go_on_by_its_rows_and_its_name_stays_apart(
+    tmp_path: Path, say: Say, files: dict[str, tuple[int, float, float]]
+) -> None:
+    tests, text = _daily(tmp_path, say, files)
+    assert [len(t) for t in tests] == [1, 1]
+    assert "goes on" not in text
+
+
+def test_of_several_sources_all_go_on_or_none_does(tmp_path: Path, say: Say) -> None:
+    bed = {"bed_20260407.csv": (7, 20.0, 24.0), "bed_20260408.csv": (8, 0.0, 4.0)}
+    hall = {"hall_20260407.csv": (7, 20.0, 24.0), "hall_20260408.csv": (8, 0.0, 4.0)}
+    (tmp_path / "both").mkdir()
+    tests, _ = _daily(tmp_path / "both", say, {**bed, **hall})
+    assert [sorted(t) for t in tests] == [sorted({**bed, **hall})]
+    (tmp_path / "one").mkdir()
+    tests, _ = _daily(tmp_path / "one", say, {**bed, **hall, "hall_20260408.csv": (8, 1.0, 4.0)})
+    assert len(tests) == 2
+
+
+def test_two_recordings_one_after_the_other_are_two_tests(tmp_path: Path, say: Say) -> None:
+    alt = {"alt_20260407.csv": (7, 20.0, 24.0), "alt_20260408.csv": (8, 0.0, 4.0)}
+    neu = {"neu_20260408.csv": (8, 4.0, 24.0), "neu_20260409.csv": (9, 0.0, 4.0)}
+    tests, _ = _daily(tmp_path, say, {**alt, **neu})
+    assert sorted(sorted(t) for t in tests) == [sorted(alt), sorted(neu)]

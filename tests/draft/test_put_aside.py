@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
+import lzma
 from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 
@@ -83,3 +85,45 @@ def test_a_packed_piece_of_a_log_is_asked_for(tmp_path: Path, say: Say) -> None:
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "campaign.yaml").read_text()
     assert "'a.log.2.gz' is a piece of a.log too, packed and not read: unpack and draft again" in text
+
+
+@pytest.mark.parametrize("read", ["log-20260302.csv", "log.csv", "log_2026-03-02.csv", "log.csv.1"])
+def test_a_packed_log_whose_name_has_another_day_is_asked_for(tmp_path: Path, say: Say, read: str) -> None:
+    (tmp_path / read).write_text(dated(10))
+    for name in ("log-20260301.csv.gz", "log-20260228.csv.gz"):
+        (tmp_path / name).write_bytes(gzip.compress(dated(8).encode()))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert f"'log-20260228.csv.gz', 'log-20260301.csv.gz' are logs like {read}, packed and not read: unpack" in text
+
+
+def test_a_packed_file_of_another_name_is_only_listed(tmp_path: Path, say: Say) -> None:
+    (tmp_path / "log-20260302.csv").write_text(dated(10))
+    (tmp_path / "photos-20260301.tar.gz").write_bytes(gzip.compress(b"x"))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert "packed and not read" not in text
+    assert "# not used: photos-20260301.tar.gz" in text
+
+
+def test_a_folder_of_nothing_but_packed_logs_says_to_unpack_them(tmp_path: Path, say: Say) -> None:
+    (tmp_path / "log.csv.1.gz").write_bytes(gzip.compress(dated(8).encode()))
+    say("init", tmp_path)
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert "? log.csv.1.gz is packed: unpack it and what is packed beside it" in text
+    assert "what wrote" not in text
+
+
+@pytest.mark.parametrize(("pack", "packer"), [(gzip.compress, "gzip"), (bz2.compress, "bzip2"), (lzma.compress, "xz")])
+def test_an_ingest_says_that_a_file_is_packed(
+    tmp_path: Path, say: Say, pack: Callable[[bytes], bytes], packer: str
+) -> None:
+    (tmp_path / "a.log").write_text(dated(10))
+    (tmp_path / "a.log.1").write_bytes(pack(dated(9).encode()))
+    (tmp_path / "campaign.yaml").write_text(CAMPAIGN.replace("FILES", '"a.log*"'))
+    said = say("--store", tmp_path / "store", "ingest", tmp_path / "campaign.yaml")
+    assert said.code == 3
+    assert "the file is packed; where: a.log.1" in said.out
+    assert f"got: {packer}" in said.out
+    assert "unpack it beside the others" in said.out
+    assert "encoding" not in said.out

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -48,6 +49,7 @@ def test_strays_copied_rows_and_newest_first_are_not(tmp_path: Path, say: Say) -
     again = [*range(200), *range(100, 400)]
     (tmp_path / "campaign.yaml").unlink()
     assert _asked(tmp_path, say, [10 * k for k in again], [20 + k / 99 for k in again]) == ""
+    assert "set back" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
     (tmp_path / "campaign.yaml").unlink()
     assert _asked(tmp_path, say, EVEN[::-1]) == ""
 
@@ -70,3 +72,47 @@ def test_the_end_of_summer_time_is_left_to_the_zone(tmp_path: Path, say: Say) ->
     text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
     assert "timezone?" in text
     assert "resets: allow" not in text
+
+
+def _noted(folder: Path, say: Say, files: dict[str, Sequence[int]]) -> list[str]:
+    """files: name -> seconds since 1970 of its rows, in their order."""
+    folder.mkdir(exist_ok=True)
+    for name, seconds in files.items():
+        rows = [f"{datetime.fromtimestamp(t, UTC):%Y-%m-%dT%H:%M:%SZ},{20 + k / 99:.3f}" for k, t in enumerate(seconds)]
+        (folder / name).write_text("\n".join(["time,T_bed [degC]", *rows, ""]), encoding="utf-8")
+    assert say("init", folder).code == 0
+    text = (folder / "campaign.yaml").read_text(encoding="utf-8")
+    return [line for line in text.splitlines() if line.startswith("# note:") and ".csv" in line]
+
+
+NOW = 1_777_190_400
+SOUND = [NOW + t for t in EVEN]
+
+
+def test_a_leap_of_years_is_told_as_an_ingest_tells_it(tmp_path: Path, say: Say) -> None:
+    leapt = [*EVEN[:100], *SOUND]
+    (note,) = _noted(tmp_path, say, {"R1.csv": SOUND, "R2.csv": leapt, "R3.csv": leapt})
+    assert note.startswith("# note: R2.csv and 1 more file: the clock was set ahead by 56.3 years while it ran")
+    out = say("--store", tmp_path / "store", "ingest", tmp_path / "campaign.yaml").out
+    assert "the clock was set ahead by 56.3 years while it ran" in out
+
+
+def test_what_an_ingest_mends_is_told(tmp_path: Path, say: Say) -> None:
+    server = [t if t < NOW + 2000 else t - 60 for t in SOUND]
+    assert "the clock was set back once, by 50 s" in _noted(tmp_path / "server", say, {"R1.csv": server})[0]
+    stray = [*SOUND]
+    stray[200] = 5
+    assert "1 row with a stray time" in _noted(tmp_path / "stray", say, {"R1.csv": stray})[0]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        SOUND,
+        SOUND[::-1],
+        [*SOUND[:200], *(t + 80_000 for t in SOUND[200:])],  # a pause
+        [t for k in range(0, 400, 2) for t in (SOUND[k], SOUND[k] - 1)][:390],  # within what is disorder
+    ],
+)
+def test_a_sound_clock_is_not_told(tmp_path: Path, say: Say, rows: list[int]) -> None:
+    assert _noted(tmp_path, say, {"R1.csv": rows}) == []

@@ -100,6 +100,23 @@ def test_a_fit_tells_the_rows_of_a_prediction_file_that_have_no_value(store: Sto
     assert any(note.startswith("theirs.csv: 7 of 511 rows have no predicted value") for note in result.notes)
 
 
+def test_a_fit_tells_the_tests_of_a_prediction_file_that_the_campaigns_lack(
+    store: Store, spec: Spec, tmp_path: Path
+) -> None:
+    def notes(*strange: str) -> list[str]:
+        names = [*(f"t{k}" for k in range(7)), *strange]
+        rows = [f"{name},{t},{t / 100}" for name in names for t in range(0, 43201, 600)]
+        (tmp_path / "theirs.csv").write_text("\n".join(["test,t_s,predicted", *rows]))
+        model = spec({"effect": "prediction", "file": "theirs.csv"}, name="theirs")
+        return [n for n in run.fit(store, model, base=tmp_path).notes if n.startswith("theirs.csv")]
+
+    assert notes() == []
+    assert notes("c/t10", "old") == [
+        "theirs.csv: 'c/t10', 'old' are no tests with data of the model's campaigns, and nothing of it is used; "
+        "did you mean 'c/t1'?"
+    ]
+
+
 def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"), name="short"))
     grown = add(store, "short", "feed_screw:T_nut")

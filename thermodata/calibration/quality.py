@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.calibration.quality_edges import without_pauses
-from thermodata.calibration.quality_frozen import frozen_runs
+from thermodata.calibration.quality_frozen import drives_stand, frozen_runs
 from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible, sentinels
 from thermodata.calibration.quality_range import Limits
 from thermodata.calibration.quality_spike import spikes
@@ -127,7 +127,8 @@ def _column(
             events.append(_event(name, str(flag.name).lower(), t_ns, start, stop, why))
         if column.quantity in _FREEZES and not is_at_tool(column.at):
             beside = {k: v for k, v in others.items() if columns[k].quantity in _FREEZES}
-            for start, stop, why in frozen_runs(x, t_ns, stats[name], beside):
+            stand = drives_stand([(c.quantity, c.values) for c in columns.values()]) if beside else None
+            for start, stop, why in frozen_runs(x, t_ns, stats[name], beside, stand):
                 if not (flags[start:stop] & _TOLD).any():
                     flags[start:stop] |= np.uint16(Flag.STUCK)
                     events.append(_event(name, "stuck", t_ns, start, stop, why))

@@ -3,17 +3,18 @@ moment on reads the same to the last digit.
 
 Nothing jumps where it freezes, and nothing needs to come back. What tells it is its own noise: a reading that changes
 every few samples, in its calmest stretches too, does not stand for half an hour by chance. One that counts coarsely, or
-whose noise comes from the drives and goes with them, does.
+whose noise comes from the drives and goes with them, does: where it stands while the drives do, and was never seen to
+flicker at rest, it may be either.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats
-from thermodata.plugin import Array, Float1D
+from thermodata.calibration.quality_value import RunStats, true_runs
+from thermodata.plugin import Array, Bool1D, Float1D
 
 _LEAST_S = 1800.0
 _LEAST_SAMPLES = 100
@@ -24,11 +25,27 @@ _MOST_EQUAL = 0.6  # of the neighbours, in every stretch: noise of half a count'
 # counts coarsely never more than 1; in all stretches but the calmest tenth
 _NOISE, _CALMEST = 1.3, 0.1
 _GO_ON = 0.5  # of the other temperatures go on: they change half as often as elsewhere, at least
+# up to which a drive stands, in the canonical unit [rpm, m/min]
+_STANDS = {"rotational_speed": 5.0, "feed": 0.01}
+# typical changes by which the first readings behind a rest may be off: a frozen sensor leaps by what it missed
+_BACK, _FIRST = 4.0, 5
 
 
-def frozen_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array]) -> Iterator[tuple[int, int, str]]:
+def drives_stand(drives: Sequence[tuple[str, Array]]) -> Bool1D | None:
+    """Where all speeds and feeds that are logged with a temperature stand, shape (n,); None where none is. drives:
+    (quantity, values) of columns, of which the others are left out."""
+    known = [
+        np.abs(np.asarray(v, np.float64)) <= _STANDS[q] for q, v in drives if q in _STANDS and v.dtype.kind in "iuf"
+    ]
+    return np.logical_and.reduce(known) if known else None
+
+
+def frozen_runs(
+    x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stand: Bool1D | None = None
+) -> Iterator[tuple[int, int, str]]:
     """(start, stop, why) of stretches in which a temperature x, shape (n,), is frozen. others: the temperatures
-    that are logged with it; where there is none, or most of them rest as well, nothing is told."""
+    that are logged with it; where there is none, or most of them rest as well, nothing is told. stand: see
+    `drives_stand`."""
     long = own.lengths >= _LEAST_SAMPLES
     runs = [
         (start, start + length)
@@ -40,7 +57,10 @@ def frozen_runs(x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Arr
     equal = _equal_in_noise(x, own.finest, runs)
     if equal is None or equal > _MOST_EQUAL:
         return
+    quiet = stand is not None and not _flickers_at_rest(stand, runs)
     for start, stop in runs:
+        if quiet and stand is not None and _goes_with_drives(x, start, stop, stand, own.step):
+            continue
         if np.mean([_goes_on(y, start, stop) for y in others.values()]) >= _GO_ON:
             yield start, stop, f"exactly {x[start]:.6g} for {stop - start} samples; elsewhere it changes all the time"
 
@@ -60,6 +80,24 @@ def _equal_in_noise(x: Float1D, count: float, runs: list[tuple[int, int]]) -> fl
     if len(shares) < _LEAST_STRETCHES or np.quantile(rms, _CALMEST) < _NOISE * count:
         return None
     return float(shares.max())
+
+
+def _flickers_at_rest(stand: Bool1D, runs: list[tuple[int, int]]) -> bool:
+    """Whether a channel, which flickers in every stretch outside of the runs, was seen at rest for a stretch there."""
+    rest = stand.copy()
+    for start, stop in runs:
+        rest[start:stop] = False
+    starts, stops = true_runs(rest)
+    return bool((stops - starts >= _STRETCH).any())
+
+
+def _goes_with_drives(x: Float1D, start: int, stop: int, stand: Bool1D, step: float) -> bool:
+    """Whether x stands no longer than the drives do, and goes on from where it stood."""
+    back = x[stop : stop + _FIRST]
+    return bool(
+        np.count_nonzero(~stand[start:stop]) < _STRETCH
+        and (not back.size or abs(float(np.median(back)) - x[start]) <= _BACK * step)
+    )
 
 
 def _goes_on(y: Array, start: int, stop: int) -> bool:

@@ -86,7 +86,7 @@ def fit(
     terms = [term.bound for response in fitted.responses for term in response.terms]
     read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
     looked_at = opened(resolve_roles(spec, data), data)
-    of_files = dict.fromkeys(note for term in terms for note in prediction.said(term.effect))
+    of_files = dict.fromkeys(note for term in terms for note in prediction.said(term.effect, data))
     notes = [
         *said.pop("notes", []),
         *coarse_readings.said(data, read),

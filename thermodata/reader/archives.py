@@ -1,4 +1,5 @@
-"""Archives of files that are no file themselves: a workbook is a ZIP as well, but its parts are XML."""
+"""Archives of files that are no file themselves: a workbook is a ZIP as well, but its parts are XML. And files that
+were packed one by one, as logs that were put aside are."""
 
 from __future__ import annotations
 
@@ -7,6 +8,21 @@ from pathlib import PurePosixPath
 
 _ZIP = b"PK\x03\x04"
 _PARTS = ("", ".xml", ".rels", ".vml", ".bin", ".png", ".jpg", ".jpeg", ".emf", ".wmf", ".gif")  # of Office files
+
+# first bytes and name
+_PACKERS = (
+    (b"\x1f\x8b", "gzip"),
+    *((b"BZh%d1AY&SY" % level, "bzip2") for level in range(1, 10)),
+    (b"\xfd7zXZ\0", "xz"),
+    (b"\x28\xb5\x2f\xfd", "Zstandard"),
+    (b"7z\xbc\xaf", "7-Zip"),
+    (b"Rar!", "RAR"),
+)
+
+
+def packed_by(start: bytes) -> str | None:
+    """The packer of a file that is no ZIP archive ('gzip'), by its first bytes; None where it is not packed."""
+    return next((name for magic, name in _PACKERS if start.startswith(magic)), None)
 
 
 def packed(start: bytes) -> str | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
-from thermodata.reader.archives import packed
+from thermodata.reader.archives import packed, packed_by
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
 from thermodata.reader.text import decode_head
@@ -31,10 +31,6 @@ _MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"SQLite format 3", "an SQLite database"),
-    (b"\x1f\x8b", "gzip: unpack it first"),
-    (b"\x28\xb5\x2f\xfd", "Zstandard: unpack it first"),
-    (b"7z\xbc\xaf", "7-Zip: unpack it first"),
-    (b"Rar!", "RAR: unpack it first"),
     (b"\xd0\xcf\x11\xe0", "an old Office file (XLS, DOC): save it as XLSX"),
     (b"\x7fELF", "a program"),
     (b"MZ", "a program"),
@@ -122,6 +118,8 @@ def _kind(start: Head) -> str:
         return "an empty file"
     if (inside := packed(start.start)) is not None:
         return f"{_ARCHIVE} ({inside}, ...): unpack it first"
+    if (packer := packed_by(start.start)) is not None:
+        return f"{packer}: unpack it first"
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what
@@ -177,7 +175,7 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
     kind = _kind(start)
     text = decode_head(start.start)
     says = tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)
-    if kind.startswith((_ARCHIVE, *says)) or kind == _no_table(text or ""):
+    if packed_by(start.start) is not None or kind.startswith((_ARCHIVE, *says)) or kind == _no_table(text or ""):
         return None  # it says already what to do
     able = next((name for name, why in others.items() if "can read it" in why), None)
     if able:

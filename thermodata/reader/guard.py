@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from thermodata.errors import PluginError, ThermodataError
+from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
+from thermodata.reader.archives import packed_by
 from thermodata.reader.heeded import Watched
 from thermodata.reader.regular import refuse_what_never_ends
 from thermodata.reader.rules import RECORDING_RULES, broken_rule, sentence
@@ -20,6 +21,9 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
     watched = Watched(source)
     try:
         recording = reader.describe(path, watched.source)
+    except FormatError:
+        _refuse_packed(path)  # what a reader says of packed bytes helps nobody
+        raise
     except (ThermodataError, OSError, MemoryError):
         raise
     except Exception as error:
@@ -36,6 +40,21 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
         if wrong is not None:
             raise PluginError(f"reader '{reader.name}' broke the rule: {sentence(rule)}", where=str(path), got=wrong)
     return recording
+
+
+def _refuse_packed(path: Path) -> None:
+    """FormatError for a file that is packed, which its reader could not read."""
+    with path.open("rb") as file:
+        packer = packed_by(file.read(16))
+    if packer is not None:
+        raise FormatError(
+            "the file is packed",
+            where=path.name,
+            expected="the log as it was written",
+            got=packer,
+            hint="unpack it beside the others and name it in their place, or leave it out of 'files' (no glob that "
+            "catches it)",
+        ) from None
 
 
 def guarded(reader: Reader, path: Path, source: Source, recording: Recording | None = None) -> Iterator[Block | Loss]:

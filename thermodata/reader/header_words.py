@@ -55,3 +55,5 @@ LABEL_WORDS = (
 VALUE_WORDS = ("value", "wert", "messwert", "reading", "hodnota", "measurement")
 # columns that hold the unit of the value beside them
 UNIT_WORDS = ("unit", "units", "einheit", "jednotka", "engineeringunits", "unité", "unità", "unidad")
+# which they are called for short; other things are, too
+UNIT_SHORT = ("u", "e", "j", "eh", "einh", "jedn", "uom", "um", "eu", "egu")

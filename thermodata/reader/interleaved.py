@@ -89,8 +89,8 @@ def series_columns(
 
 
 def bare_header(name: str) -> str:
-    """The last part of a header, without what names are written with: 'header.frame_id' is 'frameid'."""
-    return re.sub(r"[\s_#()-]", "", name.rsplit(".", 1)[-1]).casefold()
+    """The last part of a header, without what names are written with: 'header.frame_id' is 'frameid', 'Eh.' 'eh'."""
+    return re.sub(r"[\s_#()-]", "", name.rstrip(" .").rsplit(".", 1)[-1]).casefold()
 
 
 def words_of(header: str, values: Array) -> list[str]:

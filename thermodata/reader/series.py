@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
-from thermodata.reader.header_words import UNIT_WORDS
-from thermodata.reader.interleaved import Parting, bare_header, series_columns, words_of
+from thermodata.reader.interleaved import Parting, series_columns, words_of
+from thermodata.reader.unit_words import holds_units
 from thermodata.schema.counted import counted
 
 SERIES = "series"  # the property of a signal that says which it is of
@@ -234,7 +234,7 @@ def _units(
     """The unit that the rows of each series name, of those with one column of numbers; what names the series itself is
     none: machine A is no ampere. FormatError where one has several."""
     texts = [k for k, v in block.values.items() if v.dtype.kind == "O" and k not in tags]
-    column = next((k for k in texts if bare_header(k) in UNIT_WORDS), None)
+    column = next((k for k in texts if holds_units(k, words_of(k, block.values[k]))), None)
     units: dict[str, tuple[str, str]] = {}
     if column is None:
         return units

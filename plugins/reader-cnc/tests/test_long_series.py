@@ -159,3 +159,21 @@ def test_a_state_beside_a_name_is_no_value(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("\n".join(["time,name,state,T", *rows, ""]))
     assert long_table.claims(path.read_text().splitlines()) is None
+
+
+@pytest.mark.parametrize(
+    ("header", "units"), [("Einheit", True), ("E", True), ("U", True), ("Einh.", True), ("R", False)]
+)
+def test_a_column_of_units_is_known_by_its_header_or_by_a_short_one_and_its_words(
+    tmp_path: Path, header: str, units: bool
+) -> None:
+    said = {"T_vorn": "°C", "p_oel": "bar"}
+    rows = [f"{stamp(k)},{tag},{20 + k / 8},{unit}" for k in range(N) for tag, unit in said.items()]
+    data = read(tmp_path, f"time,tag,value,{header}", rows)
+    assert {s.name: s.unit for s in data.recording.signals} == (said if units else dict.fromkeys(said))
+
+
+def test_a_short_header_over_words_that_are_no_units_says_none(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},{tag},{20 + k / 8},{word}" for k in range(N) for tag, word in (("T1", "bar"), ("T2", "ERR"))]
+    data = read(tmp_path, "time,tag,value,E", rows)
+    assert {s.unit for s in data.recording.signals} == {None}

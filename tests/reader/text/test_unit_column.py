@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import delimited
@@ -27,6 +28,32 @@ def _read(path: Path, units: list[str], head: str = "Date/Time,Unit,Value") -> t
 def test_it_is_their_unit(tmp_path: Path) -> None:
     assert _read(tmp_path / "a.csv", ["C"] * 50) == ("C", 50, [])
     assert _read(tmp_path / "b.csv", ["F"] * 49 + [""]) == ("F", 50, [])
+
+
+@pytest.mark.parametrize("short", ["E", "U", "Einh.", "eh", "UoM"])
+def test_a_short_header_says_it_where_each_word_can_be_nothing_else(tmp_path: Path, short: str) -> None:
+    head = f"Date/Time,{short},Value"
+    assert _read(tmp_path / "a.csv", ["°C"] * 50, head)[0] == "°C"
+    assert _read(tmp_path / "b.csv", ["bar"] * 49 + [""], head)[0] == "bar"
+    for words in (["A"] * 50, ["C"] * 50, ["in"] * 50, ["-"] * 50, ["OK"] * 50, ["bar"] * 49 + ["ERR"]):
+        assert _read(tmp_path / "c.csv", words, head)[0] is None, words[-1]
+
+
+def test_another_header_says_none_though_its_words_are_units(tmp_path: Path) -> None:
+    assert _read(tmp_path / "a.csv", ["bar"] * 50, "Date/Time,Remark,Value")[0] is None
+
+
+@pytest.mark.parametrize("header", ["Unit", "U", "E"])
+def test_each_series_of_a_long_table_has_its_own(tmp_path: Path, header: str) -> None:
+    said = {"T_front": "°C", "p_oil": "bar"}
+    rows = [
+        f"2026-03-14 00:{k // 60:02d}:{k % 60:02d},{name},{unit},{20 + k / 100:.2f}"
+        for k in range(300)
+        for name, unit in said.items()
+    ]
+    (tmp_path / "b.csv").write_text("\n".join([f"Date/Time,Place,{header},Temperature", *rows, ""]), encoding="utf-8")
+    found = delimited.signals(with_series(delimited.open_table(tmp_path / "b.csv", Source()), Source()))
+    assert {s.name: s.unit for s in found if s.dtype != "str"} == {f"{k}/Temperature": v for k, v in said.items()}
 
 
 def test_rows_in_another_are_a_loss(tmp_path: Path) -> None:

@@ -36,6 +36,7 @@ from thermodata.draft.probes.twin_probes import each_its_own
 from thermodata.draft.times.clocks import (
     Alignment,
     alignments,
+    mended_clocks,
     repeats_question,
     set_back_question,
     start_question,
@@ -70,7 +71,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     channels: list[DraftChannel] = []
     by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes = counted_on(groups) + joined + legends
+    notes = counted_on(groups) + joined + mended_clocks(groups) + legends
     for g in groups:
         made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
         made = with_told_speeds(made, g)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of
+from thermodata.draft.files.set_back import Clock, SetBack, extent_of, first_of, notes_of
 from thermodata.draft.signals.guess import guess_of, says_nothing
 from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.signals.values import Values, bare_word, joined, values_of
@@ -67,7 +67,8 @@ class RepeatedTimes:
 class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
     for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
-    failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file."""
+    failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file;
+    mended: what an ingest will say that it mended of the clock."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -80,6 +81,7 @@ class Sample:
     failed: str = ""
     repeats: RepeatedTimes = RepeatedTimes()
     set_back: SetBack | None = None
+    mended: tuple[str, ...] = ()
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:
@@ -129,6 +131,7 @@ def sample_of(path: Path, who: Reader, source: Source, recording: Recording, siz
         failed,
         repeats,
         first_of(clocks),
+        notes_of(clocks),
     )
 
 

@@ -1,4 +1,4 @@
-"""A clock that was set in the middle of a file, as ingest would find it, seen in a draft's sample."""
+"""A clock that was set in the middle of a file, or strays, as ingest would find it, seen in a draft's sample."""
 
 from __future__ import annotations
 
@@ -41,6 +41,25 @@ class Clock:
         self.steps.add(block.t_ns)
         self.leap.add(block.t_ns)
 
+    def notes(self) -> tuple[str, ...]:
+        """What an ingest will say that it mended: leaps ahead, small steps back, strays. Rows that stand twice, or
+        newest first, are no fault of the clock."""
+        if self.leap.row is None and (not self.steps.back or self.steps.newest_first or self.steps.in_no_order):
+            return ()
+        t = np.concatenate(self.t_ns)
+        again = np.flatnonzero(t[1:] <= np.maximum.accumulate(t)[:-1]) + 1
+        if again.size and self._stands_before(again, t):
+            return ()
+        return find_order(lambda a, b: t[a:b], t.size, resets_allowed=False).notes
+
+    def _stands_before(self, again: Int1D, t: Int1D) -> bool:
+        """Whether the rows at times that had been there are copies of other rows. t: of all rows."""
+        x = np.concatenate(self.values)
+        others = np.delete(np.arange(t.size), again)
+        before = set(zip(t[others].tolist(), x[others].tolist(), strict=True))
+        same = sum(pair in before for pair in zip(t[again].tolist(), x[again].tolist(), strict=True))
+        return same >= _REPEATED * again.size
+
     def extent(self) -> tuple[int, int] | None:
         """The first and the last time where the clock was set ahead by years, once what came before is moved up to it;
         None where it was not."""
@@ -59,17 +78,19 @@ class Clock:
             return None
         high = int(t[:keep].max())
         again = np.flatnonzero(t[keep:] <= high) + keep
-        x = np.concatenate(self.values)
-        before = set(zip(t[:keep].tolist(), x[:keep].tolist(), strict=True))
-        same = sum(pair in before for pair in zip(t[again].tolist(), x[again].tolist(), strict=True))
-        return (
-            None if same >= _REPEATED * again.size else SetBack(keep + 1, high - int(t[keep]), self.steps.in_no_order)
-        )
+        if self._stands_before(again, t):
+            return None
+        return SetBack(keep + 1, high - int(t[keep]), self.steps.in_no_order)
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:
     """Of the streams of a file the first that was set back."""
     return next((found for clock in clocks.values() if (found := clock.set_back()) is not None), None)
+
+
+def notes_of(clocks: Mapping[str, Clock]) -> tuple[str, ...]:
+    """What an ingest will say of the clocks of a file, each thing once."""
+    return tuple(dict.fromkeys(note for clock in clocks.values() for note in clock.notes()))
 
 
 def extent_of(clocks: Mapping[str, Clock]) -> tuple[int, int] | None:

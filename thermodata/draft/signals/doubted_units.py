@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from thermodata.draft.signals import units
@@ -18,6 +19,12 @@ _COOL = ("bed", "column", "table", "crossbeam", "saddle", "hall", "floor", "outs
 # what never is colder counts kelvins: of a machine at -20 degC, and what runs hottest; counts of a converter beyond
 # are asked for elsewhere
 _COLDEST_K, _HOTTEST_K = 250.0, 400.0
+_COLD_K = (280.0, 310.0)  # of what burns, before it was lit
+# what a temperature says that has no unit of another kind, and of what burns or is fired [degC]
+_HOTTEST_C, _HOTTEST_FIRE_C = 400.0, 1800.0
+_FIRE = re.compile(
+    r"\b(?:furnace|oven|kiln|exhaust|flue|burner|hot ?gas|ofen|abgas|rauchgas|brenner|hei(?:ss|ß)gas|spalin)"
+)
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -35,9 +42,19 @@ def doubted(found: Guess, name: str, values: Values) -> Guess:
     return replace(found, sure=False, questions=(*found.questions, f"unit: {asked} ({range_text(values)})"))
 
 
-def implausible(found: Guess, values: Values) -> Guess:
+def is_fired(text: str) -> bool:
+    """Whether a name says a furnace, a burner or its gas, which may be as hot as they like. text: its words."""
+    return _FIRE.search(text) is not None
+
+
+def hottest_c(text: str) -> float:
+    """Beyond this a temperature of that name is counts of a converter, or a broken sensor [degC]."""
+    return _HOTTEST_FIRE_C if is_fired(text) else _HOTTEST_C
+
+
+def implausible(found: Guess, text: str, values: Values) -> Guess:
     """With a question where a unit that the file says makes readings of it that no machine gives: a header that was
-    typed, and is wrong."""
+    typed, and is wrong. text: the words of its name."""
     if found.unit is None or values.n == 0:
         return found
     asked = None
@@ -48,7 +65,8 @@ def implausible(found: Guess, values: Values) -> Guess:
     elif found.quantity == "temperature" and units.kelvins(found.unit) is None:
         factor, offset = units.to_degc(found.unit)
         least = factor * _coldest(values) + offset
-        if least >= _COLDEST_K and factor * values.median + offset <= _HOTTEST_K:
+        coldest, warmest = _COLD_K if is_fired(text) else (_COLDEST_K, _HOTTEST_K)
+        if coldest <= least <= warmest and factor * values.median + offset <= _HOTTEST_K:
             asked = f"unit: K, or {found.unit}? no reading is below {least:.3g} degC"
         elif _NO_REST_C <= least <= _COLDEST_K and _stands_at(found, _COOL):
             asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"

@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from thermodata.draft.signals import units
-from thermodata.draft.signals.doubted_units import doubted, implausible
+from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
@@ -154,13 +154,13 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
-    found = _small(_place(_unit(found, unit, written, values), own, text), own, values)
+    found = _small(_place(_unit(found, text, unit, written, values), own, text), own, values)
     if not unit and units.may_be_an_inlet(_last(name)):
         asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
         found = replace(found, sure=False, questions=(*found.questions, asked))
     if values is None:
         return found
-    return implausible(found, values) if known else doubted(found, bare, values)
+    return implausible(found, text, values) if known else doubted(found, bare, values)
 
 
 def _small(found: Guess, own: str, values: Values | None) -> Guess:
@@ -188,16 +188,16 @@ def _digital(dtype: str, values: Values | None) -> bool:
     return dtype in ("bool", "str") or (values is not None and values.switch)
 
 
-def _unit(found: Guess, unit: str | None, written: str | None, values: Values | None) -> Guess:
+def _unit(found: Guess, text: str, unit: str | None, written: str | None, values: Values | None) -> Guess:
     """The unit as it would be written; a question where nothing says it."""
     quantity = found.quantity or ""
     if quantity in ("state", "label"):
         return replace(found, unit=None)
     if unit is not None and normal_unit(unit) != "dimensionless":
-        return _in_range(replace(found, unit=unit), values)
+        return _in_range(replace(found, unit=unit), text, values)
     if written is not None:
         basis = ("name",) if found.basis == ("name", "unit") else found.basis
-        return _in_range(replace(found, unit=written, basis=basis), values)
+        return _in_range(replace(found, unit=written, basis=basis), text, values)
     if unit is not None and quantity in _SHARES:
         return _share(found, unit, values)
     implied = _IMPLIED.get(quantity)
@@ -205,7 +205,8 @@ def _unit(found: Guess, unit: str | None, written: str | None, values: Values | 
         basis = found.basis if "values" in found.basis else (*found.basis, "values")
         # the file says '-' or '1', which an ingest would hold against the unit
         return replace(found, unit=implied, sure=False, basis=basis, instead_of=unit)
-    if quantity == "temperature" and values is not None and values.low > _COLDEST_K and values.high < 450:
+    in_kelvins = quantity == "temperature" and values is not None and values.low > _COLDEST_K and values.high < 450
+    if in_kelvins and values is not None and not is_fired(text):
         if values.whole:
             asked = f"unit: K, or tenths of a degree (0.1 degC)? ({range_text(values)})"
             return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
@@ -239,12 +240,12 @@ def _plausible(quantity: str, values: Values) -> bool:
     return values.low >= low and values.high <= high and not (quantity == "temperature" and values.switch)
 
 
-def _in_range(found: Guess, values: Values | None) -> Guess:
+def _in_range(found: Guess, text: str, values: Values | None) -> Guess:
     """A question where the values cannot be that: a temperature of 4000 degC is counts of a converter, or a broken
     sensor."""
     if values is None or found.quantity != "temperature" or normal_unit(found.unit or "") != "degC":
         return found
-    if values.median > 400 or values.median < -100:
+    if values.median > hottest_c(text) or values.median < -100:
         return replace(found, sure=False, questions=(*found.questions, f"values {values.span()}: raw counts, or K?"))
     return found
 

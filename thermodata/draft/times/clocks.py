@@ -13,6 +13,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.errors import ThermodataError
 from thermodata.reader.text.tables.zone_named import OPEN
+from thermodata.schema.counted import counted
 from thermodata.store.ingest.repeated_times import MANY
 from thermodata.store.tidy.times_of_day import began, first_of
 
@@ -144,6 +145,21 @@ def set_back_question(group: Group) -> str | None:
                 "begins there, cut the file"
             )
     return None
+
+
+def mended_clocks(groups: Sequence[Group]) -> list[str]:
+    """A note on each thing that an ingest will say it mended of the clocks of a source's files."""
+    notes = []
+    for group in groups:
+        files = {f.path: f for own in group.tests.values() for f in own}
+        said: dict[str, list[str]] = {}
+        for path, file in files.items():
+            for note in file.sample.mended:
+                said.setdefault(note, []).append(str(path))
+        for note, paths in said.items():
+            of = paths[0] if len(paths) == 1 else f"{paths[0]} and {counted(len(paths) - 1, 'more file')}"
+            notes.append(f"{of}: {note}")
+    return notes
 
 
 def _undated(file: RawFile) -> bool:

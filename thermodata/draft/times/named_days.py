@@ -1,19 +1,21 @@
-"""Logs that tell times of day, and their date in the file's name only: 'Thermo_20260407.txt'. The name says when they
-began, and which go on behind midnight in the file of the next day."""
+"""Logs with a file a day: 'Thermo_20260407.txt'. Where they tell times of day only the name says when they began; and
+whatever they tell, which go on without a gap in the file of the next day."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.said_by_names import said_by
+from thermodata.schema.counted import counted
 
 _DAY_NS = 86_400 * 10**9
 _PAUSE_ROWS, _PAUSE_NS = 3, 60 * 10**9
+_SHOWN = 3
 
 
 def named_start(files: Sequence[RawFile]) -> str | None:
@@ -27,36 +29,60 @@ def named_start(files: Sequence[RawFile]) -> str | None:
 
 
 def over_midnight(groups: Sequence[Group]) -> tuple[list[Group], list[str]]:
-    """The groups, tests of one source that are one recording joined; and a note on each."""
-    if sum(bool(g.tests) for g in groups) != 1:
-        return list(groups), []
-    made, notes = [], []
+    """The groups, tests that are one recording joined; and a note on each. Where several sources have a test, all of
+    them go on in the next."""
+    begun: dict[str, int] = {}
+    named: dict[str, str] = {}  # what its first file is called, but for the day
     for group in groups:
-        joined: dict[str, tuple[RawFile, ...]] = {}
-        order = sorted(group.tests, key=lambda t: _began_ns(group.tests[t][0]) or 0)
-        home = None
-        for test in order:
-            files = group.tests[test]
-            if home is not None and _goes_on(joined[home][-1], files[0]):
-                joined[home] = (*joined[home], *files)
-                notes.append(f"{home} goes on in {files[0].path}, by the dates in their names: one test")
-            else:
-                joined[test], home = files, test
-        whole = {t: joined[t] for t in group.tests if t in joined}
-        made.append(group if len(whole) == len(group.tests) else replace(group, tests=whole, template=None))
-    return made, notes
+        for test, files in group.tests.items():
+            began = (_span_ns(files[0]) or (0, 0))[0]
+            begun[test] = min(begun.get(test, began), began)
+            named.setdefault(test, repr(_but_day(files[0])))
+    home_of: dict[str, str] = {}
+    last: dict[str, str] = {}
+    for test in sorted(begun, key=lambda t: begun[t]):
+        before = last.get(named[test])
+        on = before and all(_goes_on(g.tests.get(before), g.tests[test]) for g in groups if test in g.tests)
+        home_of[test] = home_of[before] if before and on else test
+        last[named[test]] = test
+    later: dict[str, list[str]] = {}
+    for test, home in home_of.items():
+        if test != home:
+            paths = [str(f.path) for g in groups for f in g.tests.get(test, ())]
+            later.setdefault(home, []).extend(paths)
+    made = [g if all(home_of[t] == t for t in g.tests) else _joined(g, home_of) for g in groups]
+    return made, [_note(home, paths) for home, paths in later.items()]
+
+
+def _joined(group: Group, home_of: Mapping[str, str]) -> Group:
+    tests: dict[str, tuple[RawFile, ...]] = {test: () for test in group.tests if home_of[test] == test}
+    for test in sorted(group.tests, key=lambda t: (_span_ns(group.tests[t][0]) or (0, 0))[0]):
+        tests[home_of[test]] = (*tests[home_of[test]], *group.tests[test])
+    return replace(group, tests=tests, template=None)
+
+
+def _note(home: str, paths: Sequence[str]) -> str:
+    shown = ", ".join(paths[:_SHOWN]) + (f" and {counted(len(paths) - _SHOWN, 'more file')}" if paths[_SHOWN:] else "")
+    return f"{home} goes on without a gap in {shown}, by the dates in their names: one test; a window cuts out a part"
 
 
 def _began_ns(file: RawFile) -> int | None:
+    """Of a log without dates: its first time of day, on the day that its name says."""
     said = file.recording
     if said.clock != "relative" or said.start_ns is not None or said.of_day_ns is None:
         return None
+    day = _day_ns(file)
+    return None if day is None else day + said.of_day_ns
+
+
+def _day_ns(file: RawFile) -> int | None:
+    """The day that a name says, at midnight, since 1970."""
     date = said_by([file.path.stem]).conditions.get("date")
     try:
         day = None if date is None else datetime.strptime(date, "%Y-%m-%d").replace(tzinfo=UTC)
     except ValueError:  # 31 April
         return None
-    return None if day is None else round(day.timestamp()) * 10**9 + said.of_day_ns
+    return None if day is None else round(day.timestamp()) * 10**9
 
 
 def _but_day(file: RawFile) -> tuple[object, ...]:
@@ -65,14 +91,25 @@ def _but_day(file: RawFile) -> tuple[object, ...]:
     return re.sub(r"[\d\W_]+", "", file.path.stem), said.speeds, {**said.conditions, "date": ""}
 
 
-def _goes_on(before: RawFile, after: RawFile) -> bool:
-    """Whether a file ends at midnight, and another of its name begins there a day later."""
-    began, then, seen = _began_ns(before), _began_ns(after), before.sample
-    if _but_day(before) != _but_day(after):
+def _span_ns(file: RawFile) -> tuple[int, int] | None:
+    """The first and the last time of a file whose name has its day; None where it has none, or was not read to its
+    end."""
+    seen = file.sample
+    if not seen.whole or seen.first_ns is None or seen.last_ns is None:
+        return None
+    if (began := _began_ns(file)) is not None:
+        return began, began + seen.last_ns - seen.first_ns
+    dated = file.recording.clock == "absolute" and _day_ns(file) is not None
+    return (seen.first_ns, seen.last_ns) if dated else None
+
+
+def _goes_on(before: Sequence[RawFile] | None, after: Sequence[RawFile]) -> bool:
+    """Whether files end where others of their name begin, a day later by both names."""
+    if not before or _but_day(before[-1]) != _but_day(after[0]):
         return False
-    if began is None or then is None or not seen.whole or seen.first_ns is None or seen.last_ns is None:
+    ended, begins = _span_ns(before[-1]), _span_ns(after[0])
+    days = _day_ns(before[-1]), _day_ns(after[0])
+    if ended is None or begins is None or days[0] is None or days[1] is None or days[1] - days[0] != _DAY_NS:
         return False
-    midnight = (began // _DAY_NS + 1) * _DAY_NS
-    end = began + seen.last_ns - seen.first_ns
-    pause = max(_PAUSE_NS, _PAUSE_ROWS * (seen.last_ns - seen.first_ns) // max(seen.rows - 1, 1))
-    return end <= then and midnight - end <= pause and midnight <= then <= midnight + pause
+    pause = max(_PAUSE_NS, _PAUSE_ROWS * (ended[1] - ended[0]) // max(before[-1].sample.rows - 1, 1))
+    return 0 <= begins[0] - ended[1] <= pause

@@ -95,7 +95,11 @@ def _sources_of_nobody(draft: Draft) -> list[str]:
         if kind.startswith("."):
             asked = f"{'what is wrong with' if path in failed else 'what wrote'} {one_line(path)}?"
             keys = {"reader": failed.get(path, _OPEN), "files": "{test}" + kind}
-            if "an encoding that the file does not name" in reasons.get(path, ""):
+            if "unpack it first" in reasons.get(path, ""):
+                asked = (
+                    f"{one_line(path)} is packed: unpack it and what is packed beside it, then thermodata init --force"
+                )
+            elif "an encoding that the file does not name" in reasons.get(path, ""):
                 keys["encoding"] = _OPEN
                 asked = f"in which encoding is {one_line(path)}? write it, delete the '#', then thermodata init --force"
             lines.append(f"  # {f'log{i}' if i > 1 else 'log'}: {{{flow(keys)}}}   # ? {asked}")

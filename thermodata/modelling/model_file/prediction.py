@@ -8,14 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from thermodata.errors import SpecError
+from thermodata.errors import SpecError, nearest
 from thermodata.modelling.model_file.prediction_file import Rows, read_rows
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Effect, Float1D, Float2D, Gain
 from thermodata.schema.counted import counted
-from thermodata.view.dataset import TestData
+from thermodata.view.dataset import Dataset, TestData
 
 NAME = "prediction"
+_SHOWN = 4
 
 
 class Series(NamedTuple):
@@ -38,7 +39,7 @@ class Series(NamedTuple):
 
 class Prediction(OfTests):
     """NaN outside the times that the file covers, and beside its rows without a value. Its gain is 1 unless freed.
-    notes: what whoever reads the fit should know of the file."""
+    file: its name; notes: what is to be known of it, whatever is fitted."""
 
     name = NAME
     family = "prediction"
@@ -46,8 +47,8 @@ class Prediction(OfTests):
     source = "the file"
     gains = (Gain("gain", "1", (0.0, float("inf")), "any", "factor on the prediction"),)
 
-    def __init__(self, tables: Mapping[str, Series], notes: tuple[str, ...] = ()) -> None:
-        self.tables, self.notes = tables, notes
+    def __init__(self, tables: Mapping[str, Series], file: str, notes: tuple[str, ...] = ()) -> None:
+        self.tables, self.file, self.notes = tables, file, notes
 
     def has(self, test: TestData) -> bool:
         return self._key(test) is not None
@@ -60,12 +61,29 @@ class Prediction(OfTests):
         return self.tables[key].at(test.t_s).reshape(-1, 1)
 
     def _key(self, test: TestData) -> str | None:
-        return next((k for k in (f"{test.campaign}/{test.test}", test.test) if k in self.tables), None)
+        return next((k for k in _names(test) if k in self.tables), None)
 
 
-def said(effect: Effect) -> tuple[str, ...]:
-    """The notes of a prediction; of any other effect none."""
-    return effect.notes if isinstance(effect, Prediction) else ()
+def _names(test: TestData) -> tuple[str, str]:
+    """What a file may call a test."""
+    return f"{test.campaign}/{test.test}", test.test
+
+
+def said(effect: Effect, data: Dataset) -> tuple[str, ...]:
+    """What whoever reads a fit to `data` should know of the file of a prediction; of any other effect nothing."""
+    return (*effect.notes, *_of_no_test(effect, data)) if isinstance(effect, Prediction) else ()
+
+
+def _of_no_test(effect: Prediction, data: Dataset) -> list[str]:
+    known = [name for test in data.tests for name in _names(test)]
+    strange = [test for test in effect.tables if test not in known]
+    if not strange:
+        return []
+    shown = ", ".join(f"'{test}'" for test in strange[:_SHOWN]) + (", ..." if len(strange) > _SHOWN else "")
+    near = next(filter(None, (nearest(test, known) for test in strange)), None)
+    asked = f"; did you mean '{near}'?" if near else ""
+    are = f"{shown} is no test" if len(strange) == 1 else f"{shown} are no tests"
+    return [f"{effect.file}: {are} with data of the model's campaigns, and nothing of it is used{asked}"]
 
 
 def read_prediction(path: Path, channels: Mapping[str, str] | None = None, unit: str | None = None) -> Prediction:
@@ -84,7 +102,7 @@ def read_prediction(path: Path, channels: Mapping[str, str] | None = None, unit:
             got=f"none in {counted(count, 'row')}",
         )
     tables = {test: series for test, own in rows.items() if np.isfinite((series := _series(own, test, path)).y).any()}
-    return Prediction(tables, _notes(path, empty, count, [test for test in rows if test not in tables]))
+    return Prediction(tables, path.name, _notes(path, empty, count, [test for test in rows if test not in tables]))
 
 
 def _series(rows: Rows, test: str, path: Path) -> Series:

@@ -3,17 +3,20 @@ them too."""
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from thermodata.errors import SpecError, UsageError, nearest
+from thermodata.modelling.model_file.prediction_cells import Numbers, numbers_of, read_cells
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.cells.number import is_empty
 from thermodata.schema.quantity import delta_factor
 
 _COLUMNS = ("test", "t_s", "predicted")
+_NUMBERS = ("t_s", "predicted")
+_KNOWN = (*_COLUMNS, "campaign", "response")
 _DIGITS = 6  # of a time [s]: 0.1 min is 6 s, and not a bit more
 
 
@@ -29,9 +32,12 @@ class Rows:
 
 @dataclass(frozen=True)
 class _Header:
-    """column: its name without unit -> as it stands in the file; t, y: factors to s and to the response's unit."""
+    """column: its name without unit -> as it stands in the file; at: of those that are read -> where in a row of
+    `width` cells; t, y: factors to s and to the response's unit."""
 
     column: Mapping[str, str]
+    at: Mapping[str, int]
+    width: int
     t: float
     y: float
 
@@ -39,26 +45,11 @@ class _Header:
 def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) -> dict[str, Rows]:
     """test (or campaign/test, where the file names the campaign before it or in a column of its own) -> its rows.
 
+    Cells are parted by commas, semicolons or tabs, and numbers have a decimal point or a comma, one of them in a file.
     Units may stand in brackets behind the names, by default s and the response's (`unit`). channels: campaign -> the
     response's channel there; where not given, a file may be of any one response. SpecError with the line."""
-    tests: dict[str, Rows] = {}
-    only: str | None = None
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = csv.DictReader(file)
-            header = _header(rows.fieldnames or [], unit, path)
-            name = header.column
-            for row in rows:
-                where = f"{path}:{rows.line_num}"
-                t, y = _number(row, name["t_s"], where), _number(row, name["predicted"], where, empty=True)
-                campaign = row[name["campaign"]] if "campaign" in name else ""
-                if "response" in name:
-                    only = row[name["response"]] if only is None else only
-                    _refuse_another(row[name["response"]], only, campaign, channels, where)
-                test = tests.setdefault((f"{campaign}/" if campaign else "") + row[name["test"]], Rows())
-                test.t_s.append(round(t * header.t, _DIGITS))
-                test.y.append(y * header.y)
-                test.line.append(rows.line_num)
+        cells = read_cells(path)
     except FileNotFoundError:
         raise SpecError(
             "no such prediction file",
@@ -67,26 +58,80 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
             got=path.name,
             hint="thermodata predict MODEL CAMPAIGN --out FILE.csv writes one",
         ) from None
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
         raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
+    header = _header(cells.header, unit, path, cells.at)
+    used = [(line, _named(row, header, f"{path}:{line}")) for line, row in cells.rows]
+    numbers = numbers_of((line, row[key]) for line, row in used for key in _NUMBERS)
+    tests: dict[str, Rows] = {}
+    only: str | None = None
+    for line, row in used:
+        where = f"{path}:{line}"
+        t, y = (_number(row[key], header.column[key], numbers, where, empty=key == "predicted") for key in _NUMBERS)
+        campaign = row.get("campaign", "")
+        if "response" in row:
+            only = row["response"] if only is None else only
+            _refuse_another(row["response"], only, campaign, channels, where)
+        test = tests.setdefault(_key(campaign, row["test"], where), Rows())
+        test.t_s.append(round(t * header.t, _DIGITS))
+        test.y.append(y * header.y)
+        test.line.append(line)
+    _refuse_two_names(tests, channels, path)
     return tests
 
 
-def _header(titles: Sequence[str], unit: str | None, path: Path) -> _Header:
+def _named(cells: Sequence[str], header: _Header, where: str) -> dict[str, str]:
+    """Column -> its cell, of the columns that are read. SpecError for a row that ends before one of them."""
+    lacking = [header.column[key] for key, i in header.at.items() if i >= len(cells)]
+    if lacking:
+        raise SpecError(
+            "the row has fewer cells than the header",
+            where=where,
+            expected=f"{header.width}, {', '.join(lacking)} among them",
+            got=f"{len(cells)}: {', '.join(cells)}",
+            hint="write the row again; where nothing is predicted, leave the cell empty and not out",
+        )
+    return {key: cells[i].strip() for key, i in header.at.items()}
+
+
+def _key(campaign: str, test: str, where: str) -> str:
+    if not test:
+        raise SpecError("the row names no test", where=where, expected="a test's id", got="nothing")
+    return test if not campaign or test.startswith(f"{campaign}/") else f"{campaign}/{test}"
+
+
+def _refuse_two_names(tests: Mapping[str, Rows], channels: Mapping[str, str] | None, path: Path) -> None:
+    """SpecError for a test that some rows name alone and some with its campaign: which of them are meant?"""
+    for key, rows in tests.items():
+        campaign, _, test = key.rpartition("/")
+        if campaign and test in tests and (channels is None or campaign in channels):
+            alone = tests[test].line[0]
+            raise SpecError(
+                f"one test by two names, '{test}' and '{key}'",
+                where=f"{path}:{max(alone, rows.line[0])}",
+                expected="one of them in all its rows",
+                got=f"'{test}' at line {alone}, '{key}' at line {rows.line[0]}",
+                hint="name the campaign in all rows, or in none",
+            )
+
+
+def _header(titles: Sequence[str], unit: str | None, path: Path, line: int) -> _Header:
+    where = f"{path}:{line}"
     column: dict[str, str] = {}
     units: dict[str, str | None] = {}
-    for title in titles:
+    at: dict[str, int] = {}
+    for i, title in enumerate(titles):
         name, own = split_unit(title)
         key = name.strip().lower()
-        if key in column and key in (*_COLUMNS, "t"):
-            raise SpecError(f"two columns '{key}'", where=f"{path}:1", expected="one", got=f"{column[key]}, {title}")
-        column[key], units[key] = title, own
+        if key in column and key in (*_KNOWN, "t"):
+            raise SpecError(f"two columns '{key}'", where=where, expected="one", got=f"{column[key]}, {title}")
+        column[key], units[key], at[key] = title, own, i
     if "t_s" not in column and "t" in column:
-        column["t_s"], units["t_s"] = column["t"], units["t"]
-    elif units.get("t_s") is not None and _factor(units["t_s"], "s", "t_s", path) != 1:
+        column["t_s"], units["t_s"], at["t_s"] = column["t"], units["t"], at["t"]
+    elif units.get("t_s") is not None and _factor(units["t_s"], "s", "t_s", where) != 1:
         raise SpecError(
             "the time's name says s, and its unit another",
-            where=f"{path}:1",
+            where=where,
             expected=f"t [{units['t_s']}], or t_s",
             got=column["t_s"],
         )
@@ -100,11 +145,12 @@ def _header(titles: Sequence[str], unit: str | None, path: Path) -> _Header:
                 got=", ".join(column),
                 hint=f"rename '{close}'" if close else None,
             )
-    of_y = 1.0 if unit is None else _factor(units["predicted"], unit, "predicted", path)
-    return _Header(column, _factor(units["t_s"], "s", "t", path), of_y)
+    of_y = 1.0 if unit is None else _factor(units["predicted"], unit, "predicted", where)
+    read = {key: at[key] for key in _KNOWN if key in at}
+    return _Header(column, read, len(titles), _factor(units["t_s"], "s", "t", where), of_y)
 
 
-def _factor(given: str | None, wanted: str, name: str, path: Path) -> float:
+def _factor(given: str | None, wanted: str, name: str, where: str) -> float:
     """Of a difference: what is predicted counts from its first value."""
     if given is None:
         return 1.0
@@ -113,23 +159,22 @@ def _factor(given: str | None, wanted: str, name: str, path: Path) -> float:
     except UsageError:
         raise SpecError(
             f"the column '{name}' has a unit of another kind",
-            where=f"{path}:1",
+            where=where,
             expected=f"{wanted}, or what converts to it",
             got=given,
         ) from None
 
 
-def _number(row: Mapping[str, str | None], column: str, where: str, *, empty: bool = False) -> float:
+def _number(text: str, column: str, numbers: Numbers, where: str, *, empty: bool = False) -> float:
     """SpecError for what is no finite number. empty: nothing and NaN are taken, as NaN."""
-    text = (row[column] or "").strip()
-    if empty and text.lower() in ("", "nan"):
-        return math.nan
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise SpecError(f"'{column}': not a number", where=where, expected="a finite number", got=text or "nothing")
+    if is_empty(text):
+        if empty:
+            return math.nan
+        value = None
+    else:
+        value = numbers.value(text)
+    if value is None or not math.isfinite(value):
+        raise SpecError(f"'{column}': not a number", where=where, expected=numbers.expected(), got=text or "nothing")
     return value
 
 

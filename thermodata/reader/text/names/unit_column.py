@@ -11,9 +11,8 @@ from thermodata.plugin import Block, Bool1D, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.unit_words import holds_units, may_be_a_machine
 from thermodata.schema.quantity import is_unit, normal_unit
-
-_DEGREES = ("C", "F", "K")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +27,7 @@ class UnitColumn:
 def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> UnitColumn | None:
     """None where no column is called a unit, its cells are none or several, or it may be of several columns. kinds: of
     the columns beside the time whose headers say no unit; cells: their sampled cells."""
-    called = [n for n, kind in kinds.items() if kind == "str" and bare_header(n) in UNIT_WORDS]
+    called = [n for n, kind in kinds.items() if kind == "str" and holds_units(n, map(clean, cells[n]))]
     numbers = [n for n, kind in kinds.items() if kind not in (None, "str", "bool")]
     if len(called) != 1 or len(numbers) != 1:
         return None
@@ -37,12 +36,6 @@ def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[st
     if unit is None or not is_unit(unit) or may_be_a_machine(unit):
         return None
     return UnitColumn(called[0], numbers[0], unit)
-
-
-def may_be_a_machine(word: str) -> bool:
-    """Whether a word under "Unit" may be the letter or number of a machine as well: the A of ampere. A thermometer's C,
-    F and K are taken for what they say."""
-    return len(word) == 1 and word.isalnum() and word not in _DEGREES
 
 
 def machine_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> str | None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.errors import FormatError
-from thermodata.reader.header_words import NAME_WORDS, UNIT_WORDS, VALUE_WORDS
+from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import tells_quality, zero_is_good
@@ -17,6 +17,7 @@ from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
+from thermodata.reader.unit_words import holds_units
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (
@@ -24,7 +25,7 @@ _TIMES = (
     *("tstamp", "ts", "receivedat", "updatedate", "lastchanged", "lastupdated", "zeitstempel", "zeit", "čas"),
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
-_OTHERS = (*UNIT_WORDS, "datatype")
+_TYPE = "datatype"
 _ROWS = 2000  # below the header, by which the times are known
 
 
@@ -121,7 +122,8 @@ def find_layout(
             if status is not None:
                 sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
                 zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
-            unit = next((names.index(n) for n in UNIT_WORDS if n in names), None)
+            taken = {*times, value, status, tag}
+            units = [k for k, c in enumerate(raw) if k not in taken and holds_units(c, (clean(r[k]) for r in body))]
             series = Series((), {})
             if influx:
                 series = series_of_influx(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
@@ -131,7 +133,7 @@ def find_layout(
                 used = {
                     *times,
                     value,
-                    *(k for k, n in enumerate(names) if n in _OTHERS or tells_quality(n) is not None),
+                    *(k for k, n in enumerate(names) if k in units or n == _TYPE or tells_quality(n) is not None),
                 }
                 t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
                 series = series_of(names, rows, t_ns, tag, used)
@@ -147,7 +149,7 @@ def find_layout(
                 status,
                 form,
                 zero,
-                unit,
+                next(iter(units), None),
                 influx,
                 tuple(raw[k] for k in series.unread),
             )
