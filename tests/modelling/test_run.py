@@ -117,6 +117,14 @@ def test_a_fit_tells_the_tests_of_a_prediction_file_that_the_campaigns_lack(
     ]
 
 
+def test_a_file_of_other_tests_is_told_with_the_tests_that_it_has(store: Store, spec: Spec, tmp_path: Path) -> None:
+    (tmp_path / "theirs.csv").write_text("test,t_s,predicted\nDAY1,0,0\nDAY1,43200,5\n")
+    model = spec({"effect": "prediction", "file": "theirs.csv"}, name="theirs")
+    with pytest.raises(UsageError) as refused:
+        run.fit(store, model, base=tmp_path)
+    assert "c/t0: no driver for prediction: theirs.csv is of 'DAY1'" in str(refused.value)
+
+
 def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec) -> None:
     parent = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"), name="short"))
     grown = add(store, "short", "feed_screw:T_nut")

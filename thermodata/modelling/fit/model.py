@@ -25,6 +25,8 @@ from thermodata.schema.model import Model
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset, TestData
 
+_SHOWN = 8  # tests, each with what it lacks
+
 
 def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
     """Fit every response of a model. base: the folder that `file` of an effect is relative to (default: here).
@@ -44,6 +46,14 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
         usable, why = usable_tests(response, [data.test(*key) for key in keys])
         open_tests.append(usable)
         skipped += why
+        # a place without a test of its own has its parameters from the others
+        if why and not usable and not together(bound):
+            raise UsageError(
+                "no calibration test has all that the model reads",
+                where=f"response '{response.name}'",
+                expected="the response and the drivers of all effects in one test at least",
+                got="; ".join(why[:_SHOWN]) + ("; ..." if len(why) > _SHOWN else ""),
+            )
     if together(bound):
         fitted = fit_together(bound, open_tests, wanted, data, fit_response)
         if uncertainty:
@@ -97,7 +107,7 @@ def fit_response(
                 where=", ".join(bound.terms[i].id for i in stage.members),
                 expected=f"'{stage.bound.name}' and the drivers in "
                 + (", ".join("/".join(t.key) for t in stage.tests) or "a test"),
-                got="; ".join(why[:8]) or None,
+                got="; ".join(why[:_SHOWN]) or None,
             )
         known, found = _identify(stage.bound, stage.members, {}, first, None, uncertainty, tried)
         bound = replace(bound, terms=known.terms)

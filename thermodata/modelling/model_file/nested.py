@@ -35,6 +35,9 @@ class ModelOutput(OfTests):
     def has(self, test: TestData) -> bool:
         return all(term.can_predict(test) for term in self.response.terms)
 
+    def lacks(self, test: TestData) -> str:
+        return "; ".join(why for term in self.response.terms if (why := term.why_not(test)))
+
     def reads(self, test: TestData) -> tuple[str, ...]:
         """The channels that its own effects read."""
         return tuple(dict.fromkeys(n for term in self.response.terms for n in term.bound.reads(test)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -53,6 +53,9 @@ class Prediction(OfTests):
     def has(self, test: TestData) -> bool:
         return self._key(test) is not None
 
+    def lacks(self, test: TestData) -> str:
+        return f"{self.file} is of {_listed(list(self.tables))}"
+
     def column(self, test: TestData) -> Float2D:
         """shape (n, 1), relative to the first predicted value."""
         key = self._key(test)
@@ -74,12 +77,16 @@ def said(effect: Effect, data: Dataset) -> tuple[str, ...]:
     return (*effect.notes, *_of_no_test(effect, data)) if isinstance(effect, Prediction) else ()
 
 
+def _listed(tests: Sequence[str]) -> str:
+    return ", ".join(f"'{test}'" for test in tests[:_SHOWN]) + (", ..." if len(tests) > _SHOWN else "")
+
+
 def _of_no_test(effect: Prediction, data: Dataset) -> list[str]:
     known = [name for test in data.tests for name in _names(test)]
     strange = [test for test in effect.tables if test not in known]
     if not strange:
         return []
-    shown = ", ".join(f"'{test}'" for test in strange[:_SHOWN]) + (", ..." if len(strange) > _SHOWN else "")
+    shown = _listed(strange)
     near = next(filter(None, (nearest(test, known) for test in strange)), None)
     asked = f"; did you mean '{near}'?" if near else ""
     are = f"{shown} is no test" if len(strange) == 1 else f"{shown} are no tests"

@@ -58,6 +58,10 @@ class BoundTerm:
             return self.effect.has(test)
         return has_drivers(test, self.binding_of(test))
 
+    def lacks(self, test: TestData) -> str:
+        """Why it has not, where that is told by what its output comes from; else ''."""
+        return self.effect.lacks(test) if isinstance(self.effect, OfTests) and not self.effect.has(test) else ""
+
     def drivers(self, test: TestData) -> Drivers:
         """What the effect sees of the test."""
         return self._kept(test)[1]

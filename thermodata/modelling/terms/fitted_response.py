@@ -112,7 +112,7 @@ class FittedTerm:
         if not self.bound.covers(test):
             return None
         if not self.bound.has(test):
-            needs = ", ".join(self.bound.binding_of(test).values())
+            needs = ", ".join(self.bound.binding_of(test).values()) or self.bound.lacks(test)
             return f"no driver for {self.id}" + (f" ({needs})" if needs else "")
         if self.bound.spec.gains_by == ("test",) or self.values(test) is not None:
             return None

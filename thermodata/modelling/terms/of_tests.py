@@ -26,6 +26,10 @@ class OfTests(ABC):
         """Whether there is an output for the test."""
 
     @abstractmethod
+    def lacks(self, test: TestData) -> str:
+        """Why there is none for a test that it does not have: behind 'T: no driver for X'."""
+
+    @abstractmethod
     def column(self, test: TestData) -> Float2D:
         """shape (n, 1); NaN where there is no output."""
 

@@ -22,7 +22,8 @@ def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[
             why.append(f"{test.campaign}/{test.test}: no '{bound.channel_of(test)}'")
         elif missing:
             said = ", ".join(t.id for t in missing)
-            why.append(f"{test.campaign}/{test.test}: no driver for {said}{_ruled_out(missing, test)}")
+            of_tests = "".join(f": {lack}" for t in missing if (lack := t.lacks(test)))
+            why.append(f"{test.campaign}/{test.test}: no driver for {said}{of_tests}{_ruled_out(missing, test)}")
         else:
             usable.append(test)
     return usable, why
