@@ -1,4 +1,4 @@
-"""A power that is claimed beside the heat of its motor (tell/why.py)."""
+"""A power claimed as heat of the cut, beside the heat of its motor or where nothing is cut (tell/why.py)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from thermodata.diagnosis.tell.why import also_of_motor
+from thermodata.diagnosis.tell.why import also_of_motor, where_nothing_is_cut
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Need
 
-from .hand_made import PlainEffect, scored
+from .hand_made import PlainEffect, a_test, scored
 
 
 def reading(quantity: str, place: str, evidence: float) -> Scored:
@@ -38,3 +38,25 @@ def test_a_power_beside_the_sharper_heat_of_its_motor_may_be_more_of_it(one: Sco
     assert bool(said) is told
     if told:
         assert f"{one.candidate.channels[0]} heats the motor too, which is claimed as {other.candidate.id}" in said
+
+
+KINDS = ("cutting", "mixed", "other", "spindle", "etve", *("mixed",) * 5)
+
+
+@pytest.mark.parametrize(
+    ("family", "acts", "told"),
+    [
+        ("cutting", (0, 1, 2), ""),
+        ("cutting", (0, 3), "it acts in t3 (spindle), where nothing is cut"),
+        ("cutting", (3, 4), "it acts in t3 (spindle), t4 (etve), where nothing is cut"),
+        ("spindle", (0, 3), ""),
+    ],
+)
+def test_what_acts_in_tests_without_a_cut_is_told_not_to_be_of_the_cut(
+    family: str, acts: tuple[int, ...], told: str
+) -> None:
+    tests = [replace(a_test(f"t{k}"), kind=kind) for k, kind in enumerate(KINDS)]
+    one = scored(family=family, size=[1.0 if k in acts else 0.0 for k in range(len(tests))])
+    said = where_nothing_is_cut(one, tests)
+    assert told in said
+    assert bool(said) is bool(told)

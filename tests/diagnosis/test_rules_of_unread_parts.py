@@ -25,6 +25,7 @@ NUT = ChannelInfo("T_nut", "temperature", "degC", at="axis.z.nut")
 HOUSE = ChannelInfo("T_house", "temperature", "degC", at="axis.z.bearing")
 GUIDE = ChannelInfo("T_guide", "temperature", "degC", at="Axis.Z.guide")
 MOTOR = ChannelInfo("T_motor", "temperature", "degC", at="axis.z.motor")
+MOTOR_S = ChannelInfo("T_motor_s", "temperature", "degC", at="spindle.motor")
 FEED = ChannelInfo("v", "feed", "m/min", at="axis.z")
 OTHER = ChannelInfo("T_nut_x", "temperature", "degC", at="axis.x.nut")
 LOW = ChannelInfo("T_low", "temperature", "degC", at="hall.bottom")
@@ -119,13 +120,24 @@ def test_what_holds_the_probes_stands_in_the_same_air_as_the_frame() -> None:
     ],
 )
 def test_what_holds_the_probes_warms_with_all_in_the_working_space(channel: ChannelInfo, name: str) -> None:
-    found = unread(channel)
+    found = unread(MOTOR_S, channel)
     assert found[f"{name}:{channel.name}"] == ("fixture",)
     assert found[f"lag:{channel.name}"] == ("fixture",)
     for sensor in (HOLDER, PROBE):
         assert not any("fixture" in other for other in unread(channel, sensor).values())
     known = Present("probe_temperature", frozenset({"T_holder"}), "probe")
-    assert unread(channel, replace(HOLDER, faulty="stuck"), has=(known,)) == {}
+    assert unread(MOTOR_S, channel, replace(HOLDER, faulty="stuck"), has=(known,)) == {}
+
+
+@pytest.mark.parametrize(("quantity", "name"), [("power", "cutting_power"), ("load", "cutting_load")])
+def test_what_a_spindle_takes_up_heats_its_motor_too(quantity: str, name: str) -> None:
+    taken = ChannelInfo("P", quantity, "1", at="counter_spindle")
+    assert unread(taken)[f"{name}:P"] == ("counter_spindle.motor", "fixture")
+    assert unread(taken, HOLDER)[f"{name}:P"] == ("counter_spindle.motor",)
+    motor = replace(MOTOR_S, at="counter_spindle.motor")
+    assert unread(taken, motor)[f"{name}:P"] == ("fixture",)
+    assert unread(taken, MOTOR_S)[f"{name}:P"] == ("counter_spindle.motor", "fixture"), "each spindle for itself"
+    assert unread(ChannelInfo("pump", "state", "1", at="coolant"))["coolant:pump"] == ("fixture",)
 
 
 def test_what_does_not_reach_the_working_space_warms_no_holder_of_probes() -> None:

@@ -1,8 +1,8 @@
 """Which other part a candidate may be: one that warms at the same hours, and that its channels do not tell apart.
 
 One motion rubs in screw and guideway of an axis; frame and holder of the probes stand in the same air; coolant, chips
-and a hot part warm the holder too. A temperature tells its own part from one that has a sensor, and not from one that
-has none; a motion tells none from the other.
+and a hot part warm the holder too; what a spindle takes up heats its motor, whether it cuts or not. A temperature tells
+its own part from one that has a sensor, and not from one that has none; a motion tells none from the other.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def unread(
     if all(warms_the_holder(channels[n]) for n in names):
         places = STANDS_IN_AIR[HOLDER]
         told = Part(AIR, HOLDER) in known or any(reads(channels, place) for place in places)
-        return () if told else places[:1]
+        return (*_motors(names, channels), *(() if told else places[:1]))
     heat = _one_heat(part_of(channels[n].at) for n in names)
     warm = sum(channels[n].quantity == TEMPERATURE for n in names)
     moving = all(is_motion(channels[n].quantity) for n in names)
@@ -99,14 +99,23 @@ def reads(channels: Mapping[str, Described], place: str) -> bool:
 
 def warms_the_holder(channel: Described) -> bool:
     """Whether what holds the probes warms with it, beside the machine."""
-    cuts = channel.quantity in CUTS and is_spindle(channel.at)
-    return cuts or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
+    return _cuts(channel) or any(holds(place, channel.at) for place in IN_WORKING_SPACE)
 
 
 def is_holder(channel: Described) -> bool:
     """Whether it is the temperature of what holds the probes, or of the tool that the spindle holds."""
     held = part_of(channel.at) == Part(AIR, HOLDER) or holds("tool", channel.at)
     return channel.quantity == TEMPERATURE and held
+
+
+def _cuts(channel: Described) -> bool:
+    return channel.quantity in CUTS and is_spindle(channel.at)
+
+
+def _motors(names: Iterable[str], channels: Mapping[str, Described]) -> tuple[str, ...]:
+    """Of what spindles take up, the motors that no temperature reads."""
+    spindles = {(channels[n].at or "").lower().partition(".")[0] for n in names if _cuts(channels[n])}
+    return tuple(place for one in sorted(spindles) if not reads(channels, place := f"{one}.{MOTOR}"))
 
 
 def is_motion(quantity: str) -> bool:

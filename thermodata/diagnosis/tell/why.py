@@ -17,6 +17,7 @@ from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.view.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
 _OUTWEIGHED = {
@@ -25,6 +26,9 @@ _OUTWEIGHED = {
     "others": "that no other test foretells it",
     "worth": "that it explains so little",
 }
+_CUTTING = "cutting"
+_NOTHING_IS_CUT = ("spindle", "spectrum", "linear_axis", "rotary_axis", "etve")
+_SHOWN = 3  # tests
 _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
@@ -74,7 +78,8 @@ def why(
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
         gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
         spite = in_spite_of(s, investigation.measure, unit)
-        heat = also_of_motor(s, [j.scored for j in judgement.claims])
+        heat = where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks])
+        heat += also_of_motor(s, [j.scored for j in judgement.claims])
         return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}{heat}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
@@ -91,6 +96,22 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:
+    """Of a cause by its heat of cutting: tests in which it acts, though by their kind nothing is cut in them; else
+    ''."""
+    if s.candidate.family != _CUTTING:
+        return ""
+    acting = (test for test, acts in zip(tests, s.acts, strict=True) if acts and test.kind in _NOTHING_IS_CUT)
+    names = list(dict.fromkeys(f"{test.test} ({test.kind.replace('_', ' ')})" for test in acting))
+    if not names:
+        return ""
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return (
+        f"; it acts in {', '.join(names[:_SHOWN])}{more}, where nothing is cut: what heats there is what "
+        "the spindle itself loses, in its motor first"
+    )
 
 
 def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
