@@ -80,6 +80,12 @@ def test_windows_that_meet_and_other_recordings_count_in_full(second: TestData) 
     assert counted["b"] == list(range(len(second.t_s)))
 
 
+def test_what_was_not_measured_in_a_shared_span_is_not_told() -> None:
+    late = cut("b", 60, 200)
+    values = np.where(np.arange(140) < 60, np.nan, late.values["dZ"])
+    assert once(cut("a", 0, 100), replace(late, values={"dZ": values}))[1] == []
+
+
 def test_a_test_of_which_no_sample_is_its_own_takes_no_part() -> None:
     counted, [found] = once(cut("a", 0, 100), cut("b", 20, 80))
     assert (list(counted), found.whole) == (["a"], True)
