@@ -67,6 +67,17 @@ def test_a_locked_test_that_is_a_copy_of_an_open_one_is_left_out_and_said() -> N
     assert (said.test, "'t2'" in said.why) == ("again", True)
 
 
+def test_an_open_test_that_stands_there_twice_counts_once_and_is_told(of_a_missing_screw: Diagnosis) -> None:
+    """Its copy would double the evidence, and be foretold by its own samples."""
+    data = make_data(of_nut)
+    again = replace(data.tests[2], test="again")
+    twice = diagnosis(replace(data, tests=(*data.tests, again)), base())
+    [said] = [a for a in twice.artefacts if a.kind == "copy"]
+    assert (said.test, "'t2'" in said.why) == ("again", True)
+    one, other = of_a_missing_screw.candidates[0], twice.candidates[0]
+    assert (other.id, other.probability, other.why) == (one.id, one.probability, one.why)
+
+
 def test_locked_figures_are_filled_for_the_claim_only(of_a_missing_screw: Diagnosis) -> None:
     others = of_a_missing_screw.candidates[1:]
     assert len(others) > 3

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims.at_rest import at_rest
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -45,6 +47,24 @@ def test_what_rests_in_all_open_tests_and_moves_elsewhere_is_told() -> None:
     assert told.warms == ("T_motor",)
     assert told.effects == ("feed_motor", "feed_screw")
     assert [t.test for t in told.moves_in] == ["d"]
+
+
+@pytest.mark.parametrize(("open_feed", "told"), [(0.59, True), (0.61, False)])
+def test_under_a_twentieth_of_what_it_does_elsewhere_a_command_rests(open_feed: float, told: bool) -> None:
+    days = [a_day("b", 12.0), a_day("c", open_feed)]
+    found = at_rest(POOL, [a_day("a", open_feed)], days, CHANNELS)
+    assert [t.test for one in found for t in one.moves_in] == (["b"] if told else [])
+
+
+def test_what_says_when_it_was_measured_moves_nothing() -> None:
+    mask = {**CHANNELS, "feed": replace(CHANNELS["feed"], is_mask=True)}
+    assert at_rest(POOL, [a_day("a", 0.0)], [a_day("b", 12.0)], mask) == []
+
+
+@pytest.mark.parametrize(("kin", "told"), [(None, True), ("near", True), ("related", True), ("same", False)])
+def test_another_mode_of_what_the_model_has_is_no_effect_that_could_be_missed(kin: Kin, told: bool) -> None:
+    found = at_rest([candidate("screw", channels=("feed",), kin=kin)], [a_day("a", 0.0)], [a_day("b", 9.0)], CHANNELS)
+    assert bool(found) is told
 
 
 @pytest.mark.parametrize(("open_feed", "other_feed"), [(12.0, 12.0), (0.0, 0.0)])

@@ -38,6 +38,17 @@ def test_the_plain_case_keeps_every_rule() -> None:
     assert blunt(scored()) is None
 
 
+@pytest.mark.parametrize(
+    ("sides", "fails"),
+    [((389.9, 500.0), False), ((500.0, 389.9), False), ((390.0, 390.1), True), ((500.0, 391.0), True), ((), False)],
+)
+def test_of_a_difference_one_of_its_two_temperatures_says_less_by_itself(sides: tuple[float, ...], fails: bool) -> None:
+    one = replace(scored(channels=("T_rear", "T_front"), evidence=390.0), sides=sides)
+    found = failed_rules(one, measure(), "um")
+    assert all(why.startswith("each of T_rear and T_front says as much by itself") for why in found)
+    assert bool(found) is fails
+
+
 @pytest.mark.parametrize(("as_well", "fails"), [(1, False), (2, True)])
 def test_chance_may_do_as_well_once_in_a_hundred(as_well: int, fails: bool) -> None:
     """Of 199 responses in which nothing is missing, the response itself counted."""

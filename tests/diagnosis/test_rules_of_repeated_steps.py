@@ -102,6 +102,19 @@ def test_jumps_of_any_size_as_one_axis_starts_or_stops_are_the_machines(
     assert moved_by(some) == (["feed"] if again else [])
 
 
+@pytest.mark.parametrize(
+    ("starts", "others", "again"),
+    [(13, 0, 3), (14, 0, 0), (8, 1, 3), (8, 2, 0)],  # by chance in 0.99 %, 1.3 %, 0.8 % and 2.0 %
+)
+def test_by_chance_three_slips_in_a_hundred_campaigns_fall_beside_one_axis_at_most(
+    starts: int, others: int, again: int
+) -> None:
+    """The more often it starts and stops, and the more slips there are, the likelier three of them are beside it."""
+    sizes = (2.9, -5.5, 4.0, 10.0, 20.0)
+    some = beside(moving(starts), *[("feed",)] * 3, *[()] * others, sizes=sizes)
+    assert sum(map(len, repeating(some))) == again
+
+
 def test_they_are_told_with_the_axis_and_nothing_that_is_untrue_of_it() -> None:
     [told] = as_artefacts(repeating(beside(moving(6), *[("feed", "pump")] * 3)), "um")
     assert told.kind == "repeated_step"

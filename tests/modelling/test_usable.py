@@ -33,7 +33,19 @@ def test_a_shifted_sensor_is_not_blamed_for_a_channel_that_is_not_logged(world: 
     assert "T_nut" not in said
 
 
-@pytest.mark.parametrize(("driver", "lost"), [("T_nut", False), ("T_nut - T_hall", False), ("T_nut * speed", True)])
+@pytest.mark.parametrize(
+    ("driver", "lost"),
+    [
+        ("T_nut", False),
+        ("T_nut - T_hall", False),
+        ("0.5 * T_nut + 0.3 * T_hall", False),
+        ("T_nut * speed", True),
+        ("T_nut * T_nut", True),
+        ("T_nut > 25", True),
+        ("T_nut > 500", True),
+        ("T_hall * speed", False),
+    ],
+)
 def test_a_shifted_sensor_loses_a_test_where_its_constant_stays(
     world: Dataset, spec: Spec, driver: str, lost: bool
 ) -> None:

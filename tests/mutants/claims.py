@@ -19,6 +19,8 @@ BESIDE = {
     "by_commands.py": ("clocks_by_commands",),
     "by_heat.py": ("clocks_by_heat", "clocks_in_part"),
     "copies.py": ("copies",),
+    "difference.py": ("a_difference",),
+    "once.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
     "sudden.py": ("steps", "decays", "steps_beside_commands"),
@@ -37,6 +39,7 @@ BESIDE = {
     "listed.py": ("the_answer", "the_locked_tests"),
     "on_locked.py": ("the_locked_tests", "investigation"),
     "logging_faults.py": ("logging_faults",),
+    "loose.py": ("loose_sensors",),
     "measure.py": ("a_claim", "the_verdict"),
     "next_test.py": ("what_is_shown", "unread_parts"),
     "opened.py": ("the_locked_tests",),
@@ -94,6 +97,14 @@ def calibration(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(f"thermodata/calibration/{file}", old, new, why, CALIBRATION)
 
 
+def rest(old: str, new: str, why: str) -> Mutant:
+    return Mutant(in_its_room("at_rest.py"), old, new, why, ("tests/diagnosis/test_at_rest.py",))
+
+
+def constant(old: str, new: str, why: str) -> Mutant:
+    return Mutant("thermodata/modelling/inputs/drivers.py", old, new, why, ("tests/modelling/test_usable.py",))
+
+
 def starts(old: str, new: str, why: str) -> Mutant:
     tests = ("tests/calibration/test_quality_starts.py",)
     return Mutant("thermodata/calibration/quality_starts.py", old, new, why, tests)
@@ -102,6 +113,8 @@ def starts(old: str, new: str, why: str) -> Mutant:
 MUTANTS = [
     # ---- a claim
     diagnosis("rules.py", "P_LIMIT = 0.01", "P_LIMIT = 0.9", "chance is claimed as a cause"),
+    diagnosis("rules.py", "less < scored.evidence, why", "True, why", "a body that grows is said to bend"),
+    diagnosis("rules.py", "min(scored.sides", "max(scored.sides", "no body bends"),
     diagnosis("probability.py", "(2.45, 2.2, ", "(4.45, 2.2, ", "an answer is too sure of itself"),
     diagnosis("probability.py", "2.2, 1.1, ", "2.2, 0.0, ", "an answer is sure of what hardly lowers the error"),
     diagnosis("probability.py", "-1.8, -2.65, ", "0.0, -2.65, ", "what a sharper cause leaves is claimed"),
@@ -677,9 +690,33 @@ MUTANTS = [
     diagnosis("artefact.py", "if bare and not smooth_but_for(", "if False and not smooth_but_for(", "a kink is a slip"),
     diagnosis("repeating.py", "LEAST = 3", "LEAST = 2", "two slips alike are stick-slip"),
     diagnosis("repeating.py", "ALIKE = 0.1", "ALIKE = 0.5", "slips of any size are stick-slip"),
+    diagnosis("repeating.py", "CHANCE = 0.01", "CHANCE = 0.013", "an axis that never rests makes slips its own"),
+    diagnosis("repeating.py", "CHANCE = 0.01", "CHANCE = 0.009", "an axis that sticks is a probe that slips"),
+    diagnosis("repeating.py", "math.comb(len(steps), len(some)) * ", "", "of many slips some are an axis's own"),
+    diagnosis("loose.py", "WHOLE = 0.7", "WHOLE = 0.6", "what coolant wets came loose"),
+    diagnosis("loose.py", "WHOLE = 0.7", "WHOLE = 0.72", "a loose sensor is none"),
+    diagnosis("loose.py", "EVIDENT = 0.65", "EVIDENT = 0.6", "what another programme drives came loose"),
+    diagnosis("loose.py", "EVIDENT = 0.65", "EVIDENT = 0.7", "a loose sensor whose tests differ is none"),
+    diagnosis("loose.py", "self.ratio > 0 and ", "", "a factor below zero has a logarithm"),
+    diagnosis("weak.py", "window.first and ", "", "what fails in the middle of a test is laid to its start"),
+    diagnosis("weak.py", ' and window.test.start_state == "warm"', "", "a cold start is said to be warm"),
+    rest("STANDS = 0.05", "STANDS = 0.052", "what an open test moves is said to rest"),
+    rest("STANDS = 0.05", "STANDS = 0.048", "what crawls in an open test hides that nothing moves it"),
+    rest(" or info.is_mask", "", "when it was measured is said to move the machine"),
+    rest("if size > STANDS * most", "if size > 0", "a test in which it rests is said to move it"),
+    rest('(None, "near", "related")', '(None, "near", "related", "same")', "what the model has could be missed"),
+    rest('heats = info.quantity != "position"', "heats = True", "where an axis stands warms it"),
+    constant("if tree.logical:", "if False:", "a limit that the sensor is off by is read as it stands"),
+    constant("ALIKE = 1e-6", "ALIKE = 1e9", "a product with a sensor that is off is read as it stands"),
+    constant("ALIKE = 1e-6", "ALIKE = -1.0", "a difference loses the test for a number that goes out"),
     diagnosis("artefact.py", "STAYS = 0.5", "STAYS = 0.0", "a spike is a slip"),
-    diagnosis("copies.py", "and np.array_equal(a, b, equal_nan=True)", "", "two tests of one programme are copies"),
-    diagnosis("copies.py", "float(np.ptp(a[known])) > 0", "True", "two flat tests are copies"),
+    diagnosis("once.py", "and np.array_equal(a, b, equal_nan=True)", "", "two tests of one programme are copies"),
+    diagnosis("once.py", "float(np.ptp(a[known])) > 0", "True", "two flat tests are copies"),
+    diagnosis("once.py", "LEAST_SAMPLES = 30", "LEAST_SAMPLES = 29", "few samples are a copy"),
+    diagnosis("once.py", "in tests[:number] if", "in tests if", "two copies take each other out"),
+    diagnosis("once.py", "_measured(one, mine)\n", "np.ones(len(one.t_s), bool)\n", "what was not measured is shared"),
+    diagnosis("difference.py", "and len(sides) == 2", "", "one side tells a difference from itself"),
+    diagnosis("difference.py", "len(needs) == 2 and ", "", "a bearing is a difference"),
     diagnosis("artefact.py", "WITHIN = 0.7", "WITHIN = 0.0", "where heat begins is a slip"),
     diagnosis("artefact.py", "SEEN = 0.3", "SEEN = 0.01", "what the model does is a slip"),
     diagnosis("artefact.py", "looked[max(0, i - side // 2) : i + side // 2]", "looked[i]", "a shoulder is a slip"),

@@ -18,6 +18,7 @@ from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.clocks.timings import as_artefact
 from thermodata.diagnosis.locked.confirm import on_all_open
 from thermodata.diagnosis.question.compressed import compressed
+from thermodata.diagnosis.question.once import as_artefacts, each_once
 from thermodata.diagnosis.question.problem import TARGET_ROWS
 from thermodata.diagnosis.sensors.turned import turned_probes
 from thermodata.modelling.fit.model import fit_model
@@ -59,7 +60,8 @@ def sound(
 
     All of them take part: gains that only a verification test excites must not be guesses.
     """
-    found = _fitted_to(fitted, data, tests)
+    data, tests, repeated = each_once(data, tests, fitted.responses[index].bound.channel_of)
+    found = replace(_fitted_to(fitted, data, tests), faults=tuple(as_artefacts(repeated)))
     if not tests:
         return _with_ends_told(found, index, ends)
     asked, found = found, _clocks_right(_with_ends_right(found, index, ends), index, ends)

@@ -9,12 +9,19 @@ def shared_samples(
     one: TestData, other: TestData, channel: str, theirs: str | None = None
 ) -> tuple[float, float] | None:
     """From when to when [s from the start of `one`] both tests have the same samples of a channel (`theirs`: its name
-    in the other); None where they share one at most, as windows do that meet at an edge."""
+    in the other), in the first recording that they share; None where they share one at most, as windows do that meet at
+    an edge."""
+    return next(iter(shared_spans(one, other, channel, theirs)), None)
+
+
+def shared_spans(one: TestData, other: TestData, channel: str, theirs: str | None = None) -> list[tuple[float, float]]:
+    """The same for each recording that they share: a test may be read from several files."""
     mine, its = one.recorded.get(channel), other.recorded.get(theirs or channel)
     if mine is None or its is None:
-        return None
+        return []
+    spans = []
     for name in mine.parts.keys() & its.parts.keys():
         low, high = (pick(mine.parts[name][i], its.parts[name][i]) for i, pick in enumerate((max, min)))
         if high - low >= max(mine.step_ns, 1):
-            return (low - mine.zero_ns) / 1e9, (high - mine.zero_ns) / 1e9
-    return None
+            spans.append(((low - mine.zero_ns) / 1e9, (high - mine.zero_ns) / 1e9))
+    return sorted(spans)

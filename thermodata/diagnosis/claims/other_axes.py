@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import surely
+from thermodata.diagnosis.question.once import each_once
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import ThermodataError
@@ -54,12 +55,14 @@ class OtherAxes:
 
     def _missing_on(self, channel: str, causes: Causes) -> Sequence[Scored]:
         spec = self.spec.model_copy(update={"response": Response(channel=channel)})
+        asked = [t for t in self.data.tests if "/".join(t.key) in (spec.calibrate_on or ())]
+        data, _, _ = each_once(self.data, asked, lambda test: channel)
         try:
-            fitted = fit_model(spec, self.data, uncertainty=False)
+            fitted = fit_model(spec, data, uncertainty=False)
         except ThermodataError:
             return ()  # it was not measured where the model's drivers were
         response = fitted.responses[0]
-        return causes(response, [t for t in fitted.tests(self.data) if response.can_predict(t)])
+        return causes(response, [t for t in fitted.tests(data) if response.can_predict(t)])
 
 
 def is_same(one: CandidateEffect, other: CandidateEffect) -> bool:

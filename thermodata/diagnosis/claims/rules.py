@@ -131,7 +131,20 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             f"{measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
             unit,
         ),
+        *_of_a_difference(scored),
     ]
+
+
+def _of_a_difference(scored: Scored) -> list[Rule]:
+    """Of two temperatures that differ one says less by itself; where each says as much, what they share acts."""
+    less, each = min(scored.sides, default=0.0), " and ".join(f"{one:.0f}" for one in scored.sides)
+    told = "log evidence of that one of its two temperatures which says less by itself"
+    why = (
+        f"each of {' and '.join(scored.candidate.channels)} says as much by itself as their difference (log evidence "
+        f"{each}; {scored.evidence:.0f}): what they share acts"
+    )
+    rule = Rule("difference", told, less, scored.evidence, "most", less < scored.evidence, why)
+    return [rule] if scored.sides else []
 
 
 def _share(part: float, whole: float) -> str:

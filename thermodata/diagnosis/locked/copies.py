@@ -5,13 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
+from thermodata.diagnosis.question.once import same_recording
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 from thermodata.view.shared_samples import shared_samples
-
-LEAST_SAMPLES = 30  # that are equal to the last digit, and not all one value
 
 
 def copies(locked: Sequence[TestData], opened: Sequence[TestData], response: str) -> list[tuple[TestData, TestData]]:
@@ -23,16 +20,6 @@ def copies(locked: Sequence[TestData], opened: Sequence[TestData], response: str
 
     pairs = ((one, next((o for o in opened if again(one, o)), None)) for one in locked)
     return [(one, other) for one, other in pairs if other is not None]
-
-
-def same_recording(one: TestData, other: TestData, response: str) -> bool:
-    """Whether two tests have the same values of a response, at all times of theirs: noise is never the same."""
-    if not all(response in t.values for t in (one, other)) or len(one.t_s) != len(other.t_s):
-        return False
-    a, b = one.values[response], other.values[response]
-    known = np.isfinite(a)
-    enough = int(known.sum()) >= LEAST_SAMPLES and float(np.ptp(a[known])) > 0
-    return enough and np.array_equal(one.t_s, other.t_s) and np.array_equal(a, b, equal_nan=True)
 
 
 def as_artefacts(found: Sequence[tuple[TestData, TestData]], response: str) -> list[Artefact]:

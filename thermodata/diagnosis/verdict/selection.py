@@ -18,6 +18,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.context import MOST, WORTH, Together, with_context
 from thermodata.diagnosis.verdict.preference import better_twin, gives_way, preferred, what_warms_it
 from thermodata.diagnosis.weigh.beside import beside, each_beside_others, weighed_beside, without
+from thermodata.diagnosis.weigh.difference import with_sides
 from thermodata.diagnosis.weigh.evidence import Columns, columns
 from thermodata.diagnosis.weigh.in_noise_of_best import TRIED, in_noise_of_best
 from thermodata.diagnosis.weigh.ranking import Ranked, rank_in
@@ -70,7 +71,7 @@ def first_ranking(problem: Problem, candidates: Sequence[CandidateEffect]) -> Ra
     if len(problem.blocks) < 2:
         return None
     pool = [c for c in (columns(problem, k) for k in counted(candidates, "candidates")) if c is not None]
-    return rank(problem, pool, None) if pool else None
+    return rank(problem, with_sides(pool), None) if pool else None
 
 
 def select(

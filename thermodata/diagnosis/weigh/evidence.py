@@ -39,7 +39,7 @@ class Columns:
     """A candidate's columns, scaled so that a coefficient of 1 is as large as the response. blocks: a test each, shape
     (m, points, c): own columns, then how they differ where the effect acts faster and slower. scale: shape (points,
     gains), gain of a coefficient of 1. width: shape (c,), prior standard deviation at size 1. prior: shape (points,
-    sizes), log probability."""
+    sizes), log probability. sides: of a difference of two temperatures, a plain lag of each."""
 
     candidate: CandidateEffect
     points: list[dict[str, float]]
@@ -47,6 +47,7 @@ class Columns:
     scale: Float2D
     width: Float1D
     prior: Float2D
+    sides: tuple[Columns, ...] = ()
 
     @property
     def gains(self) -> int:

@@ -72,7 +72,12 @@ def score(problem: Problem, base: Known, one: Columns, products: Moments, w: Wei
         size=size,
         spread=spread_of_gain(base, contribution, acting(size)),
         shape=_shape(base, contribution),
+        sides=tuple(_evidence(base, side) for side in one.sides),
     )
+
+
+def _evidence(base: Known, one: Columns) -> float:
+    return weigh(base, one, moments(base, one), base.every).total - one.candidate.log_prior
 
 
 def _errors(

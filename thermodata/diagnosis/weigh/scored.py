@@ -27,7 +27,8 @@ class Scored:
     length. credit: of a member, its log evidence beside the likelier members alone; None for all else. beaten: whether
     another cause that was selected has more evidence a sample. looked: of what might be claimed, what the locked tests
     say; None where they were not opened for it. also_on: (channel, probability there) of each other axis on which it is
-    missing too, where that was asked. others: ids of the candidates that it was weighed beside."""
+    missing too, where that was asked. others: ids of the candidates that it was weighed beside. sides: of a difference,
+    the log evidence of each of its two temperatures by itself, in its place; empty for all else."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -47,6 +48,7 @@ class Scored:
     looked: Looked | None = None
     also_on: tuple[tuple[str, float], ...] = ()
     others: tuple[str, ...] = ()
+    sides: tuple[float, ...] = ()
 
     @property
     def acts(self) -> Bool1D:
