@@ -8,6 +8,7 @@ from dataclasses import replace
 from thermodata.diagnosis.claims.probability import probability
 from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, causes, equivalents
+from thermodata.diagnosis.verdict.preference import is_its_name
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.foretold import Looked
 from thermodata.diagnosis.weigh.scored import Scored
@@ -44,7 +45,12 @@ def kept_where_they_hold(
         told.update({_key(j): j for j in asked if not j.twin})
         short = [place for place, j in enumerate(asked) if _falls_short(j, unsound)]
         if not short:
-            break
+            place = next((i for i, j in enumerate(asked) if _key(j) in untried and j.refines is None), None)
+            if place is None:
+                break
+            untried.discard(_key(asked[place]))
+            asked[place] = _likeliest_twin(asked, place, look, may_be)
+            continue
         worst = min([place for place in short if place >= claims] or short, key=lambda place: _standing(asked[place]))
         key = _key(asked[worst])
         if key in untried and asked[worst].refines is None:
@@ -96,6 +102,19 @@ def _is_refuted(j: Judged) -> bool:
 def _standing(j: Judged) -> tuple[bool, float]:
     """The least first."""
     return not _is_refuted(j), probability(j.scored)
+
+
+def _likeliest_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged:
+    """What the open tests can't tell apart the locked ones may: a twin on other channels that is likelier once they are
+    heard takes the place of what they bear out too. A lag gives way to its name there."""
+    own, names = asked[place], {j.scored.candidate.id for j in asked}
+    own_channels, found = set(own.scored.candidate.channels), [own]
+    for twin in _twins(own, lambda s: set(s.candidate.channels) != own_channels and may_be(s), names):
+        told = _with(twin, look([*asked[:place], twin, *asked[place + 1 :]], place))
+        if not _falls_short(told, set()):
+            found.append(told)
+    best = max(found, key=lambda j: probability(j.scored))
+    return next((j for j in found if is_its_name(best.scored, j.scored)), best)
 
 
 def _best_twin(asked: Sequence[Judged], place: int, look: Look, may_be: Callable[[Scored], bool]) -> Judged | None:

@@ -123,10 +123,10 @@ def what_warms_it(own: Scored, ranked: Sequence[Scored]) -> Scored | None:
 def gives_way(own: Scored, best: Scored, ranking: Ranked) -> bool:
     """Whether a member is swapped for the preferred of those ranked beside the others."""
     better = (_drove_out(own, best, ranking) or _clearly(best, own)) and _foretells_more(best, own)
-    return better or _is_its_name(own, best) or _at_once(own, best) or _is_cause_of_mode(own, best)
+    return better or is_its_name(own, best) or _at_once(own, best) or _is_cause_of_mode(own, best)
 
 
-def _is_its_name(own: Scored, best: Scored) -> bool:
+def is_its_name(own: Scored, best: Scored) -> bool:
     """Whether a lag stands for an effect with a name that is as likely on the same channels, or nearly so: the same
     equation on two grids of time constants differs by as much."""
     mine, theirs = own.candidate, best.candidate
