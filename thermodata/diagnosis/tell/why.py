@@ -80,7 +80,9 @@ def why(
         spite = in_spite_of(s, investigation.measure, unit)
         heat = where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks])
         heat += also_of_motor(s, [j.scored for j in judgement.claims])
-        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{gains}{heat}"
+        instead = member.in_place_of if member is not None else None
+        chosen = f"; taken by the locked tests in place of {instead}, which the open ones can't tell it from"
+        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{chosen if instead else ''}{gains}{heat}"
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:

@@ -33,14 +33,14 @@ SURE = 2.0
 @dataclass(frozen=True, slots=True)
 class Judged:
     """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
-    the model, in words; None for a cause of its own. beside: all candidates, ranked without it. twin: whether `scored`
-    is of one that it can't be told from."""
+    the model, in words; None for a cause of its own. beside: all candidates, ranked without it. in_place_of: the id of
+    the member, where `scored` is of one that the open tests can't tell from it."""
 
     scored: Scored
     alone: Scored
     refines: str | None
     beside: tuple[Scored, ...]
-    twin: bool = False
+    in_place_of: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
