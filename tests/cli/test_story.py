@@ -421,6 +421,10 @@ def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_count
     assert "from the store" in text.err
     assert looks() == 2
     assert say("--store", store, "confirm", base, "99").code == 2
+    better = json.loads(say("--store", store, "add", base, "1", "--json").out)["model"]
+    had = say("--store", store, "confirm", better, "feed_screw:T_nut_Z")
+    assert (had.code, looks()) == (2, 2), "what the model has is not asked again"
+    assert "the model has feed_screw (T_nut_Z) already" in had.err
 
 
 def test_what_diagnose_puts_right_confirm_and_add_put_right_too(say: Say, tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ from thermodata.diagnosis.locked.copies import copies
 from thermodata.diagnosis.locked.held import as_held, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked
 from thermodata.diagnosis.locked.turned_locked import turned_locked
+from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
@@ -180,6 +181,19 @@ def _claimed_with(store: Store, model: str, response: str, candidate: str) -> fl
     return claimed[0].probability if claimed else None
 
 
+def _refuse_again(model: Loaded, response: FittedResponse, effect: str, channels: set[str]) -> None:
+    """UsageError for what the response has already: a second copy says nothing of the first."""
+    own = next((p for p in present(response) if p.effect == effect and p.channels == channels), None)
+    if own is not None:
+        raise UsageError(
+            f"the model has {effect} ({', '.join(sorted(channels))}) already",
+            where=f"model '{model.fitted.spec.name}' {model.identity[:8]}",
+            expected="an effect that it lacks",
+            got=effect,
+            hint="ask it of the model before that was added: thermodata history MODEL names its versions",
+        )
+
+
 def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffect:
     changed(model.fitted.spec, name)  # refuses what `add` would refuse
     if (by := gain_by_of(name)) is not None:
@@ -187,4 +201,5 @@ def _chosen(model: Loaded, response: FittedResponse, name: str) -> CandidateEffe
     if (apart := phases_of(name)) is not None:
         return named_apart(response, *apart)
     spec = candidate_spec(name, model.data.channels)
+    _refuse_again(model, response, spec.effect, {str(c) for c in spec.drivers.values()})
     return CandidateEffect(find_effect(spec.effect), {r: str(c) for r, c in spec.drivers.items()}, family="")

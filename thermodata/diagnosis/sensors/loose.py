@@ -99,7 +99,8 @@ def as_artefact(fall: Fall) -> Artefact:
         size_um=None,
         why=f"from this test on '{fall.name}' answers {fall.ratio:.2f} times what it did up to '{last.test}', by what "
         f"commands and other temperatures foretell ({told}), and no other temperature does: look whether the sensor "
-        "came loose, or whether something cools its place since; if it is loose, declare "
+        "came loose, something cools its place since, or what heats it ran otherwise (another gear, a lighter "
+        "load); only if it is loose, declare "
         f"channels: {{{fall.name}: {{absent: true}}}} at these tests",
     )
 
