@@ -10,6 +10,9 @@ from typing import Any, Self
 INTERRUPTED = 130
 """Exit code of what Ctrl-C ended, as shells have it: 128 and the number of the signal."""
 
+FAILED = (Exception, SystemExit)
+"""What ends a plugin, and nothing else: a script that became one may still say sys.exit(). Ctrl-C is not among it."""
+
 
 class ThermodataError(Exception):
     """Base of every error that a user is meant to read.
