@@ -109,6 +109,15 @@ class PluginError(ThermodataError):
     """A plugin broke its contract (its bug, not the data's)."""
 
 
+class EffectError(PluginError):
+    """An effect broke its contract. effect: its name, by which a search leaves it out; origin: the plugin that brought
+    it."""
+
+    def __init__(self, what: str, *, effect: str, origin: str, **more: Any) -> None:
+        super().__init__(what, where=origin, **more)
+        self.effect, self.origin = effect, origin
+
+
 class StoreError(ThermodataError):
     """The store is busy, damaged, full, or written by a newer version."""
 
