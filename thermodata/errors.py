@@ -10,6 +10,9 @@ from typing import Any, Self
 INTERRUPTED = 130
 """Exit code of what Ctrl-C ended, as shells have it: 128 and the number of the signal."""
 
+FAILED = (Exception, SystemExit)
+"""What ends a plugin, and nothing else: a script that became one may still say sys.exit(). Ctrl-C is not among it."""
+
 
 class ThermodataError(Exception):
     """Base of every error that a user is meant to read.
@@ -104,6 +107,15 @@ class RailError(CalibrationError):
 
 class PluginError(ThermodataError):
     """A plugin broke its contract (its bug, not the data's)."""
+
+
+class EffectError(PluginError):
+    """An effect broke its contract. effect: its name, by which a search leaves it out; origin: the plugin that brought
+    it."""
+
+    def __init__(self, what: str, *, effect: str, origin: str, **more: Any) -> None:
+        super().__init__(what, where=origin, **more)
+        self.effect, self.origin = effect, origin
 
 
 class StoreError(ThermodataError):

@@ -210,8 +210,8 @@ class Gain:
 
 @dataclass(frozen=True, slots=True)
 class Drivers:
-    """What an effect sees of one test, on one grid. t_s: shape (n,), uniform. values: role -> shape (n,),
-    temperatures relative to the start of the test; valid: role -> shape (n,)."""
+    """What an effect sees of one test, on one grid. t_s: shape (n,), uniform. values: role -> shape (n,), finite (gaps
+    are filled), temperatures relative to the start of the test; valid: role -> shape (n,). All of it is read-only."""
 
     t_s: Float1D
     values: Mapping[str, Float1D]
@@ -243,4 +243,4 @@ class Effect(Protocol):
     gains: tuple[Gain, ...]
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        """Shape (n, len(gains)): the contribution of each gain at 1, zero at rest."""
+        """Shape (n, len(gains)), float64, finite: the contribution of each gain at 1, zero at rest."""

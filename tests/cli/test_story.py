@@ -311,6 +311,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "chance",
         "responses",
         "by_choice",
+        "not_asked",
         "rmse_um",
         "fitted_rmse_um",
         "locked_rmse_um",

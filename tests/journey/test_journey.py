@@ -61,6 +61,7 @@ DIAGNOSIS = {
     "chance",
     "responses",
     "by_choice",
+    "not_asked",
     "rmse_um",
     "fitted_rmse_um",
     "locked_rmse_um",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint
 from pathlib import Path
@@ -105,6 +106,23 @@ def test_no_claim_names_the_readers(install, tmp_path: Path) -> None:  # type: i
     install("one", "two")
     with pytest.raises(FormatError, match="one, two"):
         registry.sniff(write(tmp_path, b"zzz"))
+
+
+def test_a_reader_that_would_end_the_process_is_a_warning(
+    install,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,  # type: ignore[no-untyped-def]
+) -> None:
+    def end(*_: object) -> object:
+        sys.exit(3)
+
+    monkeypatch.setattr(Stumbling, "sniff", end)
+    monkeypatch.setitem(CLASSES, "ending", end)
+    install("one", "stumbling", "ending")
+    with pytest.warns(UserWarning, match="SystemExit: 3") as told:
+        assert registry.claims(write(tmp_path, b"A")) == {"one": "starts with b'A'"}
+    assert len(told) == 2
+    assert registry.failed_readers() == {"ending": "SystemExit: 3"}
 
 
 def test_a_sniff_that_fails_claims_nothing(install, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]

@@ -62,7 +62,7 @@ def test_item_rule_is_the_one_that_catches_its_broken_twin(rule: rules.BlockRule
     twin = {**BROKEN_BLOCKS, **BROKEN_LOSSES}[rule]
     found = rules.broken_rule(GOOD, twin)
     assert found is not None
-    assert found[0] == rules.sentence(rule)
+    assert found.rule == rules.sentence(rule)
 
 
 @pytest.mark.parametrize("dtype", ["text", "object", "<U5", "a[", "datetime64[ns]"])
@@ -75,12 +75,40 @@ def test_a_dtype_that_is_none_is_answered_with_what_to_declare(dtype: str) -> No
 @pytest.mark.parametrize("t_ns", [np.iinfo(np.int64).min, np.iinfo(np.int64).max])
 def test_a_time_that_is_none_is_no_time(t_ns: int) -> None:
     block = replace(BLOCK, t_ns=np.array([0, t_ns, 1], np.int64))
-    assert "at row 1" in (rules.time_is_int64_nanoseconds_in_one_dimension(GOOD, block) or "")
+    assert rules.time_is_int64_nanoseconds_in_one_dimension(GOOD, block) == rules.Wrong(f"t_ns is {t_ns}, no time", 1)
 
 
 def test_text_with_a_number_in_it_is_named_by_row() -> None:
     wrong = rules.values_have_the_declared_dtype(GOOD, with_values(w=np.array(["x", 3, ""], object)))
-    assert wrong == "'w' at row 1 is int, declared str"
+    assert wrong == rules.Wrong("'w' is int, declared str", 1)
+
+
+@pytest.mark.parametrize(("values", "row"), [(2, 2), (4, 3)])
+def test_values_of_another_length_are_named_by_the_first_row_without_its_like(values: int, row: int) -> None:
+    wrong = rules.values_have_the_length_of_the_time(GOOD, with_values(a=np.zeros(values)))
+    assert wrong == rules.Wrong(f"'a' has shape ({values},), time (3,)", row)
+
+
+@pytest.mark.parametrize("values", [np.zeros((3, 2)), 0.0, None])
+def test_values_that_are_no_column_are_wrong_from_the_first_row_on(values: object) -> None:
+    wrong = rules.values_have_the_length_of_the_time(GOOD, with_values(a=values))  # type: ignore[arg-type]
+    assert wrong is not None
+    assert wrong.row == 0
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"W": T}, "'W', which describe() does not declare"),
+        ({"W": T, "V": T}, "'V', 'W', which describe() does not declare"),
+        ({"a": None}, "no 'a', which describe() declares"),
+        ({"a": None, "W": T}, "'W', which describe() does not declare, and no 'a', which describe() declares"),
+    ],
+)
+def test_signals_that_are_too_many_or_too_few_are_said_in_words(values: dict[str, object], said: str) -> None:
+    held = {name: v for name, v in {**BLOCK.values, **values}.items() if v is not None}
+    wrong = rules.every_declared_signal_is_delivered_and_no_other(GOOD, replace(BLOCK, values=held))
+    assert wrong == rules.Wrong(f"the block of stream 's' holds {said}")
 
 
 def test_blocks_of_several_files_in_turn_are_each_held_against_their_own_file() -> None:
@@ -89,7 +117,6 @@ def test_blocks_of_several_files_in_turn_are_each_held_against_their_own_file() 
         for i, said in enumerate(files):
             block = Block(f"s{i}", np.array([1], np.int64), {"a": np.array([1.0])})
             assert rules.broken_rule(said, block) is None
-            assert rules.broken_rule(files[i - 1], block) == (
-                "the stream was declared",
-                f"stream 's{i}' was not declared",
+            assert rules.broken_rule(files[i - 1], block) == rules.Broken(
+                "the stream was declared", f"stream 's{i}' was not declared"
             )

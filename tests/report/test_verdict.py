@@ -11,13 +11,14 @@ import pytest
 from thermodata.report.candidate_errors import beside
 from thermodata.report.collect import _reason
 from thermodata.report.data import ReportData
+from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.verdict import explainable, in_parts, named, probability, told, verdict_sentence
 from thermodata.report.words import listed
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.diagnosis import ClockMoved, Diagnosis, PutRight
+from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight
 
 from .conftest import diagnosis
 
@@ -401,6 +402,18 @@ def test_the_head_of_the_page_says_what_was_put_right(data: ReportData) -> None:
     page = render(dataclasses.replace(data, diagnosis=found("effect", [claim("screw")], put_right=right)))
     head = page[: page.index("<h2")]
     assert "judged without day9, where the probe is turned round" in head
+
+
+@pytest.mark.parametrize("failed", [[], [NotAsked(effect="zz", why="effect 'zz' failed: KeyError: 'zz'")]])
+def test_an_effect_whose_plugin_fails_is_told_on_the_page_and_in_text(data: ReportData, failed: list[NotAsked]) -> None:
+    answer = found("effect", [claim("screw")], not_asked=failed)
+    page = render(dataclasses.replace(data, diagnosis=answer))
+    assert ("<b>zz</b> was left out, for its plugin fails: effect &#39;zz&#39; failed: KeyError" in page) == bool(
+        failed
+    )
+    said = "left out, for their plugins fail\n  ! zz: effect 'zz' failed: KeyError: 'zz'"
+    assert (said in diagnosis_text(answer)) == bool(failed)
+    assert ("for their plugins fail" in diagnosis_text(answer)) == bool(failed)
 
 
 def test_a_verdict_without_a_claim_is_headed_by_its_first_words_and_told_to_its_end(data: ReportData) -> None:

@@ -9,13 +9,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from thermodata.errors import FormatError, PluginError, QuestionError, StoreError, ThermodataError
-from thermodata.plugin import Source
+from thermodata.plugin import Block, Loss, Source
 from thermodata.reader import registry
 from thermodata.store import Store
 from thermodata.store.ingest import side_by_side, worker
@@ -268,14 +269,40 @@ def test_a_file_that_ends_its_process_is_a_loss_and_the_others_are_read(
     assert ingest(store, lab).losses == []
 
 
+@pytest.mark.parametrize(
+    ("how", "got"), [("raise RuntimeError('a bug')", "RuntimeError: a bug"), ("raise SystemExit(3)", "SystemExit: 3")]
+)
 def test_a_plugin_that_fails_in_a_worker_is_reported_as_ever(
-    store: Store, lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, two_workers: None
+    store: Store, lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, two_workers: None, how: str, got: str
 ) -> None:
-    plugin(tmp_path, monkeypatch, "print('to stdout'); raise RuntimeError('a bug')")
-    (loss,) = [row for row in ingest(store, lab).losses if row["file"]]
+    plugin(tmp_path, monkeypatch, f"print('to stdout'); {how}")
+    summary = ingest(store, lab)
+    (loss,) = [row for row in summary.losses if row["file"]]
     assert loss["file"] == "raw/t2_a.csv"
     assert "reader 'table' failed" in loss["reason"]
-    assert "RuntimeError: a bug" in loss["reason"]
+    assert got in loss["reason"]
+    assert summary.read == 2 * TESTS - 1
+
+
+def test_a_plugin_that_says_sys_exit_ends_neither_the_ingest_nor_what_it_reads_beside_it(
+    store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata_reader_table import Reader as TableReader
+
+    right = TableReader.blocks
+
+    def blocks(self: TableReader, path: Path, source: Source) -> Iterator[Block | Loss]:
+        if path.name == "t2_a.csv":
+            sys.exit(3)
+        yield from right(self, path, source)
+
+    monkeypatch.setattr(TableReader, "blocks", blocks)
+    summary = ingest(store, lab)
+    (loss,) = [row for row in summary.losses if row["file"]]
+    assert loss["file"] == "raw/t2_a.csv"
+    assert "reader 'table' failed" in loss["reason"]
+    assert "SystemExit: 3" in loss["reason"]
+    assert summary.read == 2 * TESTS - 1
 
 
 def test_workers_that_cannot_be_started_leave_the_reading_to_the_ingest(

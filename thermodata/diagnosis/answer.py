@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.claims.at_rest import AtRest as Resting
 from thermodata.diagnosis.claims.detection import LARGE, Limit
 from thermodata.diagnosis.claims.other_axes import OtherAxes
@@ -65,7 +66,25 @@ def answer(
 ) -> Answer:
     """Diagnose the response that is named, else the one of which most is left; locked tests are opened once, for what
     is claimed or likely. left_on_locked: response -> their error, where it is known already. ends: how logs begin and
-    end."""
+    end. EffectError for an effect of the model that fails; one of the library is left out, and told."""
+
+    def ask(asked: Mapping[str, Effect]) -> Answer:
+        return _answer(fitted, data, asked, model_id, seed, left_on_locked, ends, name)
+
+    found, failed = without_failing(library, ask)
+    return replace(found, diagnosis=found.diagnosis.model_copy(update={"not_asked": list(failed)}))
+
+
+def _answer(
+    fitted: FittedModel,
+    data: Dataset,
+    library: Mapping[str, Effect],
+    model_id: str,
+    seed: int,
+    left_on_locked: Mapping[str, float] | None,
+    ends: Ends,
+    name: str | None,
+) -> Answer:
     tests = fitted.tests(data)
     shares = shares_left(fitted, tests)
     index = response_index(fitted, tests, name)

@@ -10,6 +10,7 @@ import json
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.answer import answer, response_index
+from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Fits, confirm
@@ -93,7 +94,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     for look in outcome.looks:
         count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
     save_diagnosis(store, model.identity, found)
-    keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
+    if not found.not_asked:  # a plugin that was mended is asked, though nothing else has changed
+        keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
     return found
 
 
@@ -120,7 +122,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         known = as_held(Confirmed.model_validate_json(kept))
         return known.model_copy(update={"probability": _claimed_with(store, model.identity, of.name, name)}), True
     usable = [t for t in tests if of.can_predict(t)]
-    asked_of = sound(model.fitted, index, model.data, usable, effects(), ends_of_logs(store, model))
+    ends = ends_of_logs(store, model)
+    asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
     again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, of.name)}
     locked = [t for t in model.fitted.tests(asked_of.data, "locked") if of.can_predict(t) and t.key not in again]
     if not locked:

@@ -6,7 +6,7 @@ import warnings
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 
-from thermodata.errors import PluginError, UsageError, unknown_name
+from thermodata.errors import FAILED, PluginError, UsageError, unknown_name
 from thermodata.plugin import Effect
 
 GROUP = "thermodata.effect"
@@ -44,6 +44,15 @@ def effect(name: str) -> Effect:
     raise unknown
 
 
+def origin(effect: Effect) -> str:
+    """Where an effect comes from: 'thermodata-effect-foo 0.1.0 (thermodata_effect_foo:Foo)'; its class where no entry
+    point has its name."""
+    for entry in entry_points(group=GROUP):
+        if entry.name == effect.name:
+            return f"{entry.dist.name} {entry.dist.version} ({entry.value})" if entry.dist is not None else entry.value
+    return f"{type(effect).__module__}:{type(effect).__qualname__}"
+
+
 @lru_cache(maxsize=1)
 def _load() -> tuple[dict[str, Effect], dict[str, str]]:
     found: dict[str, Effect] = {}
@@ -54,7 +63,7 @@ def _load() -> tuple[dict[str, Effect], dict[str, str]]:
             if loaded.name in found:
                 raise PluginError(f"a second effect is named '{loaded.name}'", got=entry.value)
             found[loaded.name] = loaded
-        except Exception as error:
+        except FAILED as error:
             failed[entry.name] = f"{type(error).__name__}: {error}"
             warnings.warn(f"effect '{entry.name}' ({entry.value}) does not load: {error}", stacklevel=3)
     return found, failed

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from thermodata.errors import FormatError, PluginError, ThermodataError
+from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
 from thermodata.reader.archives import packed_by
 from thermodata.reader.heeded import Watched
 from thermodata.reader.regular import refuse_what_never_ends
 from thermodata.reader.rules import RECORDING_RULES, broken_rule, sentence
+
+
+@contextmanager
+def asking(said: str, where: str) -> Iterator[None]:
+    """PluginError, `said` where, for what a reader raises that is none of ours: a plugin's bug; sys.exit() among it,
+    which would end the command without a word. Damaged or missing files and Ctrl-C pass."""
+    try:
+        yield
+    except (ThermodataError, OSError, MemoryError):
+        raise
+    except FAILED as error:
+        raise PluginError(said, where=where, got=f"{type(error).__name__}: {error}") from error
 
 
 def described(reader: Reader, path: Path, source: Source) -> Recording:
@@ -20,16 +33,11 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
     refuse_what_never_ends(path)
     watched = Watched(source)
     try:
-        recording = reader.describe(path, watched.source)
+        with asking(f"reader '{reader.name}' failed to describe a file", str(path)):
+            recording = reader.describe(path, watched.source)
     except FormatError:
         _refuse_packed(path)  # what a reader says of packed bytes helps nobody
         raise
-    except (ThermodataError, OSError, MemoryError):
-        raise
-    except Exception as error:
-        raise PluginError(
-            f"reader '{reader.name}' failed to describe a file", where=str(path), got=f"{type(error).__name__}: {error}"
-        ) from error
     if not isinstance(recording, Recording):
         raise PluginError(
             f"reader '{reader.name}' describes with {type(recording).__name__}", where=str(path), expected="a Recording"
@@ -58,23 +66,21 @@ def _refuse_packed(path: Path) -> None:
 
 
 def guarded(reader: Reader, path: Path, source: Source, recording: Recording | None = None) -> Iterator[Block | Loss]:
-    """The reader's blocks and losses; PluginError with file and block where one breaks a rule.
+    """The reader's blocks and losses; PluginError with file, block and row where one breaks a rule. Rows are counted
+    from 0 over all blocks of the stream, as `locate` and `thermodata trace` count them.
 
     recording: what describe() said, where the caller has it already.
     """
     said = described(reader, path, source) if recording is None else recording
     count = 0
-    items = iter(reader.blocks(path, source))
+    rows: dict[str, int] = {}  # of each stream, so far
+    items: Iterator[Block | Loss] | None = None
     while True:
         where = f"{path.name} block {count}"
-        try:
+        with asking(f"reader '{reader.name}' failed", where):
+            if items is None:
+                items = iter(reader.blocks(path, source))
             item = next(items, None)
-        except (ThermodataError, OSError, MemoryError):
-            raise
-        except Exception as error:
-            raise PluginError(
-                f"reader '{reader.name}' failed", where=where, got=f"{type(error).__name__}: {error}"
-            ) from error
         if item is None:
             return
         if not isinstance(item, Block | Loss):
@@ -83,9 +89,12 @@ def guarded(reader: Reader, path: Path, source: Source, recording: Recording | N
             )
         broken = broken_rule(said, item)
         if broken is not None:
-            raise PluginError(f"reader '{reader.name}' broke the rule: {broken[0]}", where=where, got=broken[1])
+            if isinstance(item, Block):
+                where += f" row {rows.get(item.stream, 0) + broken.row}"
+            raise PluginError(f"reader '{reader.name}' broke the rule: {broken.rule}", where=where, got=broken.got)
         if isinstance(item, Block):
             count += 1
+            rows[item.stream] = rows.get(item.stream, 0) + len(item.t_ns)
             if not item.t_ns.size:
                 continue
         yield item

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import UsageError
+from thermodata.errors import FAILED, UsageError
 from thermodata.plugin import Reader, Recording, Source
 
 _SHEET = "sheet"
@@ -106,5 +106,5 @@ class Watched:
         other = {**(self._said.table or {}), _SHEET: _NO_SHEET}
         try:
             return reader.describe(path, replace(self._said, table=other)) == said
-        except Exception:  # whatever it is that such a sheet is answered with: it was looked at
+        except FAILED:  # whatever it is that such a sheet is answered with: it was looked at
             return False

@@ -5,13 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Reader, Source
+from thermodata.reader.guard import asking
 
 
 def locate(reader: Reader, path: Path, source: Source, stream: str, row: int) -> str | None:
     """What the reader says of a row of a stream, counted from 0 over all its blocks: "line 812".
 
     None where the reader has no `locate`, nor `place`, as readers called it first. It may take as long as reading the
-    file. What the reader raises is passed on.
+    file. PluginError for what the reader raises that is none of ours.
     """
     method = getattr(reader, "locate", None) or getattr(reader, "place", None)
-    return None if method is None else str(method(path, source, stream, row))
+    if method is None:
+        return None
+    with asking(f"reader '{reader.name}' failed to locate a row", f"{path.name} stream '{stream}' row {row}"):
+        return str(method(path, source, stream, row))

@@ -13,7 +13,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
 from thermodata.reader.clock_leaps import Leap
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.guard import asking, described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
 from thermodata.reader.regular import refuse_what_never_ends
@@ -150,7 +150,8 @@ def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bo
     and the file is large. FormatError for what is no file."""
     refuse_what_never_ends(path)
     begin = getattr(reader, "beginning", None)
-    first: Reader | None = None if begin is None else begin(path, source)
+    with asking(f"reader '{reader.name}' failed to begin a file", str(path)):
+        first: Reader | None = None if begin is None else begin(path, source)
     return (reader, True) if first is None else (first, False)
 
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 
-from thermodata.errors import FormatError, UsageError, unknown_name
+from thermodata.errors import FAILED, FormatError, UsageError, unknown_name
 from thermodata.plugin import HEAD_BYTES, Head, Reader
 from thermodata.reader.regular import opened
 
@@ -50,7 +50,7 @@ def _all() -> tuple[dict[str, Reader], dict[str, str]]:
     for name, point in installed().items():
         try:
             good[name] = _load(point)
-        except Exception as error:  # a plugin may fail in any way; it must not take the house with it
+        except FAILED as error:  # a plugin may fail in any way; it must not take the house with it
             bad[name] = f"{type(error).__name__}: {error}"
             _warn_of(name, point.value, bad[name])
     return good, bad
@@ -127,7 +127,7 @@ def all_claims(path: Path | str) -> dict[str, str]:
             bad[name] = f"{type(error).__name__}: {error}"
             _warn_of(name, installed()[name].value if name in installed() else "", bad[name])
             continue
-        except Exception as error:  # a sniff that stumbles over a foreign file claims nothing
+        except FAILED as error:  # a sniff that stumbles over a foreign file claims nothing
             said = f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}"
             if said not in _told:
                 _told.add(said)

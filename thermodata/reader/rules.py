@@ -1,18 +1,38 @@
 """The rules of a reader's data, as functions with sentence names: used by the guard, the kit and the docs.
 
-Each takes what a reader said (its Recording) and one item that it yielded, and returns what is wrong, or None.
+Each takes what a reader said (its Recording) and one item that it yielded, and returns what is wrong, or None; of a
+block also in which of its rows.
 A rule that is broken is a bug of the plugin; backward or duplicate time is a defect of the data and no rule here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Recording, Signal
+from thermodata.plugin import Block, Int1D, Loss, Recording, Signal
 
-BlockRule = Callable[[Recording, Block], str | None]
+
+@dataclass(frozen=True, slots=True)
+class Wrong:
+    """What is wrong with a block. row: the first one of the block in which it is; 0 where it is in all of them."""
+
+    got: str
+    row: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """A rule, as a sentence, that an item breaks. row: of a block, as in `Wrong`."""
+
+    rule: str
+    got: str
+    row: int = 0
+
+
+BlockRule = Callable[[Recording, Block], Wrong | None]
 LossRule = Callable[[Recording, Loss], str | None]
 RecordingRule = Callable[[Recording], str | None]
 _MAX_NS = np.int64(9_000_000_000_000_000_000)
@@ -74,40 +94,54 @@ def _declared(recording: Recording) -> _Streams:
     return found
 
 
-def the_stream_was_declared(recording: Recording, block: Block) -> str | None:
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(f"'{name}'" for name in sorted(map(str, names)))
+
+
+def _first_unpaired(values: object, t_ns: Int1D) -> int:
+    """The first row of a block that has a value or a time alone; 0 where all rows are wrong."""
+    if not isinstance(values, np.ndarray) or values.ndim != 1 or len(values) == len(t_ns):
+        return 0
+    return min(len(values), len(t_ns))
+
+
+def the_stream_was_declared(recording: Recording, block: Block) -> Wrong | None:
     if block.stream not in _declared(recording):
-        return f"stream '{block.stream}' was not declared"
+        return Wrong(f"stream '{block.stream}' was not declared")
     return None
 
 
-def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Block) -> str | None:
+def time_is_int64_nanoseconds_in_one_dimension(recording: Recording, block: Block) -> Wrong | None:
     if not isinstance(block.t_ns, np.ndarray) or block.t_ns.dtype != np.int64 or block.t_ns.ndim != 1:
         got = f"{getattr(block.t_ns, 'dtype', type(block.t_ns).__name__)} of shape {getattr(block.t_ns, 'shape', '?')}"
-        return f"t_ns is {got}, not int64 of shape (n,)"
+        return Wrong(f"t_ns is {got}, not int64 of shape (n,)")
     if block.t_ns.size:
         for row in (int(np.argmin(block.t_ns)), int(np.argmax(block.t_ns))):
             if -_MAX_NS < block.t_ns[row] < _MAX_NS:
                 continue
-            return f"t_ns at row {row} is {block.t_ns[row]}, no time"
+            return Wrong(f"t_ns is {block.t_ns[row]}, no time", row)
     return None
 
 
-def every_declared_signal_is_delivered_and_no_other(recording: Recording, block: Block) -> str | None:
+def every_declared_signal_is_delivered_and_no_other(recording: Recording, block: Block) -> Wrong | None:
     declared = _declared(recording).get(block.stream, {})
     if declared.keys() != block.values.keys():
         missing, extra = declared.keys() - block.values.keys(), block.values.keys() - declared.keys()
-        return f"missing {sorted(missing)}, undeclared {sorted(extra)}"
+        said = [f"{_listed(extra)}, which describe() does not declare"] if extra else []
+        said += [f"no {_listed(missing)}, which describe() declares"] if missing else []
+        return Wrong(f"the block of stream '{block.stream}' holds {', and '.join(said)}")
     return None
 
 
-def values_have_the_length_of_the_time(recording: Recording, block: Block) -> str | None:
+def values_have_the_length_of_the_time(recording: Recording, block: Block) -> Wrong | None:
     for name, values in block.values.items():
         if not isinstance(values, np.ndarray) or values.shape != block.t_ns.shape:
-            return f"'{name}' has shape {getattr(values, 'shape', type(values).__name__)}, time {block.t_ns.shape}"
+            got = f"'{name}' has shape {getattr(values, 'shape', type(values).__name__)}, time {block.t_ns.shape}"
+            return Wrong(got, _first_unpaired(values, block.t_ns))
     return None
 
 
-def values_have_the_declared_dtype(recording: Recording, block: Block) -> str | None:
+def values_have_the_declared_dtype(recording: Recording, block: Block) -> Wrong | None:
     declared = _declared(recording).get(block.stream, {})
     for name, values in block.values.items():
         wanted = declared.get(name)
@@ -120,29 +154,29 @@ def values_have_the_declared_dtype(recording: Recording, block: Block) -> str | 
                 row = next((i for i, v in enumerate(values) if not (v is None or isinstance(v, str))), None)
                 if row is None:
                     continue
-                return f"'{name}' at row {row} is {type(values[row]).__name__}, declared str"
-            return f"'{name}' is {values.dtype}, declared str"
+                return Wrong(f"'{name}' is {type(values[row]).__name__}, declared str", row)
+            return Wrong(f"'{name}' is {values.dtype}, declared str")
         if wanted is not None and values.dtype != np.dtype(wanted):
-            return f"'{name}' is {values.dtype}, declared {wanted}"
+            return Wrong(f"'{name}' is {values.dtype}, declared {wanted}")
     return None
 
 
-def flags_are_uint16_of_delivered_signals(recording: Recording, block: Block) -> str | None:
+def flags_are_uint16_of_delivered_signals(recording: Recording, block: Block) -> Wrong | None:
     for name, flags in (block.flags or {}).items():
         if name not in block.values:
-            return f"flags of '{name}', which the block does not hold"
+            return Wrong(f"flags of '{name}', which the block does not hold")
         if not isinstance(flags, np.ndarray) or flags.dtype != np.uint16 or flags.shape != block.t_ns.shape:
             got = f"{getattr(flags, 'dtype', '?')} of shape {getattr(flags, 'shape', '?')}"
-            return f"flags of '{name}' are {got}, not uint16 of shape (n,)"
+            return Wrong(f"flags of '{name}' are {got}, not uint16 of shape (n,)", _first_unpaired(flags, block.t_ns))
     return None
 
 
-def where_rows_stand_is_int64_of_the_time_s_length(recording: Recording, block: Block) -> str | None:
+def where_rows_stand_is_int64_of_the_time_s_length(recording: Recording, block: Block) -> Wrong | None:
     if block.at is None:
         return None
     if not isinstance(block.at, np.ndarray) or block.at.dtype != np.int64 or block.at.shape != block.t_ns.shape:
         got = f"{getattr(block.at, 'dtype', type(block.at).__name__)} of shape {getattr(block.at, 'shape', '?')}"
-        return f"at is {got}, not int64 of shape {block.t_ns.shape}"
+        return Wrong(f"at is {got}, not int64 of shape {block.t_ns.shape}", _first_unpaired(block.at, block.t_ns))
     return None
 
 
@@ -191,11 +225,13 @@ def sentence(rule: Callable[..., object]) -> str:
     return rule.__name__.replace("_", " ")
 
 
-def broken_rule(recording: Recording, item: Block | Loss) -> tuple[str, str] | None:
-    """(sentence, what is wrong) of the first rule that an item breaks, or None."""
-    rules: Iterable[Callable[..., str | None]] = BLOCK_RULES if isinstance(item, Block) else LOSS_RULES
+def broken_rule(recording: Recording, item: Block | Loss) -> Broken | None:
+    """The first rule that an item breaks, or None."""
+    rules: Iterable[Callable[..., Wrong | str | None]] = BLOCK_RULES if isinstance(item, Block) else LOSS_RULES
     for rule in rules:
         wrong = rule(recording, item)
+        if isinstance(wrong, Wrong):
+            return Broken(sentence(rule), wrong.got, wrong.row)
         if wrong is not None:
-            return sentence(rule), wrong
+            return Broken(sentence(rule), wrong)
     return None

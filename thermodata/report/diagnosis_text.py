@@ -137,6 +137,10 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
                 for a in log_faults(found.artefacts)
             )
         )
+    if found.not_asked:
+        parts.append(
+            "left out, for their plugins fail\n" + "\n".join(f"  ! {one.effect}: {one.why}" for one in found.not_asked)
+        )
     if found.unknown:
         hints = found.unknown.model_dump()
         parts.append(

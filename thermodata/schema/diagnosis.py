@@ -131,6 +131,17 @@ class AtRest(Result):
     moves_in: list[str]
 
 
+class NotAsked(Result):
+    """An effect of the library that was not asked: its plugin failed.
+
+    effect: name
+    why: what it broke, and whose it is
+    """
+
+    effect: str
+    why: str
+
+
 class Diagnosis(Result):
     """Answer of diagnose.
 
@@ -159,6 +170,7 @@ class Diagnosis(Result):
     chance: quantiles (0 to 1 in even steps) of the best log evidence in responses in which nothing is missing
     responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
     by_choice: whether the response was asked for
+    not_asked: effects of the library whose plugins failed
     """
 
     model: str
@@ -182,6 +194,7 @@ class Diagnosis(Result):
     chance: list[float] = []
     responses: list[ResponseLeft] = []
     by_choice: bool = False
+    not_asked: list[NotAsked] = []
 
 
 class TestConfirmed(Result):

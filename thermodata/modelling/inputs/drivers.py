@@ -13,6 +13,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.effect.binding import ANY
+from thermodata.effect.guard import read_only
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
 from thermodata.view.dataset import TestData
@@ -42,8 +43,8 @@ START_S = 300.0  # the start value is a mean of at most this, while the driver d
 
 
 def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str], name: str | None = None) -> Drivers:
-    """binding: role -> channel name or expression ("T_a - T_b"). name: of the effect in its model. UsageError where the
-    test lacks a channel, or a driver has no valid sample in it."""
+    """binding: role -> channel name or expression ("T_a - T_b"). name: of the effect in its model. All values are
+    finite, and read-only. UsageError where the test lacks a channel, or a driver has no valid sample in it."""
     values: dict[str, Float1D] = {}
     valid: dict[str, Bool1D] = {}
     quantity = {need.role: need.quantity for need in effect.needs}
@@ -54,7 +55,7 @@ def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str], nam
         if quantity.get(role) == "position":  # an effect that names position means the coordinate
             relative = False
         values[role], valid[role] = prepare(raw, good, step_s(test), relative)
-    return Drivers(test.t_s, values, valid, test.conditions)
+    return read_only(Drivers(test.t_s, values, valid, test.conditions))
 
 
 def names_of(text: str) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.effect.guard import guarded_basis, read_only
 from thermodata.modelling.inputs.drivers import CYCLE_S, cycle_mean
 from thermodata.plugin import Drivers, Effect, Float1D, Float2D
 
@@ -31,13 +32,13 @@ def with_lead(drivers: Drivers) -> tuple[Drivers, int]:
     values = {role: np.concatenate([_before(v, periods[role], lead), v]) for role, v in drivers.values.items()}
     valid = {role: np.concatenate([np.ones(lead, bool), v]) for role, v in drivers.valid.items()}
     t_s = drivers.t_s[0] + step * np.arange(-lead, n)
-    return replace(drivers, t_s=t_s, values=values, valid=valid), lead
+    return read_only(replace(drivers, t_s=t_s, values=values, valid=valid)), lead
 
 
 def columns(effect: Effect, led: tuple[Drivers, int], params: Mapping[str, float]) -> Float2D:
-    """The effect's basis on the test's own rows, shape (n, gains)."""
+    """The effect's basis on the test's own rows, shape (n, gains). EffectError: see `guarded_basis`."""
     drivers, lead = led
-    return effect.basis(drivers, params)[lead:]
+    return guarded_basis(effect, drivers, params)[lead:]
 
 
 def _period(values: Float1D, step: float) -> int:

@@ -7,6 +7,9 @@ not enough: what a wrong time constant leaves behind looks like a missing effect
 
 from __future__ import annotations
 
+import itertools
+import warnings
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,9 +17,13 @@ import numpy as np
 from thermodata.modelling.least_squares.design import Design, Nonlinear
 from thermodata.modelling.least_squares.solve import solve_gains, squared_error
 from thermodata.plugin import Float1D, Float2D
+from thermodata.store.base.counting import counted, watcher
 
 SWEEPS = 4
 HALVINGS = 3
+LOOKS = 60  # of a refinement, each with one at every parameter beside it
+TOLD = 30  # parameters from which on a search says how far it is
+LONG = 100  # parameters from which on it is said before that it takes long: with their third power
 
 
 @dataclass
@@ -73,12 +80,19 @@ def search(problem: Problem, start: Float1D | None = None, loose: bool = False, 
     x = problem.start() if start is None else start
     if not len(x) or not problem.design.n:
         return x
+    if len(x) >= LONG:
+        warnings.warn(
+            f"{len(x)} parameters of '{problem.design.bound.name}' are searched together, which takes long, and these "
+            "tests need not tell their effects apart: fix some (fixed: {...}), or begin with few effects and ask "
+            "diagnose which one is missing",
+            stacklevel=1,
+        )
     found = _refine(problem, _sweeps(problem, x) if start is None else x, loose, enough)
     if start is not None or loose or len(x) == 1:
         return found
     # sweeps choose a valley while the others are coarse; once they are not, another one may be deeper
     elsewhere = found
-    for i in range(len(x)):
+    for i in _told(problem, "parameters, along their range"):
         elsewhere = along_whole_range(problem, elsewhere, i)
     return found if elsewhere is found else _refine(problem, elsewhere, loose, enough)
 
@@ -96,17 +110,37 @@ def _sweeps(problem: Problem, x: Float1D) -> Float1D:
     best = np.inf
     for _ in range(SWEEPS):
         before = x
-        for i, f in enumerate(problem.free):
-            x, best = _along(problem, x, i, np.linspace(low[i], high[i], f.points), best)
+        for i in _told(problem, "parameters, over their range"):
+            x, best = _along(problem, x, i, np.linspace(low[i], high[i], problem.free[i].points), best)
         if len(x) == 1 or np.array_equal(x, before):
             break
     reach = np.array([(b - a) / (f.points - 1) for a, b, f in zip(low, high, problem.free, strict=True)])
     for _ in range(HALVINGS):
         reach = reach / 2
-        for i in range(len(x)):
+        for i in _told(problem, "parameters, nearby"):
             near = np.array([x[i] - reach[i], x[i] + reach[i]])
             x, best = _along(problem, x, i, np.clip(near, low[i], high[i]), best)
     return x
+
+
+def _told(problem: Problem, what: str) -> Iterator[int]:
+    """The place of each parameter; where there are many, whoever watches is told how far it is."""
+    places = range(len(problem.free))
+    return counted(places, what) if len(places) >= TOLD else iter(places)
+
+
+def _told_residual(problem: Problem, most: int) -> Callable[[Float1D], Float1D]:
+    """The residual of a refinement of at most so many looks, likewise."""
+    tell, count = watcher(), len(problem.free)
+    if tell is None or count < TOLD:
+        return problem.residual
+    looks, total = itertools.count(), most * (count + 1)
+
+    def residual(x: Float1D) -> Float1D:
+        tell("looks, at most", min(next(looks), total), total)
+        return problem.residual(x)
+
+    return residual
 
 
 def _along(problem: Problem, x: Float1D, i: int, points: Float1D, best: float) -> tuple[Float1D, float]:
@@ -142,8 +176,9 @@ def _refine(problem: Problem, x: Float1D, loose: bool, enough: float | None) -> 
     low, high = problem.box()
     margin = 1e-6 * (high - low)
     inside = np.clip(x, low + margin, high - margin)
+    most = 12 if loose else LOOKS
     optimum = least_squares(
-        problem.residual,
+        _told_residual(problem, most),
         inside,
         bounds=(low, high),
         method="trf",
@@ -152,7 +187,7 @@ def _refine(problem: Problem, x: Float1D, loose: bool, enough: float | None) -> 
         xtol=1e-4 if loose and enough is None else 1e-7,
         ftol=(enough or 1e-5) if loose else 1e-9,
         gtol=1e-12,
-        max_nfev=12 if loose else 60,
+        max_nfev=most,
     )
     at_x = problem.residual(x)
     return np.asarray(optimum.x) if 2 * optimum.cost <= float(at_x @ at_x) else x

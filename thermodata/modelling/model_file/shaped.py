@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.effect.guard import guarded_basis, read_only
 from thermodata.effect.lag import step_of
 from thermodata.errors import unknown_name
 from thermodata.plugin import Drivers, Effect, Float1D, Float2D, Param
@@ -41,7 +42,7 @@ class Shaped:
             values = {role: unlagged(u, p[SENSOR_LAG.name], step) for role, u in values.items()}
         if DEAD_TIME.name in self.also:
             values = {role: late(u, p[DEAD_TIME.name], step) for role, u in values.items()}
-        return self.effect.basis(replace(drivers, values=values), p)
+        return guarded_basis(self.effect, read_only(replace(drivers, values=values)), p)
 
 
 def late(u: Float1D, dead_s: float, step_s: float) -> Float1D:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.errors import unknown_name
+from thermodata.errors import EffectError, unknown_name
 from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of
 from thermodata.modelling.inputs.lead import columns, with_lead
 from thermodata.modelling.inputs.phases import activity_channels
@@ -77,13 +77,16 @@ class BoundTerm:
         return kept
 
     def columns(self, test: TestData, params: Mapping[str, float]) -> Float2D:
-        """shape (n, gains); zeros where the term does not cover the test."""
+        """shape (n, gains); zeros where the term does not cover the test. EffectError: see `guarded_basis`."""
         if not self.covers(test):
             return np.zeros((len(test.t_s), len(self.effect.gains)))
         if isinstance(self.effect, OfTests):
             found = self.effect.column(test)
         else:
-            found = columns(self.effect, self._kept(test)[2], params)
+            try:
+                found = columns(self.effect, self._kept(test)[2], params)
+            except EffectError as error:
+                raise error.at(f"effect '{self.id}' of {error.origin}, test '{test.campaign}/{test.test}'") from error
         return self.while_acting(test, found)
 
     def while_acting(self, test: TestData, found: Float2D) -> Float2D:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from thermodata.effect.guard import guarded_basis
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
@@ -262,7 +263,9 @@ def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData
             drivers.valid,
             drivers.conditions,
         )
-        jump = term.effect.basis(pulse, term.params) @ np.array([term.gains[g.name] for g in term.effect.gains])
+        jump = guarded_basis(term.effect, pulse, term.params) @ np.array(
+            [term.gains[g.name] for g in term.effect.gains]
+        )
         ripple = float(np.max(np.abs(np.diff(jump)), initial=0.0))
         rows.append(
             Check(

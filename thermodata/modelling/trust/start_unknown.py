@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from thermodata.effect.guard import guarded_basis
 from thermodata.modelling.inputs.drivers import evaluate, start_deviation, step_s
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.acting import acting, moved_while
@@ -58,6 +59,6 @@ def _moved(term: BoundTerm, test: TestData, role: str, size: float, params: Mapp
     """By how much the effect's columns move, shape (n, gains)."""
     drivers = term.drivers(test)
     other = replace(drivers, values={**drivers.values, role: drivers.values[role] + size})
-    found = np.asarray(term.effect.basis(other, params) - term.effect.basis(drivers, params))
+    found = np.asarray(guarded_basis(term.effect, other, params) - guarded_basis(term.effect, drivers, params))
     where = None if term.spec.phases is None else acting(test, term.spec.phases)
     return found if where is None else moved_while(found, where)

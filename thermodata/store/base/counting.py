@@ -35,4 +35,9 @@ def counted(items: Sequence[_T], what: str) -> Iterator[_T]:
         tell(what, len(items), len(items))
 
 
-__all__ = ["Tell", "counted", "watched"]
+def watcher() -> Tell | None:
+    """Who watches, for work that comes in no items; None where nobody does."""
+    return _watch.get()
+
+
+__all__ = ["Tell", "counted", "watched", "watcher"]

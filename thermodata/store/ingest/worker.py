@@ -43,6 +43,10 @@ class Task:
     source: Source
 
 
+class _Ended(BaseException):
+    """The ingest ended this process. No SystemExit, which is a fault of a reader that says it."""
+
+
 @dataclass(frozen=True, slots=True)
 class Ready:
     """The process has begun."""
@@ -126,6 +130,8 @@ def main() -> None:
     """Reads tasks from stdin until it ends."""
     try:
         _work()
+    except _Ended:
+        pass
     finally:
         drop_unfinished()
         # without the interpreter's own end, which waits in vain for the thread that listens
@@ -136,7 +142,7 @@ def _work() -> None:
     # what a reader prints must not get between the answers
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    signal.signal(signal.SIGTERM, _end)
     tasks: SimpleQueue[Task | None] = SimpleQueue()
     sys.path[:] = pickle.load(sys.stdin.buffer)
     _say(out, Ready())
@@ -167,4 +173,8 @@ def _say(out: BinaryIO, what: Any) -> None:
         out.write(data)
         out.flush()
     except OSError:
-        sys.exit(1)
+        raise _Ended from None
+
+
+def _end(*_: object) -> None:
+    raise _Ended

@@ -1,0 +1,86 @@
+"""The guard: what an effect's basis gives, held against the contract before anything else sees it.
+
+Every call is checked: beside the filters that a basis runs it is too quick to be measured.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from thermodata.effect.registry import origin
+from thermodata.errors import FAILED, EffectError
+from thermodata.plugin import Drivers, Effect, Float2D
+
+_T = TypeVar("_T", bound=np.generic)
+
+
+def guarded_basis(effect: Effect, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+    """The effect's basis, shape (n, gains). EffectError where it raises what it may, gives columns of another shape or
+    dtype, or numbers that are none; drivers are finite, so that a column can be. Ctrl-C and a full memory pass."""
+    try:
+        found = effect.basis(drivers, p)
+    except (EffectError, MemoryError):
+        raise
+    except FAILED as error:
+        raise _fault(effect, drivers, f"effect '{effect.name}' failed", _raised(error)) from error
+    shape = len(drivers.t_s), len(effect.gains)
+    right = isinstance(found, np.ndarray) and found.dtype == np.float64 and found.shape == shape
+    # the quickest look at all of it; squares of finite numbers may be too large, which the second look forgives
+    if right and (math.isfinite(np.vdot(found, found)) or np.isfinite(found).all()):
+        return found
+    rule = "a basis gives one finite float64 column a gain, with a row a sample"
+    raise _fault(effect, drivers, f"effect '{effect.name}' broke the rule: {rule}", _given(effect, found, right, p))
+
+
+def read_only(drivers: Drivers) -> Drivers:
+    """The same drivers, which no effect can change: they are kept, and shared by the effects of a model."""
+    return Drivers(
+        _view(drivers.t_s),
+        MappingProxyType({role: _view(values) for role, values in drivers.values.items()}),
+        MappingProxyType({role: _view(valid) for role, valid in drivers.valid.items()}),
+        MappingProxyType(dict(drivers.conditions)),
+    )
+
+
+def _view(values: npt.NDArray[_T]) -> npt.NDArray[_T]:
+    view = values.view()
+    view.flags.writeable = False
+    return view
+
+
+def _fault(effect: Effect, drivers: Drivers, what: str, got: str) -> EffectError:
+    return EffectError(
+        what,
+        effect=effect.name,
+        origin=origin(effect),
+        expected=f"shape {(len(drivers.t_s), len(effect.gains))}, float64, finite; drivers are read-only",
+        got=got,
+        hint="a fault of this plugin: take its effect out of the model, or mend it "
+        "(thermodata.testing.effect.check_effect tells what it breaks)",
+    )
+
+
+def _raised(error: BaseException) -> str:
+    """'KeyError: 'zz' (line 12 of effect.py)': the line that raised it."""
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    line = "" if last is None else f" (line {last.tb_lineno} of {last.tb_frame.f_code.co_filename.rsplit('/', 1)[-1]})"
+    return f"{type(error).__name__}: {error}{line}"
+
+
+def _given(effect: Effect, found: object, right: bool, p: Mapping[str, float]) -> str:
+    if not isinstance(found, np.ndarray):
+        return f"{type(found).__name__}, and no array"
+    if not right:
+        return f"shape {found.shape}, {found.dtype}"
+    row, column = (int(place[0]) for place in np.nonzero(~np.isfinite(found)))
+    params = ", ".join(f"{name} = {value:g}" for name, value in p.items())
+    name = effect.gains[column].name
+    return f"{found[row, column]} in the column of '{name}' at row {row}" + (f", with {params}" if params else "")
