@@ -14,7 +14,8 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.schema.locate import located, placed
-from thermodata.store.catalogue.store import Store, new_mark
+from thermodata.store.catalogue.create import new_mark
+from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
