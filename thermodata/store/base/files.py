@@ -175,6 +175,12 @@ def key_of(*parts: str) -> str:
     return hashlib.sha256(b"".join(told)).hexdigest()[:32]
 
 
+def plain_name(text: str, letters: str = r"\w.-") -> str:
+    """A name of any text, without what leads elsewhere: what is none of `letters` (as in a pattern's brackets) becomes
+    '_', once. It may be the name of another text too (`safe_name` is not)."""
+    return re.sub(r"_+", "_", re.sub(f"[^{letters}]", "_", text)).strip("_.-") or "x"
+
+
 def safe_name(text: str, limit: int = 60) -> str:
     """A file name part of any text: what is not a plain letter becomes '-', and a digest keeps it unique."""
     plain = re.sub(r"[^A-Za-z0-9._-]+", "-", text).strip(".-")[:limit]
