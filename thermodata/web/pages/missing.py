@@ -27,6 +27,7 @@ from thermodata.store.catalogue.models import load_diagnosis
 from thermodata.view.describe import channel_infos
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.response_units import response_units, told_together, unit_of
+from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.render import desk_of, page
@@ -60,7 +61,7 @@ def show(request: Request) -> Response:
     desk = desk_of(request)
     store = desk.store()
     models = model_rows(store)
-    model = next((m for m in models if m.model == request.query_params.get("model")), models[0] if models else None)
+    model = model_in(store, models, request.query_params.get("model"))
     if model is None:
         return page(
             request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
