@@ -72,6 +72,15 @@ def test_answers_are_those_of_the_commands(
     assert first.diagnose().summary() == said("diagnose", first.id).rstrip("\n")
 
 
+def test_a_row_of_the_scores_shows_its_phase(store: OpenStore, better: Fit) -> None:
+    assert len({(s["test"], s["role"], s["response"]) for s in better.scores}) < len(better.scores)
+    for scores in (better.scores, store.compare().scores):
+        shown = scores.summary().splitlines()
+        assert len(shown) == len(set(shown)), "rows that say the same of other figures"
+        assert {"phase", "all", "heating"} <= {word for line in shown for word in line.split()}
+        assert "<th>phase</th>" in scores.html()
+
+
 def test_contributions_add_up_and_carry_units(store: OpenStore, better: Fit) -> None:
     found = better.contributions("day1")
     table = found.to_arrow_table()
