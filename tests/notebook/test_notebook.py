@@ -81,6 +81,20 @@ def test_a_row_of_the_scores_shows_its_phase(store: OpenStore, better: Fit) -> N
         assert "<th>phase</th>" in scores.html()
 
 
+def test_a_campaign_that_a_folder_is_called_like_is_predicted_by_its_own_name(
+    better: Fit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone = better.predict("small")
+    (tmp_path / "small").mkdir()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(UsageError, match="a campaign of the store and a path") as error:
+        better.predict("small")
+    assert str(error.value.hint) == "./small is the path alone, campaign:small the campaign"
+    assert better.predict("campaign:small").summary() == alone.summary()
+    with pytest.raises(UsageError, match="did you mean 'small'"):
+        better.predict("campaign:smal")
+
+
 def test_contributions_add_up_and_carry_units(store: OpenStore, better: Fit) -> None:
     found = better.contributions("day1")
     table = found.to_arrow_table()
