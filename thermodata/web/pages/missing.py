@@ -17,8 +17,8 @@ from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.of_response import of_response, worst_of
 from thermodata.report.pieces import names_of_pieces
-from thermodata.report.verdict import as_named, claims_of, explainable, told, verdict_sentence
-from thermodata.report.words import heat_lines, in_unit, listed, number
+from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.words import heat_lines, in_unit, number
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
@@ -118,12 +118,8 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
 
 
 def _headline(found: Diagnosis) -> str:
-    """How sure, and what else it could be, each once, in one sentence."""
-    sentence = verdict_sentence(found)
-    others = [e for c in claims_of(found) for e in c.equivalent if as_named(e) not in sentence]
-    if others:
-        sentence = sentence.replace("; error on", f", or {listed(others)}: these tests can't tell; error on", 1)
-    return sentence[:1].upper() + sentence[1:]
+    """The sentence of the terminal; what the tests can't tell from a claim stands below it, as in its table."""
+    return capital(verdict_sentence(found))
 
 
 def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
