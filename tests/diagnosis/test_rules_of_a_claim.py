@@ -299,9 +299,19 @@ def test_contributions_this_alike_are_twins(alike: float, found: bool) -> None:
 
 
 @pytest.mark.parametrize(
-    ("times", "lost", "found"), [(1.99, 2.1, True), (2.01, 2.1, False), (2.01, 1.9, True), (9.0, -2.1, False)]
+    ("times", "lost", "found"),
+    [
+        (1.99, 2.1, True),
+        (2.01, 2.1, False),
+        (2.01, 1.9, True),
+        (3.99, 1.9, True),
+        (4.01, 1.9, False),
+        (9.0, -2.1, False),
+    ],
 )
-def test_what_acts_alike_and_surely_leaves_twice_as_much_is_no_twin(times: float, lost: float, found: bool) -> None:
+def test_what_acts_alike_and_leaves_far_more_or_surely_twice_as_much_is_no_twin(
+    times: float, lost: float, found: bool
+) -> None:
     """times: the error that the other leaves. lost: log probability that it loses, in standard errors."""
     wave = np.array([1.0, -1.0] * 5)
     wave /= wave.std(ddof=1)

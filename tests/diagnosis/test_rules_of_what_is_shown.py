@@ -61,6 +61,23 @@ def test_a_window_is_half_an_hour_or_a_twelfth_of_a_short_test(n: int, width: in
     assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * width, 60.0 * (2 * width - 1))]
 
 
+@pytest.mark.parametrize(("left", "first"), [(1, 570), (14, 570), (15, 600), (29, 600)])
+def test_what_is_left_of_half_a_window_or_more_is_one(left: int, first: int) -> None:
+    """A shorter rest belongs to the window before it, with which it stands out."""
+    r = np.ones(600 + left)
+    r[600:] = 9.0
+    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * first, 60.0 * (599 + left))]
+
+
+@pytest.mark.parametrize(("counts", "shown"), [(1, False), (2, True)])
+def test_a_single_sample_is_no_spot(counts: int, shown: bool) -> None:
+    mask = np.ones(600, bool)
+    mask[150 + counts : 180] = False
+    assert bool(spots(raised(5.0), mask=mask)) is shown
+    r = np.full(600, 5.0)
+    assert spots(r, mask=np.arange(600) == 7) == [], "nor where it is all that the test has"
+
+
 def test_what_does_not_count_is_no_spot_and_windows_begin_with_what_counts() -> None:
     r = raised(5.0, (0,))
     mask = np.arange(600) >= 40

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from thermodata.cli.common import known_failure
 from thermodata.errors import ThermodataError
 from thermodata.export import export_test
 from thermodata.report.write import write_page
-from thermodata.store.base.files import whole_file
+from thermodata.store.base.files import not_written, whole_file, write_error
 from thermodata.view import StoreView
 
 from .test_take_away import view as view  # a store with one test
@@ -23,7 +24,7 @@ resource = pytest.importorskip("resource")
 
 @contextmanager
 def full_after(size: int) -> Iterator[None]:
-    """No file may grow beyond `size` bytes: EFBIG, as a disk that is full says ENOSPC."""
+    """No file may grow beyond `size` bytes: EFBIG."""
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
     try:
@@ -35,10 +36,10 @@ def full_after(size: int) -> Iterator[None]:
 @pytest.mark.parametrize("name", ["out.csv", "out.parquet", "out.mat", "out.mf4"])
 def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, name: str) -> None:
     out = tmp_path / "away" / name
-    with full_after(200), pytest.raises(ThermodataError, match="the disk is full") as error:
+    with full_after(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
         export_test(view, "c", "sp9000", out, step="1 s")
     assert error.value.where == str(out)
-    assert "MB free" in str(error.value.got)
+    assert "ulimit -f" in str(error.value.hint)
     assert error.value.exit_code == 4, "as every full disk"
     assert list(out.parent.iterdir()) == []
     export_test(view, "c", "sp9000", out, step="1 s")
@@ -47,7 +48,7 @@ def test_an_export_to_a_full_disk_says_where(view: StoreView, tmp_path: Path, na
 
 def test_a_page_on_a_full_disk_says_where_and_the_old_page_stays(tmp_path: Path) -> None:
     page = write_page(tmp_path / "r.html", "old")
-    with full_after(200), pytest.raises(ThermodataError, match="the disk is full") as error:
+    with full_after(200), pytest.raises(ThermodataError, match="longer than it may be") as error:
         write_page(page, "new" * 1000)
     assert error.value.where == str(page)
     assert page.read_text() == "old"
@@ -76,3 +77,20 @@ def test_a_file_is_on_the_disk_before_it_has_its_name(tmp_path: Path, monkeypatc
         part.write_text("x")
     assert there[0] is False
     assert target.read_text() == "x"
+
+
+@pytest.mark.parametrize(
+    ("code", "what", "tells_free"),
+    [
+        (errno.ENOSPC, "the disk is full", True),
+        (errno.EDQUOT, "the quota of the disk is used up", False),
+        (errno.EFBIG, "the file is longer than it may be", False),
+    ],
+)
+def test_each_way_to_have_no_room_is_said_as_what_it_is(tmp_path: Path, code: int, what: str, tells_free: bool) -> None:
+    """What is free on the disk is told only where that is what lacks."""
+    error = OSError(code, os.strerror(code))
+    for said in (write_error(tmp_path / "a", error), not_written(tmp_path / "a", error), known_failure(error)):
+        assert said is not None
+        assert (said.what, said.exit_code) == (what, 4)
+    assert ("MB free" in str(write_error(tmp_path / "a", error))) is tells_free

@@ -72,6 +72,29 @@ def test_answers_are_those_of_the_commands(
     assert first.diagnose().summary() == said("diagnose", first.id).rstrip("\n")
 
 
+def test_a_row_of_the_scores_shows_its_phase(store: OpenStore, better: Fit) -> None:
+    assert len({(s["test"], s["role"], s["response"]) for s in better.scores}) < len(better.scores)
+    for scores in (better.scores, store.compare().scores):
+        shown = scores.summary().splitlines()
+        assert len(shown) == len(set(shown)), "rows that say the same of other figures"
+        assert {"phase", "all", "heating"} <= {word for line in shown for word in line.split()}
+        assert "<th>phase</th>" in scores.html()
+
+
+def test_a_campaign_that_a_folder_is_called_like_is_predicted_by_its_own_name(
+    better: Fit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone = better.predict("small")
+    (tmp_path / "small").mkdir()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(UsageError, match="a campaign of the store and a path") as error:
+        better.predict("small")
+    assert str(error.value.hint) == "./small is the path alone, campaign:small the campaign"
+    assert better.predict("campaign:small").summary() == alone.summary()
+    with pytest.raises(UsageError, match="did you mean 'small'"):
+        better.predict("campaign:smal")
+
+
 def test_contributions_add_up_and_carry_units(store: OpenStore, better: Fit) -> None:
     found = better.contributions("day1")
     table = found.to_arrow_table()

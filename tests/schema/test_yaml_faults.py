@@ -32,6 +32,31 @@ def test_a_fault_of_yaml_names_its_line_and_what_to_do(text: str, where: str, hi
     assert str(told.value.hint).startswith(hint)
 
 
+@pytest.mark.parametrize(("bad", "code"), [("\0", "U+0000"), ("\x01", "U+0001"), ("\ufffe", "U+FFFE")])
+def test_a_character_that_yaml_does_not_take_is_named_with_its_place(bad: str, code: str) -> None:
+    """The lines before it are set in as a fault of indentation would be, which has nothing to do with it."""
+    with pytest.raises(SpecError, match="not valid YAML") as told:
+        parse_document(f"m:\n  id: 1\n  a: x{bad}", Path("c.yaml"))
+    assert told.value.where == "c.yaml:3, column 7"
+    assert code in str(told.value.got)
+    assert str(told.value.hint).startswith(f"delete the character {code} in line 3")
+    assert parse_document("m:\n  id: 1\n  a: xž\n", Path("c.yaml")).data["m"]["a"] == "xž"
+
+
+@pytest.mark.parametrize("text", ["s: x\na: " + "[" * 5000, "s:\n" + "".join(f"{' ' * k}k:\n" for k in range(1, 500))])
+def test_what_nests_too_deep_is_told_so_with_its_line(text: str) -> None:
+    with pytest.raises(SpecError, match="nests too deep") as told:
+        parse_document(text, Path("c.yaml"))
+    assert told.value.where == ("c.yaml:2" if "[" in text else "c.yaml:61")
+    assert "60 levels" in str(told.value)
+    assert "set in by" not in str(told.value)
+
+
+@pytest.mark.parametrize("levels", [20, 58])
+def test_what_nests_less_is_read(levels: int) -> None:
+    assert parse_document("a: " + "[" * levels + "]" * levels, Path("c.yaml")).data["a"] is not None
+
+
 def test_values_of_a_list_that_lack_the_same_are_one_problem() -> None:
     text = (
         "schema: thermodata/campaign/1\nid: x\nmachine: {id: a}\nsources: {log: {reader: table, files: a.csv}}\n"

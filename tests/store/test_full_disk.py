@@ -100,7 +100,7 @@ def limited(op: str, store: Path, argument: object, most_bytes: int) -> subproce
     )
 
 
-def test_a_catalogue_that_cannot_grow_is_a_full_disk(store: Store, campaign: Path) -> None:
+def test_a_catalogue_that_cannot_grow_is_said(store: Store, campaign: Path) -> None:
     size = (store.path / "catalog.duckdb").stat().st_size
     # the catalogue's log outgrows the limit before any of these small Parquet files does
     long = "{speed: 9000 rpm, note: " + "x" * size + "}"
@@ -108,7 +108,7 @@ def test_a_catalogue_that_cannot_grow_is_a_full_disk(store: Store, campaign: Pat
     done = limited("ingest", store.path, campaign, size // 2)
     assert done.returncode != 0
     assert "StoreError" in done.stderr
-    assert "disk is full" in done.stderr
+    assert "longer than it may be" in done.stderr
     assert whole.check(store.path)["sample"] == 0
     assert ingest(Store(store.path), campaign).changed
 
@@ -117,7 +117,7 @@ def test_a_snapshot_on_a_full_disk_is_no_file(filled: Store, tmp_path: Path) -> 
     out = tmp_path / "all.duckdb"
     done = limited("snapshot", filled.path, out, 100_000)
     assert "StoreError" in done.stderr
-    assert "disk is full" in done.stderr
+    assert "longer than it may be" in done.stderr
     assert not out.exists()
     assert not list(tmp_path.glob(".all*"))
     assert snapshot(filled, out) == out

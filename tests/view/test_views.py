@@ -16,6 +16,7 @@ from thermodata.schema.flag import INVALID, Flag
 from thermodata.store import Store
 from thermodata.store.base import connection
 from thermodata.store.views.catalogue import read_catalogue
+from thermodata.store.views.identifiers import IDENTIFIERS
 from thermodata.store.views.regenerate import regenerate, statements
 from thermodata.store.views.version import VIEWS as VERSION
 from thermodata.store.views.version import of_this_version
@@ -89,7 +90,7 @@ def test_an_empty_store_has_every_view_empty_and_typed(empty_store: Store, view:
 
 
 # of the statements that make all views of `small`, by version
-MADE = {4: "05718aea3d331641"}
+MADE = {5: "9eaa8a8b44643f67"}
 
 
 def test_the_version_of_views_is_raised_with_what_they_say(small: Store) -> None:
@@ -231,6 +232,18 @@ def test_every_column_of_numbers_says_its_unit(small: Store) -> None:
         )
         == []
     )
+
+
+def test_every_column_by_which_rows_are_told_apart_says_what_it_is(small: Store) -> None:
+    names = ", ".join(f"'{name}'" for name in IDENTIFIERS)
+    query = (
+        "select c.table_name, c.column_name from duckdb_columns() c join duckdb_views() v "
+        "on v.view_name = c.table_name and v.database_name = c.database_name "
+        f"where not c.internal and c.comment is null and c.column_name in ({names})"
+    )
+    assert sql(small, query) == []
+    said = "select comment from duckdb_columns() where table_name = 'sample' and column_name = 'test'"
+    assert sql(small, said) == [(IDENTIFIERS["test"],)]
 
 
 def test_phases_gaps_and_quality(small: Store) -> None:

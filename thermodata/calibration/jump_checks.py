@@ -6,6 +6,7 @@ import numpy as np
 
 from thermodata.calibration.jump_fit import JumpFit
 from thermodata.calibration.jump_plausible import probe_exists
+from thermodata.calibration.limits import DWELL
 from thermodata.calibration.plateaus import Plateau
 from thermodata.calibration.result import Check, check
 from thermodata.calibration.static import ratio_units
@@ -101,7 +102,7 @@ def rows(
             "dwell_s",
             dwell,
             spec.dwell,
-            0.4 * spec.dwell <= dwell <= 2.5 * spec.dwell,
+            DWELL[0] * spec.dwell <= dwell <= DWELL[1] * spec.dwell,
             "the plateaus don't last as long as declared: are these the commanded moves?",
         )
     )

@@ -68,13 +68,16 @@ def known_failure(error: Exception) -> ThermodataError | None:
                 got=os.strerror(error.errno),
                 hint="name a folder of your own, or give yourself the right",
             )
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+        from thermodata.store.base.no_room import no_room
+
+        way = no_room(error)
+        if way is None:
             return None
         return StoreError(
-            "the disk is full",
+            way.what,
             where=str(error.filename) if error.filename else None,
             got=error.strerror,
-            hint="free space and run it again",
+            hint=f"{way.todo}, and run it again",
         )
     # by name: DuckDB is imported in the store and its views only, and only where it is needed
     if not type(error).__module__.lstrip("_").startswith("duckdb"):

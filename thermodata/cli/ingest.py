@@ -30,14 +30,18 @@ def ingest_command(session: Session, campaign: Path) -> int:
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
-    if (step := _next_step(store, summary["campaign"], campaign)) is not None:
+    if (step := _next_step(store, summary, campaign)) is not None:
         session.say(step)
     return 3 if summary["losses"] else 0
 
 
-def _next_step(store: Store, name: str, campaign: Path) -> str | None:
-    """What leads to a model, where the campaign has none."""
+def _next_step(store: Store, summary: dict[str, Any], campaign: Path) -> str | None:
+    """What leads to a model, where the campaign has none; to samples, where it has none of these."""
+    if not summary["samples"]:
+        # where nothing was lost, it has no tests yet, as a note says
+        return f"next: mend what was lost, then thermodata ingest {campaign} again" if summary["losses"] else None
     with store.reader() as con:
+        name = summary["campaign"]
         if con.execute("select 1 from model where list_contains(campaigns, ?) limit 1", [name]).fetchone():
             return None
     model = campaign.with_name("model.yaml")

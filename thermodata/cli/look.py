@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from thermodata.calibration.limits import with_limits
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.ingest import calibrations_text
@@ -127,9 +128,11 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
 def calibrations_command(session: Session, campaign: str | None) -> None:
     """Show the calibrations.
 
-    Signed sensitivity, uncertainty, noise, and what failed a check.
+    Signed sensitivity, uncertainty, noise, and what failed a check. JSON has all checks, each with the limit by which
+    it passes.
     """
     rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
+    rows = [{**row, "checks": with_limits(row["checks"])} for row in rows]
     session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
 
 

@@ -33,11 +33,12 @@ def report_command(session: Session, model: str | None, out: Path | None) -> Non
     none is named.
     """
     from thermodata.report import build_report
+    from thermodata.report.write import page_name
     from thermodata.store.catalogue.models import find_model
 
     store = session.store()
     found = find_model(store, resolve(store, model, session))
-    page = build_report(store, found.model, out or Path(f"report-{found.name}-{found.model[:8]}.html"))
+    page = build_report(store, found.model, out or Path(page_name(found.name, found.model)))
     session.answer({"model": found.model, "report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
 
 

@@ -20,6 +20,7 @@ SCORES = (
     ("test", "test"),
     ("role", "role"),
     ("response", "response"),
+    ("phase", "phase"),
     ("fit", "FIT [%]"),
     ("rmse_um", "RMSE [um]"),
     ("max_um", "max [um]"),

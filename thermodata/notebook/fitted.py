@@ -115,7 +115,8 @@ class Fit(Shown):
 
     def predict(self, target: Path | str) -> Predictions:
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
-        What can't be predicted is left out, with the reason in `left_out`. UsageError where there is no test."""
+        'campaign:ID' is the campaign where a path is called so too. What can't be predicted is left out, with the
+        reason in `left_out`. UsageError where there is no test."""
         from thermodata.draft.known.to_predict import predictions_of
         from thermodata.modelling.run import load
 

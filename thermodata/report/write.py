@@ -10,8 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.chart import Chart, HeatMap, script, script_json, style
-from thermodata.store.base.files import whole_file
+from thermodata.store.base.files import plain_name, whole_file
 from thermodata.version import __version__
+
+
+def page_name(name: str, model: str) -> str:
+    """The file of a report. name: of the model, which may hold anything; model: its id, which tells files apart."""
+    # short: a file's name may have 255 bytes, and a letter up to four
+    return f"report-{plain_name(name)[:50]}-{model[:8]}.html"
 
 
 def write_page(out: Path | str, html: str) -> Path:

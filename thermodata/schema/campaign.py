@@ -129,7 +129,7 @@ class Campaign(Strict):
                     name,
                     f"no name for a channel: '{name}'",
                     expected="letters, digits and single '_', starting with a letter, and none of "
-                    + ", ".join(sorted(RESERVED_NAMES)),
+                    + f"{', '.join(sorted(RESERVED_NAMES))}, in capital letters or small",
                     hint=f"for example {_allowed(name)}: the channel's 'signal' stays as the file has it",
                 )
             if name.lower() in seen:

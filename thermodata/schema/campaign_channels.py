@@ -6,7 +6,18 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from thermodata.schema.declared import Amount, At, Attributed, Direction, Seconds, Strict, Um, Value
+from thermodata.schema.declared import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    Amount,
+    At,
+    Attributed,
+    Direction,
+    Seconds,
+    Strict,
+    Um,
+    Value,
+)
 from thermodata.schema.quantity import Quantity
 
 MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
@@ -24,7 +35,7 @@ class Sensor(Attributed):
 
     serial: str | None = None
     range: tuple[Amount, Amount] | None = None
-    resolution: Amount | None = None
+    resolution: Annotated[Amount, NOT_NEGATIVE] | None = None
 
 
 class Channel(Strict):
@@ -116,8 +127,8 @@ class JumpCalibration(Strict):
     file: str
     signal: str
     moves: list[Um] | Literal["unknown"]
-    dwell: Seconds = 10.0
-    move_uncertainty: Um = 1.0
+    dwell: Annotated[Seconds, POSITIVE] = 10.0
+    move_uncertainty: Annotated[Um, NOT_NEGATIVE] = 1.0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] | None = None
     gain: Amount | None = None
@@ -143,7 +154,7 @@ class ScaleCalibration(Strict):
     offset: Amount = 0
     facing: Direction | None = None
     increases_with: Literal["gap", "approach"] = "gap"
-    uncertainty: Amount | None = None
+    uncertainty: Annotated[Amount, NOT_NEGATIVE] | None = None
 
 
 class LinearCalibration(Strict):

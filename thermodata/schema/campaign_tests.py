@@ -9,6 +9,8 @@ from pydantic import BeforeValidator, Field, field_validator
 
 from thermodata.schema.campaign_channels import Sensor
 from thermodata.schema.declared import (
+    NOT_NEGATIVE,
+    POSITIVE,
     At,
     Attributed,
     Length,
@@ -52,8 +54,8 @@ class Measuring(Strict):
 
     when: str | None = None
     in_range: str | dict[str, tuple[Value, Value]] | None = None
-    settle: Seconds = 0.0
-    for_: Annotated[float, in_unit("s")] | None = Field(default=None, alias="for")
+    settle: Annotated[Seconds, NOT_NEGATIVE] = 0.0
+    for_: Annotated[float, in_unit("s"), NOT_NEGATIVE] | None = Field(default=None, alias="for")
 
 
 class Zero(Strict):
@@ -62,7 +64,7 @@ class Zero(Strict):
     over: how long those samples last [s]
     """
 
-    over: Seconds = 600.0
+    over: Annotated[Seconds, POSITIVE] = 600.0
 
 
 class ChannelOverride(Strict):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
@@ -111,10 +112,30 @@ def _in_nanoseconds(seconds: float) -> float:
     return seconds
 
 
+def _signed(holds: Callable[[float], bool], expected: str) -> AfterValidator:
+    """Refuses an amount, with or without a unit, whose number can't be. Text without a number is left as it is."""
+
+    def judge(value: Any, info: ValidationInfo) -> Any:
+        if value is None or info.context == STORED:
+            return value
+        try:
+            number, _ = split_value(value)
+        except ThermodataError:
+            return value
+        if not holds(number):
+            raise WrongValueError("a number that can't be", expected=expected)
+        return value
+
+    return AfterValidator(judge)
+
+
+NOT_NEGATIVE = _signed(lambda number: number >= 0, "0 or more")
+POSITIVE = _signed(lambda number: number > 0, "more than 0")
+
 Seconds = Annotated[float, in_unit("s"), AfterValidator(_in_nanoseconds)]
 Um = Annotated[float, in_unit("um")]
 Amount = Annotated[Value, amount()]
-Length = Annotated[Value, amount("mm")]
+Length = Annotated[Value, amount("mm"), NOT_NEGATIVE]
 Position = Annotated[Value, amount("mm", "deg", words=True)]
 Paths = Annotated[str | list[str], BeforeValidator(_as_a_path)]
 At = Annotated[str, BeforeValidator(_as_a_place)]

@@ -10,7 +10,7 @@ from typing import Any
 import yaml
 
 from thermodata.errors import SpecError
-from thermodata.schema.yaml_faults import advice
+from thermodata.schema.yaml_faults import advice, place_of, problem_of
 
 MAX_BYTES = 16 * 1024 * 1024
 MAX_NODES = 500_000
@@ -110,36 +110,43 @@ def read_document(path: Path) -> Document:
 
 def parse_document(text: str, path: Path) -> Document:
     """The same from text; `path` is for messages and relative files."""
-    if FastLoader is not None and not any(char in text for char in _LOOSE) and _is_shallow(text, FastLoader):
+    if FastLoader is not None and not any(char in text for char in _LOOSE) and not _too_deep(text, FastLoader):
         try:
             return _parsed(FastLoader(text), path)
         except yaml.YAMLError:
             pass  # what it refuses the other one reads, or says where and why in its own words
     try:
         return _parsed(SlowLoader(text), path)
-    except (yaml.YAMLError, RecursionError) as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f":{mark.line + 1}, column {mark.column + 1}" if mark else ""
+    except RecursionError:
+        line = _too_deep(text, SlowLoader)
+        raise SpecError(
+            "the file nests too deep",
+            where=f"{path.name}:{line}",
+            expected=f"at most {MAX_DEPTH} levels",
+            hint=f"look at the brackets and indentation of line {line}: a campaign or model file needs some six levels",
+        ) from None
+    except yaml.YAMLError as error:
         raise SpecError(
             "not valid YAML",
-            where=f"{path.name}{line}",
-            got=str(getattr(error, "problem", None) or type(error).__name__),
+            where=f"{path.name}{place_of(error, text)}",
+            got=problem_of(error),
             hint=advice(error, text),
         ) from None
 
 
-def _is_shallow(text: str, loader: Any) -> bool:
-    """Whether it nests no deeper than is allowed. The parser in C composes by recursion and doesn't count it: deep
-    nesting would end the process. Its events come one by one."""
+def _too_deep(text: str, loader: Any) -> int:
+    """The line, from 1, from which on it nests deeper than is allowed; 0 where it doesn't. The parser in C composes by
+    recursion and doesn't count it: deep nesting would end the process. Its events come one by one. What is no YAML is
+    not deep: who composes it says why."""
     depth = 0
     try:
         for event in yaml.parse(text, Loader=loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
             if depth > MAX_DEPTH:
-                return False
+                return 1 + (event.start_mark.line if event.start_mark else 0)
     except yaml.YAMLError:
-        return False
-    return True
+        pass
+    return 0
 
 
 def _parsed(loader: Any, path: Path) -> Document:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ def parse_campaign(text: str, name: str = "campaign.yaml") -> Campaign:
 
 def _campaign(document: Document) -> Campaign:
     _expect_schema(document, "thermodata/campaign/1")
+    _only_numbers(document)
     campaign = validate(Campaign, document)
     check_campaign(campaign, document)
     if campaign.tests_from is not None:
@@ -48,6 +50,19 @@ def _model(document: Document) -> Model:
     _expect_schema(document, "thermodata/model/1")
     _keep_digits(document)
     return validate(Model, document)
+
+
+def _only_numbers(document: Document) -> None:
+    """`.nan` and `.inf` are numbers to YAML, and nothing of a machine: they would be kept as null."""
+    for place, text in document.digits.items():
+        if not math.isfinite(at_place(document.data, place)):
+            raise SpecError(
+                f"'{'.'.join(map(str, place))}': not a number that a machine can have",
+                where=document.where(place),
+                expected="a number with its unit: 9000 rpm",
+                got=text,
+                hint="leave out what is not known",
+            )
 
 
 def _keep_digits(document: Document) -> None:

@@ -171,6 +171,20 @@ class Model(Strict):
     taken_back: str | None = Field(default=None, json_schema_extra=NOT_TYPED)
     notes: str = ""
 
+    @field_validator("response", mode="before")
+    @classmethod
+    def _by_mappings(cls, value: Any) -> Any:
+        listed = value if isinstance(value, list) else [value]
+        if any(isinstance(one, str) for one in listed):
+            whole = [{"channel": one} if isinstance(one, str) else one for one in listed]
+            meant = ", ".join("{" + ", ".join(f"{k}: {v}" for k, v in dict(one).items()) + "}" for one in whole)
+            raise WrongValueError(
+                "a response is said by its place or as a channel, not by a name alone",
+                expected="{axis: Z, at: tcp} or {channel: name}, or a list of such",
+                hint=f"response: [{meant}]" if isinstance(value, list) else f"response: {meant}",
+            )
+        return value
+
     @field_validator("response")
     @classmethod
     def _some(cls, value: Any) -> Any:

@@ -6,6 +6,7 @@ the table. Every channel comes to it by data (the jump test, or the probe's faci
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 from typing import Any, Literal, get_args
@@ -245,7 +246,10 @@ def split_value(text: str | float | int) -> tuple[float, str]:
     match = _QUANTITY_TEXT.match(text)
     if not match:
         raise UsageError("not a value with a unit", expected="for example '10 s'", got=repr(text))
-    return float(match[1].replace(",", ".")), match[2]
+    number = float(match[1].replace(",", "."))
+    if not math.isfinite(number):  # of so many digits
+        raise UsageError("a number that is too large", expected="for example '10 s'", got=repr(text))
+    return number, match[2]
 
 
 def value_in(text: str | float | int, unit: str) -> float:

@@ -5,19 +5,47 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from yaml.reader import ReaderError
+
 # quotes and signs that YAML keeps for itself: "found character '@' that cannot start any token"
 _NO_TOKEN = re.compile(r"found character '(.+)' that cannot start any token")
 
 
-def line_of(error: Any) -> int | None:
+def line_of(error: Any, text: str) -> int | None:
     """The line, from 0, that an error of the parser is about."""
+    if isinstance(error, ReaderError):
+        return text.count("\n", 0, error.position)
     mark = getattr(error, "problem_mark", None)
     return None if mark is None else int(mark.line)
 
 
+def place_of(error: Any, text: str) -> str:
+    """':3, column 7' of an error of the parser; '' where it knows none."""
+    mark = getattr(error, "problem_mark", None)
+    if mark is not None:
+        return f":{mark.line + 1}, column {mark.column + 1}"
+    at = line_of(error, text)
+    return "" if at is None else f":{at + 1}, column {error.position - text.rfind(chr(10), 0, error.position)}"
+
+
+def problem_of(error: Any) -> str:
+    """What the parser met."""
+    if isinstance(error, ReaderError):
+        return f"the character {_code(error)}, which no YAML holds"
+    return str(getattr(error, "problem", None) or type(error).__name__)
+
+
+def _code(error: ReaderError) -> str:
+    number = error.character if isinstance(error.character, int) else ord(error.character)
+    return f"U+{number:04X}"
+
+
 def advice(error: Any, text: str) -> str:
     """What to change, and in which line. error: of the parser; text: what it read."""
-    problem, at = str(getattr(error, "problem", None) or ""), line_of(error)
+    problem, at = str(getattr(error, "problem", None) or ""), line_of(error, text)
+    if isinstance(error, ReaderError):
+        number = 1 if at is None else at + 1
+        return f"delete the character {_code(error)} in line {number}: an editor may show it as a sign, or not at all"
     lines = text.splitlines()
     if at is None or at >= max(1, len(lines)):
         at = len(lines) - 1

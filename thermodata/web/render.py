@@ -88,7 +88,8 @@ def page(
             desk=desk,
             here=request.url.path,
             pages=PAGES,
-            query={"model": "", **request.query_params},
+            # a refusal leads on without what was refused
+            query={"model": "", **(request.query_params if status < 400 else {})},
             styles=STYLES,
             scripts=SCRIPTS,
             **context,

@@ -39,7 +39,8 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
     """tests: (test, residual of shape (n,), mask of shape (n,)). noise: floor of the response, in its unit.
 
     A window stands out where its RMS exceeds both three times the noise and 1.3 times the RMS of all; windows
-    that touch are one spot; spots are ranked by squared error.
+    that touch are one spot; spots are ranked by squared error. What is left at the end of a test belongs to the window
+    before it where it is shorter than half of one, and a single sample is no spot: its RMS is a reading.
     """
     total = sum(float(np.sum(r[m] ** 2)) for _, r, m in tests)
     count = sum(int(m.sum()) for _, _, m in tests)
@@ -75,8 +76,7 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
     step = float(test.t_s[1] - test.t_s[0])
     width = max(2, round(min(WINDOW_S, (end - begin) * step / WINDOWS_A_TEST) / step))
     windows: list[_Window] = []
-    for start in range(begin, end, width):
-        stop = min(start + width, end)
+    for start, stop in _cut(begin, end, width):
         m = mask[start:stop]
         n = int(m.sum())
         sse = float(np.sum(residual[start:stop][m] ** 2))
@@ -87,7 +87,15 @@ def _windows(test: TestData, residual: Float1D, mask: Bool1D, floor: float) -> l
             windows.append(_Window(test, last.start, stop, last.sse + sse, last.n + n, last.first))
         else:
             windows.append(_Window(test, start, stop, sse, n, start == begin))
-    return windows
+    return [w for w in windows if w.n > 1]
+
+
+def _cut(begin: int, end: int, width: int) -> list[tuple[int, int]]:
+    """Rows begin:end in windows of `width`, the last one up to half longer or shorter."""
+    starts = list(range(begin, end, width))
+    if len(starts) > 1 and 2 * (end - starts[-1]) < width:
+        starts.pop()
+    return list(zip(starts, [*starts[1:], end], strict=True))
 
 
 def _is_warm(window: _Window) -> bool:

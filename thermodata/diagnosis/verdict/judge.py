@@ -23,6 +23,7 @@ Verdict = Literal["effect", "refine", "none", "unknown", "not_testable"]
 MOST_CLAIMS = 3
 ALIKE = 0.9  # cosine of contributions that can't be told apart,
 APART = 2.0  # unless the tests surely speak for one, and the other leaves this many times its error;
+FAR = 4.0  # no twin leaves, however few the tests that say so: of three nothing is sure;
 # nor can those that act alike at all and leave nearly the same error, where the tests that one wins are not more than
 # chance would give it: the difference of their log probabilities against its standard error [vehtari2017]
 ALIKE_AT_ALL = 0.5
@@ -202,7 +203,7 @@ def _alike(a: Scored, b: Scored) -> bool:
     difference = a.gained - b.gained
     sure = abs(difference.sum()) > SURE * np.sqrt(len(difference)) * difference.std(ddof=1)
     if cosine > ALIKE:
-        return bool(not sure or _error(b) <= APART * _error(a))
+        return bool(_error(b) <= (APART if sure else FAR) * _error(a))
     return bool(not sure and _error(b) <= NEARLY * _error(a))
 
 

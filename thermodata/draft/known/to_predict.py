@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from thermodata.view.dataset import Dataset
 
 
+OF_STORE = "campaign:"  # before the id of a campaign, where a path is called so too
+
+
 @contextmanager
 def data_of(
     store: Store,
@@ -32,10 +35,17 @@ def data_of(
     path = Path(target)
     with store.reader() as con:
         known = [str(row[0]) for row in con.execute("select campaign from campaign order by 1").fetchall()]
-    if path.exists() and target in known:
-        raise UsageError(f"'{target}' is a campaign of the store and a path", hint=f"./{target} is the path alone")
-    if target in known:
-        yield _loaded(store, target, fitted.spec.step)
+    said = target.startswith(OF_STORE) and target not in known and not path.exists()
+    campaign = target.removeprefix(OF_STORE) if said else target
+    if said and campaign not in known:
+        raise unknown_name("campaign", campaign, known)
+    if path.exists() and campaign in known:
+        raise UsageError(
+            f"'{target}' is a campaign of the store and a path",
+            hint=f"./{target} is the path alone, {OF_STORE}{target} the campaign",
+        )
+    if campaign in known:
+        yield _loaded(store, campaign, fitted.spec.step)
         return
     if not path.exists():
         raise UsageError(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field
 from itertools import count
+
+from thermodata.store.base.files import plain_name
 
 # structured text, C and Python, and what the program itself is made of; in lower case
 _WORDS = """
@@ -27,7 +28,7 @@ class Names:
 
     def take(self, wanted: str) -> str:
         """A free name like the one that is wanted."""
-        base = re.sub(r"_+", "_", re.sub(r"\W", "_", wanted, flags=re.ASCII)).strip("_") or "x"
+        base = plain_name(wanted, "A-Za-z0-9_")
         base = f"m_{base}" if base[0].isdigit() else base
         tries = (base if i == 0 else f"{base}_{i + 1}" for i in count())
         name = next(n for n in tries if n.lower() not in self.names and n.lower() not in RESERVED)

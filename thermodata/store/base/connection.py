@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError
 from thermodata.store.base.files import write_error
+from thermodata.store.base.no_room import no_room
 
 if TYPE_CHECKING:
     import duckdb
@@ -59,16 +60,16 @@ def detach(con: duckdb.DuckDBPyConnection) -> None:
         con.close()
 
 
-def create_catalogue(path: Path) -> None:
-    """An empty catalogue file that DuckDB 1.5 and later open."""
-    import duckdb
+def finish(con: duckdb.DuckDBPyConnection, name: str) -> None:
+    """Writes a new, attached database into its file, whole, and closes it. duckdb.Error where there is no room: closing
+    it alone says nothing, and leaves a file without tables beside a log that holds them."""
+    con.execute(f"checkpoint {name}; detach {name}")
 
-    con = duckdb.connect(":memory:")
-    try:
-        con.execute(f"attach {literal(str(path))} as made (storage_version {literal(STORAGE_VERSION)})")
-        con.execute("detach made")
-    finally:
-        con.close()
+
+def drop_database(part: Path) -> None:
+    """Deletes a database in the making, and its log."""
+    for path in (part, part.with_name(part.name + ".wal")):
+        path.unlink(missing_ok=True)
 
 
 def settle(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
@@ -90,8 +91,8 @@ def damaged(path: Path, error: Exception) -> StoreError:
     low = text.lower()
     if any(word in low for word in ("permission denied", "read-only file system")):
         return write_error(path, OSError(errno.EACCES, text))
-    if any(word in low for word in ("no space left", "not enough space", "could not write file", "file too large")):
-        return write_error(path, OSError(errno.ENOSPC, text))
+    if no_room(error) is not None:
+        return write_error(path, error)
     busy = any(word in low for word in ("lock on file", "being used", "different configuration", "handle conflict"))
     return StoreError(
         "the catalogue is open in another program" if busy else "the catalogue is damaged",

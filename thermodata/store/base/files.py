@@ -8,11 +8,11 @@ import hashlib
 import os
 import re
 import secrets
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 from thermodata.errors import StoreError, ThermodataError
+from thermodata.store.base.no_room import no_room
 
 TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")  # DuckDB puts a .wal beside a database in the making
 
@@ -35,13 +35,11 @@ def drop_unfinished() -> None:
             part.unlink()
 
 
-DISK_FULL = "the disk is full"
-
-
 def write_error(path: Path, error: Exception, needed: str | None = None) -> StoreError:
-    """A failure to write below the store: full disk, read-only folder, or else. needed: how much room, in words."""
+    """A failure to write below the store: no room, read-only folder, or else. needed: how much room, in words."""
     text = _first_line(error)
-    if not _is_full(error):
+    way = no_room(error)
+    if way is None:
         locked = getattr(error, "errno", None) in (errno.EACCES, errno.EPERM, errno.EROFS)
         return StoreError(
             "the store can only be read" if locked else "the store cannot be written",
@@ -50,12 +48,11 @@ def write_error(path: Path, error: Exception, needed: str | None = None) -> Stor
             hint="give yourself the right to write there, or copy the store's folder" if locked else None,
         )
     return StoreError(
-        DISK_FULL,
+        way.what,
         where=str(path),
         expected=needed or "room for the file",
-        got=_free(path, text),
-        hint="free space ('thermodata gc' deletes what the store no longer needs) and run it again: "
-        "the store is as it was before",
+        got=way.got(path, text),
+        hint=f"{way.todo_in_store}, and run it again: the store is as it was before",
     )
 
 
@@ -79,13 +76,14 @@ def whole_file(target: Path, suffix: str = "") -> Iterator[Path]:
 
 def not_written(target: Path, error: OSError) -> ThermodataError:
     """What is said where a file outside of the store can't be written: it is not there, or as it was before."""
-    if _is_full(error):
+    way = no_room(error)
+    if way is not None:
         return StoreError(
-            DISK_FULL,
+            way.what,
             where=str(target.absolute()),
             expected="room for the file",
-            got=_free(target, _first_line(error)),
-            hint="free space there, or name a file on another disk; nothing half-written is left",
+            got=way.got(target, _first_line(error)),
+            hint=f"{way.todo}, or name a file on another disk; nothing half-written is left",
         )
     refused = error.errno in (errno.EACCES, errno.EPERM, errno.EROFS)
     return ThermodataError(
@@ -98,22 +96,6 @@ def not_written(target: Path, error: OSError) -> ThermodataError:
 
 def _first_line(error: Exception) -> str:
     return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-
-
-def _is_full(error: Exception) -> bool:
-    text = _first_line(error)
-    return getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) or any(
-        word in text
-        for word in ("No space left", "not enough space", "Disk quota", "File too large", "Could not write file")
-    )
-
-
-def _free(path: Path, text: str) -> str:
-    folder = next((p for p in path.absolute().parents if p.is_dir()), Path("/"))
-    try:
-        return f"{shutil.disk_usage(folder).free / 1e6:,.0f} MB free ({text})"
-    except OSError:
-        return text
 
 
 def is_whole(path: Path | str, size_bytes: int | None = None) -> bool:
@@ -191,6 +173,12 @@ def key_of(*parts: str) -> str:
     """A content key of texts: 32 hexadecimal digits."""
     told = [x for data in map(str.encode, parts) for x in (b"%d:" % len(data), data)]
     return hashlib.sha256(b"".join(told)).hexdigest()[:32]
+
+
+def plain_name(text: str, letters: str = r"\w.-") -> str:
+    """A name of any text, without what leads elsewhere: what is none of `letters` (as in a pattern's brackets) becomes
+    '_', once. It may be the name of another text too (`safe_name` is not)."""
+    return re.sub(r"_+", "_", re.sub(f"[^{letters}]", "_", text)).strip("_.-") or "x"
 
 
 def safe_name(text: str, limit: int = 60) -> str:

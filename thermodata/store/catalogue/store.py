@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import contextlib
-import secrets
 import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError, UsageError
 from thermodata.store.base import connection
-from thermodata.store.base.files import fsync_folder, write_text
-from thermodata.store.catalogue.ddl import FORMAT, TABLES
+from thermodata.store.base.files import write_text
+from thermodata.store.catalogue.create import CATALOGUE, MARK, create_catalogue, new_mark, not_begun, regenerate_views
 from thermodata.store.catalogue.lock import catalogue_lock
 from thermodata.store.catalogue.migrate import check_format, migrate
 from thermodata.store.views.version import of_this_version
-from thermodata.version import __version__
 
 if TYPE_CHECKING:
     import duckdb
-
-CATALOGUE = "catalog.duckdb"
-_MARK = "generation"
 
 
 class Store:
@@ -45,13 +39,14 @@ class Store:
                 where=str(self.path),
                 hint="DuckDB separates search paths by commas: move or rename the folder",
             )
-        if not self.is_at(self.path):
+        begun = self.is_at(self.path)
+        if not begun or not_begun(self.path):
             if not create:
                 raise UsageError(
                     "there is no store here",
                     where=str(self.path),
                     expected=CATALOGUE,
-                    got="no such file",
+                    got="one without tables, and no data" if begun else "no such file",
                     hint="thermodata ingest CAMPAIGN.yaml makes one; --store names another folder",
                 )
             self._create()
@@ -146,7 +141,7 @@ class Store:
     def mark(self) -> str:
         """What changes with every commit; '' where it can't be told."""
         try:
-            return (self.path / _MARK).read_text()
+            return (self.path / MARK).read_text()
         except OSError:
             return ""
 
@@ -172,7 +167,7 @@ class Store:
                             regenerate_views(con, self.path)
                         # before the commit: who sees the new mark waits for this turn to end, whoever dies in
                         # between causes one needless refresh; the other order could leave a stale copy in use
-                        write_text(self.path / _MARK, mark or new_mark())
+                        write_text(self.path / MARK, mark or new_mark())
                         _commit(con, self.path / CATALOGUE)
                     except BaseException:
                         _rollback(con)
@@ -212,41 +207,8 @@ class Store:
         except OSError as error:
             raise StoreError("the store's folder cannot be made", where=str(self.path), got=str(error)) from error
         with self._turn(exclusive=True):
-            target = self.path / CATALOGUE
-            if target.exists():  # another process was first
-                return
-            # made under another name: a half-made catalogue is never taken for a store
-            part = self.path / f".{CATALOGUE}.{secrets.token_hex(4)}.tmp"
-            connection.create_catalogue(part)
-            import duckdb
-
-            con = duckdb.connect(str(part))
-            try:
-                con.execute(TABLES)
-                con.execute(
-                    "insert into store values (?, ?, ?, 0)",
-                    [FORMAT, f"thermodata {__version__}", datetime.now(UTC).replace(tzinfo=None)],
-                )
-                regenerate_views(con, self.path)
-            finally:
-                con.close()
-            for folder in ("raw", "tidy", "model"):
-                (self.path / folder).mkdir(exist_ok=True)
-            write_text(self.path / _MARK, new_mark())
-            part.replace(target)
-            fsync_folder(self.path)
-
-
-def new_mark() -> str:
-    """The mark of a commit that is to be."""
-    return secrets.token_hex(8)
-
-
-def regenerate_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:
-    """Makes all views and macros anew from the tables."""
-    from thermodata.store.views.regenerate import regenerate  # only who writes needs them
-
-    regenerate(con, folder)
+            if not self.is_at(self.path) or not_begun(self.path):  # else another process was first
+                create_catalogue(self.path)
 
 
 def _our_views(con: duckdb.DuckDBPyConnection, folder: Path) -> None:

@@ -10,7 +10,8 @@ from pathlib import Path
 from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
 from thermodata.schema.campaign import JumpCalibration, SourceSpec, Test
-from thermodata.store.base.files import DISK_FULL, is_whole, write_error
+from thermodata.store.base.files import is_whole, write_error
+from thermodata.store.base.no_room import WAYS
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
@@ -292,8 +293,8 @@ def _renamed(raw: RawStream, path: str) -> RawStream:
 
 
 def _with_room(error: StoreError, path: str, file: SourceFile) -> StoreError:
-    """The same error; where the disk is full, with how much room the file takes."""
-    if error.what != DISK_FULL:
+    """The same error; where there is no room, with how much room the file takes."""
+    if error.what not in {way.what for way in WAYS}:
         return error
     # raw Parquet takes about as much as the log, and the tidy layer as much again
     needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"

@@ -10,11 +10,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from thermodata.calibration.limits import with_limits
 from thermodata.errors import StoreError, UsageError
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.load import load_campaign
 from thermodata.schema.locate import located, placed
-from thermodata.store.catalogue.store import Store, new_mark
+from thermodata.store.catalogue.create import new_mark
+from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
@@ -196,7 +198,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         flags=_summed(n.flags for n in notes.values()),
         read=raw_layer.read,
         made=tidy_layer.new_streams,
-        calibrations=[{**r.row(campaign.id), "name": r.name} for r in results.values()],
+        calibrations=[_told(r.row(campaign.id), r.name) for r in results.values()],
         losses=with_lines(losses, path),
         notes=list(
             dict.fromkeys(
@@ -269,3 +271,8 @@ def _summed(counts: Iterable[Mapping[str, int]]) -> dict[str, int]:
 
 
 __all__ = ["IngestSummary", "checked", "ingest", "store_for"]
+
+
+def _told(row: dict[str, Any], name: str) -> dict[str, Any]:
+    """A calibration as the answer of an ingest has it."""
+    return {**row, "name": name, "checks": with_limits(row["checks"])}

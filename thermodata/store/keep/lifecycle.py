@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, unknown_name
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import TEMPORARY
+from thermodata.store.catalogue.create import LAYERS
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.commit import drop_results, mark_stale
 from thermodata.store.ingest.inventory import BY_TEST
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     import duckdb
 
 _BATCH = 500  # files deleted in one turn at the catalogue: some 20 ms
-LAYERS = ("raw", "tidy", "model")
+
 _OF_MODEL = ("fit", "score_row", "prediction", "finding", "locked_look")
 
 

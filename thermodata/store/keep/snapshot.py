@@ -67,14 +67,13 @@ def snapshot(store: Store, out: Path | str) -> Path:
             }
             con.execute(_from_tables(statement, groups, per_campaign))
         con.execute("use memory")
-        con.execute("detach snap")
+        connection.finish(con, "snap")
         publish(part, target)
     except duckdb.Error as error:
         raise _refused(target, error, store) from error
     finally:
         con.close()
-        part.unlink(missing_ok=True)
-        part.with_name(part.name + ".wal").unlink(missing_ok=True)
+        connection.drop_database(part)
     return target
 
 

@@ -8,6 +8,7 @@ from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
+from thermodata.store.views.identifiers import identified
 from thermodata.store.views.wide import wide_name
 
 _EMPTY = (
@@ -49,6 +50,7 @@ def long_views(catalogue: Catalogue) -> Iterator[str]:
         ]
         text = " union all ".join(parts)
         yield f"create view {name} as {text or _EMPTY}"
+        yield from identified(name, ("campaign", "test", "source", "channel"))
         for column, comment in _COMMENTS.items():
             yield f"comment on column {name}.{column} is {literal(comment)}"
 

@@ -52,6 +52,7 @@ _TABLE_COMMENTS = {
         "noise_um": "[um]",
         "nonlinearity_pct": "[%]",
         "drift_um": "[um]",
+        "checks": "rows of name, value, threshold, passed, advice; which way each limit goes is told by 'calibrations'",
     },
     "fit": {
         "value": "in fit.unit",

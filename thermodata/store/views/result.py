@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.store.base.connection import literal
 from thermodata.store.base.files import is_whole
+from thermodata.store.views.identifiers import identified
 from thermodata.store.views.wide import file_list, prefix
 
 if TYPE_CHECKING:
@@ -179,6 +180,15 @@ _COMMENTS = {
     },
 }
 
+_OF_MODEL = ("campaign", "test", "model", "response")
+_IDENTIFIED = {
+    "phase": ("campaign", "test"),
+    **dict.fromkeys(("gap", "quality"), ("campaign", "test", "source", "channel")),
+    **dict.fromkeys(("score", "weak_spot", "candidate", "artefact", "diagnosis", "residual"), _OF_MODEL),
+    "portability": (*_OF_MODEL, "machine"),
+    "history": ("model", "parent", "root", "response"),
+}
+
 
 def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> Iterator[str]:
     """The statements that make the views over tables, and `residual` over the prediction files."""
@@ -186,6 +196,9 @@ def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> 
     paths = [path for (path,) in con.execute("select distinct path from prediction order by path").fetchall()]
     gone = [p for p in paths if folder is not None and not is_whole(folder / p)]
     yield _residual(paths, gone[0] if gone else None)
+    for view, ids in _IDENTIFIED.items():
+        own = _COMMENTS.get(view, {})
+        yield from identified(view, (name for name in ids if name not in own))
     for view, columns in _COMMENTS.items():
         for column, comment in columns.items():
             yield f"comment on column {view}.{column} is {literal(comment)}"

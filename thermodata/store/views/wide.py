@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Group
+from thermodata.store.views.identifiers import identified
 
 
 def file_list(paths: Iterable[str]) -> str:
@@ -49,6 +50,7 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
             f"comment on view {name} is "
             + literal(f"campaign {group.campaign}, source {group.source}, stream {group.stream}")
         )
+        yield from identified(name, ("campaign", "test", "source"))
         yield f"comment on column {name}.t is 'UTC'"
         yield f"comment on column {name}.t_s is '[s] from the start of the test'"
         for column in group.columns:
@@ -62,6 +64,7 @@ def wide_views(catalogue: Catalogue) -> Iterator[str]:
         or "select null::varchar, null::varchar, null::varchar, null::varchar limit 0"
     )
     yield f'create view wide as select * from ({listing}) w(campaign, source, stream, "view")'
+    yield from identified("wide", ("campaign", "source", "stream"))
 
 
 def _unreadable(group: Group) -> str:

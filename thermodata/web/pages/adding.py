@@ -6,7 +6,13 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from thermodata.errors import UsageError
-from thermodata.store.catalogue.models import find_model, load_diagnosis
+from thermodata.modelling.add import chosen_id
+from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.schema.candidate import Candidate
+from thermodata.schema.diagnosis import Diagnosis
+from thermodata.store import Store
+from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
+from thermodata.view.describe import channel_infos
 from thermodata.view.response_units import unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import pair
@@ -22,7 +28,7 @@ def show(request: Request) -> Response:
         raise UsageError("no candidate was named", hint="choose one on the page 'What is missing'")
     model = find_model(store, given.get("model", ""))
     found = load_diagnosis(store, model.model)
-    candidate = next((c for c in (found.candidates if found else []) if name in (c.id, str(c.rank))), None)
+    identity, candidate = _candidate(store, model, found, name)
     return page(
         request,
         "adding.html.j2",
@@ -30,8 +36,21 @@ def show(request: Request) -> Response:
         section="/missing",
         command=command(desk.store_path, "add", model.model, name),
         model=model,
-        name=candidate.id if candidate else name,
+        name=identity,
         candidate=candidate,
         unit=unit_of(store, found.response if found else model.result.responses[0], model.spec.campaign_ids),
         pair=pair,
     )
+
+
+def _candidate(store: Store, model: StoredModel, found: Diagnosis | None, named: str) -> tuple[str, Candidate | None]:
+    """(id, what the stored answer says of it). None for a choice of one's own: an effect on channels that there are.
+
+    UsageError, as `add` has it, for a rank, an effect or channels that there are not."""
+    name = chosen_id(store, model.model, named)
+    candidate = next((c for c in (found.candidates if found else []) if c.id == name), None)
+    if candidate is None:
+        with store.reader() as con:
+            infos = channel_infos(con, model.spec.campaign_ids)
+        with_candidate(model.spec, name, {n: info for table in infos.values() for n, info in table.items()})
+    return name, candidate

@@ -10,6 +10,7 @@ from starlette.responses import Response
 from thermodata.store import Store
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.overview import Asked, Sort, find_tests
+from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.strip import strip_svg
 from thermodata.web.query import number_in
@@ -25,7 +26,7 @@ def show(request: Request) -> Response:
         return page(request, "no_store.html.j2", title="No store yet", command="thermodata ingest CAMPAIGN.yaml")
     store = desk.store()
     models = model_rows(store)
-    chosen = next((m for m in models if m.model == given.get("model")), models[0] if models else None)
+    chosen = model_in(store, models, given.get("model"))
     asked = Asked(
         find=given.get("find", "")[:200],
         campaign=given.get("campaign", ""),

@@ -28,6 +28,7 @@ from thermodata.view.models import ModelRow, model_rows, term_order
 from thermodata.view.predictions import residual_courses
 from thermodata.view.residuals import Key, predicted_tests, residuals
 from thermodata.view.response_units import response_units, told_together
+from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.compare_charts import correlated, maps, over_channel
 from thermodata.web.pages.contributions import contribution_chart
@@ -64,7 +65,7 @@ def show(request: Request) -> Response:
     models = model_rows(store)
     if not models:
         return page(request, "compare.html.j2", title="Compare", command="thermodata fit model.yaml", models=[])
-    chosen = _chosen(models, [m for m in given.getlist("model") if m], given.get("pin", ""))
+    chosen = _chosen(store, models, given.getlist("model"), given.get("pin", ""))
     pinned = chosen[0]
     results = [find_model(store, m.model).result for m in chosen]
     courses = [residual_courses(store, m.model, predicted_tests(store, m.model)) for m in chosen]
@@ -164,15 +165,14 @@ def _drawn(
     return shown, script_json(contribution_chart(shown, labels, unit, order).as_json()), unit
 
 
-def _chosen(models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:
-    """The pinned one first; unasked, the newest beside the version that it came from."""
+def _chosen(store: Store, models: list[ModelRow], named: list[str], pin: str) -> list[ModelRow]:
+    """The pinned one first; unasked, the newest beside the version that it came from. UsageError for an unknown one."""
     by_id = {m.model: m for m in models}
-    found = [by_id[n] for n in dict.fromkeys(named) if n in by_id]
-    if not found:
-        found = [models[0]]
+    known = [model_in(store, models, name) for name in filter(None, named)]
+    found = list({m.model: m for m in known if m is not None}.values()) or [models[0]]
     if len(found) == 1 and found[0].parent in by_id:
         found = [by_id[found[0].parent], found[0]]
-    first = by_id.get(pin)
+    first = model_in(store, models, pin) if pin else None
     return [first, *(m for m in found if m is not first)] if first else found
 
 

@@ -17,8 +17,8 @@ from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.of_response import of_response, worst_of
 from thermodata.report.pieces import names_of_pieces
-from thermodata.report.verdict import as_named, claims_of, explainable, told, verdict_sentence
-from thermodata.report.words import heat_lines, in_unit, listed, number
+from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.words import heat_lines, in_unit, number
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
@@ -27,6 +27,7 @@ from thermodata.store.catalogue.models import load_diagnosis
 from thermodata.view.describe import channel_infos
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.response_units import response_units, told_together, unit_of
+from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.render import desk_of, page
@@ -60,7 +61,7 @@ def show(request: Request) -> Response:
     desk = desk_of(request)
     store = desk.store()
     models = model_rows(store)
-    model = next((m for m in models if m.model == request.query_params.get("model")), models[0] if models else None)
+    model = model_in(store, models, request.query_params.get("model"))
     if model is None:
         return page(
             request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
@@ -117,12 +118,8 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
 
 
 def _headline(found: Diagnosis) -> str:
-    """How sure, and what else it could be, each once, in one sentence."""
-    sentence = verdict_sentence(found)
-    others = [e for c in claims_of(found) for e in c.equivalent if as_named(e) not in sentence]
-    if others:
-        sentence = sentence.replace("; error on", f", or {listed(others)}: these tests can't tell; error on", 1)
-    return sentence[:1].upper() + sentence[1:]
+    """The sentence of the terminal; what the tests can't tell from a claim stands below it, as in its table."""
+    return capital(verdict_sentence(found))
 
 
 def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:

@@ -6,7 +6,9 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 
 from thermodata.errors import UsageError
+from thermodata.report.write import page_name
 from thermodata.view.models import model_rows
+from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.render import desk_of, page
 
@@ -14,9 +16,10 @@ from thermodata.web.render import desk_of, page
 def show(request: Request) -> Response:
     """GET /report: model."""
     desk = desk_of(request)
-    models = model_rows(desk.store())
-    model = next((m for m in models if m.model == request.query_params.get("model")), models[0] if models else None)
-    out = f"report-{model.name}-{model.model[:8]}.html" if model else ""
+    store = desk.store()
+    models = model_rows(store)
+    model = model_in(store, models, request.query_params.get("model"))
+    out = page_name(model.name, model.model) if model else ""
     return page(
         request,
         "report.html.j2",

@@ -19,6 +19,7 @@ from thermodata.view.predictions import Prediction, predictions, range_figures
 from thermodata.view.response_units import measured_units, response_units
 from thermodata.view.rule_for import rules_for
 from thermodata.view.window import Channel, Window, channels_of, read_window
+from thermodata.web.chosen import WITHOUT, model_in
 from thermodata.web.command import command
 from thermodata.web.pages.test_chart import drawn_as_curve, test_chart
 from thermodata.web.query import seconds_in
@@ -36,7 +37,7 @@ def show(request: Request) -> Response:
     known = _known(store, campaign, test)
     channels, chosen = _channels(known, given)
     models, about = known.models, known.about
-    model = _model(models, given)
+    model = _model(store, models, given)
     predicted = _predicted(store, model, given)
     span = _span(given)
     moving = _moving(store, about, chosen, given) if span else chosen
@@ -68,7 +69,7 @@ def data(request: Request) -> Response:
     store, given = desk_of(request).store(), request.query_params
     known = _known(store, *_named(given))
     _, chosen = _channels(known, given)
-    model = _model(known.models, given)
+    model = _model(store, known.models, given)
     predicted, order = _predicted(store, model, given), _order(known.models, model)
     chart = _chart(store, known.about, chosen, predicted, order, given)
     return JSONResponse(chart.as_json())
@@ -83,7 +84,7 @@ def stretch(request: Request) -> Response:
     if from_s is None or to_s is None or not from_s < to_s:
         raise UsageError("a stretch has a beginning and an end", expected="from < to, in seconds")
     models = [m for m in model_rows(store) if campaign in m.campaigns]
-    found = _predicted(store, _model(models, given), given)
+    found = _predicted(store, _model(store, models, given), given)
     return page(
         request,
         "test_range.html.j2",
@@ -141,9 +142,10 @@ def _channels(found: _Known, given: Mapping[str, str]) -> tuple[list[Channel], l
     return known, [c for c in known if c.name in wanted]
 
 
-def _model(models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
+def _model(store: Store, models: list[ModelRow], given: Mapping[str, str]) -> ModelRow | None:
+    """models: those of the test's campaign, which alone predict it."""
     named = given.get("model", "")
-    return next((m for m in models if m.model == named), models[0] if models and named != "none" else None)
+    return None if named == WITHOUT else model_in(store, models, named)
 
 
 def _order(models: list[ModelRow], model: ModelRow | None) -> list[str]:
