@@ -22,7 +22,9 @@ from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
 from thermodata.reader.text.times.unpadded import UNPADDED
 
 _MOST_QUESTIONS = 4
-_ASSUMED = f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}"
+_ASSUMED = (
+    f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}|is that its unit"
+)
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 
