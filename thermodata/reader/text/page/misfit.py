@@ -105,14 +105,15 @@ def _parted_stamps(
     names: Sequence[str], place: int, above: int, where: str, rows: Sequence[Sequence[Cell]]
 ) -> QuestionError:
     """Asks whether such a column holds milliseconds; meanwhile it does."""
-    said = {"skip_rows": above, "header_rows": 0, "names": [*names[:place], "ms", *names[place:]]}
+    all_names = [*names[:place], "ms", *names[place:]]
+    said = {"skip_rows": above, "header_rows": 0, "names": all_names}
     shown = ",".join(texts_of(rows[0])[place - 1 : place + 1])
     return QuestionError(
         "times whose milliseconds stand in a cell of their own, which the header does not name",
         where=where,
         expected="a name for each column",
         got=shown,
-        hint=f"declare table: {{skip_rows: {above}, header_rows: 0, names: [{', '.join(said['names'])}]}}",
+        hint=f"declare table: {{skip_rows: {above}, header_rows: 0, names: [{', '.join(all_names)}]}}",
         ask=f"names? the header names one column fewer than there are: is '{shown}' a time with its milliseconds?",
         declare=said,
         meanwhile=said,
