@@ -39,6 +39,22 @@ def test_a_loggers_code_for_no_value_is_out_of_range_and_a_reading_of_that_size_
     assert not flags["p"].any()
 
 
+@pytest.mark.parametrize("beside", [1e38, -1e38, 65535.0, -32768.0, 99999.0])
+def test_codes_of_several_kinds_are_told_beside_each_other(beside: float) -> None:
+    x = noisy()
+    x[100:103], x[200:203] = 32767.0, beside
+    flags, _ = run(clock(), dZ=("displacement", x))
+    assert np.flatnonzero(flags["dZ"] & Flag.OUT_OF_RANGE).tolist() == [100, 101, 102, 200, 201, 202]
+
+
+def test_what_passes_through_a_code_on_its_way_to_another_is_a_reading() -> None:
+    x = np.linspace(0, 65535, N) + noisy(2)
+    x[3000:3003], x[-1] = 32767.0, 65535.0
+    x[4000:4003] = 1e38
+    flags, _ = run(clock(), p=("pressure", x))
+    assert np.flatnonzero(flags["p"] & Flag.OUT_OF_RANGE).tolist() == [4000, 4001, 4002]
+
+
 def test_a_noisy_probe_that_runs_into_its_limit_is_saturated() -> None:
     x = noisy()
     limit = float(np.quantile(x, 0.9))

@@ -3,7 +3,8 @@ these do not agree, or nothing tells, they are asked."""
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
+import os
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -31,10 +32,11 @@ def test_a_file_whose_day_leaves_no_choice_tells_that_of_the_others(tmp_path: Pa
     made = draft_files(tmp_path)
     (source,) = made.draft.sources
     assert source.table == {"time": {"format": order}}
-    assert source.told == (f"dates {order}: c.csv can only be",)
+    said = f"dates {order}: c.csv can only be; a.csv, b.csv alone may be either"
+    assert source.told == (said,)
     assert not any("dmy or mdy" in q for q in source.questions)
     (line,) = [x for x in made.campaign.read_text("utf-8").splitlines() if "files:" in x]
-    assert line.endswith(f"dates {order}: c.csv can only be")
+    assert line.endswith(said)
 
 
 def test_files_that_can_only_be_one_and_only_the_other_leave_the_rest_open(tmp_path: Path) -> None:
@@ -66,7 +68,8 @@ def test_a_source_with_other_dates_tells_it_where_one_order_fits(tmp_path: Path,
     (source,) = [s for s in found.values() if s.table]
     assert source.table == {"time": {"format": order if agrees else "unknown"}}
     (beside,) = [s.name for s in found.values() if not s.table]
-    assert source.told == ((f"dates {order}: it fits the dates of '{beside}'",) if agrees else ())
+    said = f"dates {order}: it fits the dates of '{beside}'; a_nc.csv, b_nc.csv alone may be either"
+    assert source.told == ((said,) if agrees else ())
 
 
 @pytest.mark.parametrize("order", list(ORDERS))
@@ -104,3 +107,38 @@ def test_a_file_that_leaves_the_row_of_the_others_is_asked(
     (source,) = drafted(tmp_path).values()
     assert source.table == {"time": {"format": "unknown" if asked else order}}
     assert any("dmy or mdy" in q for q in source.questions) is asked
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
+@pytest.mark.parametrize(
+    ("written", "asked"),
+    [
+        (datetime(2025, 3, 2, 10, 30), False),  # right after its last row
+        (datetime(2025, 2, 3, 10, 30), True),  # right after it the other way round
+        (datetime(2025, 12, 24), False),  # copied later
+        (datetime(2024, 12, 24), False),  # of a wrong clock: before its rows either way
+    ],
+)
+def test_a_file_that_was_written_when_the_other_order_says_is_asked(
+    tmp_path: Path, order: str, written: datetime, asked: bool
+) -> None:
+    log(tmp_path / "a.csv", datetime(2025, 3, 2, 8), ORDERS[order])
+    log(tmp_path / "b.csv", datetime(2025, 3, 18, 8), ORDERS[order])
+    seconds = written.replace(tzinfo=UTC).timestamp()
+    os.utime(tmp_path / "a.csv", (seconds, seconds))
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown" if asked else order}}
+    other = next(o for o in ORDERS if o != order)
+    assert any(f"a.csv was last written when {other} says" in q for q in source.questions) is asked
+
+
+@pytest.mark.parametrize("order", list(ORDERS))
+@pytest.mark.parametrize(("name", "asked"), [("run_20250302", False), ("run_20250203", True), ("run_7", False)])
+def test_a_day_in_the_name_that_only_the_other_order_has_is_asked(
+    tmp_path: Path, order: str, name: str, asked: bool
+) -> None:
+    log(tmp_path / f"{name}.csv", datetime(2025, 3, 2, 8), ORDERS[order])
+    log(tmp_path / "run_20250318.csv", datetime(2025, 3, 18, 8), ORDERS[order])
+    (source,) = drafted(tmp_path).values()
+    assert source.table == {"time": {"format": "unknown" if asked else order}}
+    assert any(f"the day in the name of {name}.csv fits" in q for q in source.questions) is asked

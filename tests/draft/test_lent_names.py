@@ -40,6 +40,22 @@ def test_parts_without_a_header_have_the_names_of_the_first(tmp_path: Path, say:
     assert found.out.split() == ["n", "600"]
 
 
+@pytest.mark.parametrize("same", [True, False])
+def test_pieces_put_aside_have_the_names_of_the_oldest(tmp_path: Path, same: bool, say: Say) -> None:
+    for k, head in enumerate((HEAD, None, None)):
+        name = f"m0.log.{2 - k}".removesuffix(".0")
+        part(tmp_path, name, f"08:{16 * k:02}:40", head, 2 if same or not k else 3)
+    draft = draft_files(tmp_path).draft
+    names = {"names": ["time", "T_bed_C", "dZ_um"]}
+    assert [s.table for s in draft.sources] == ([names] if same else [{}, {}])
+    if same:
+        asked = "names? 2 files without a header, e.g. m0.log: those of m0.log.2 are taken"
+        assert draft.sources[0].questions[0] == asked
+        assert say("--store", tmp_path / "s", "ingest", tmp_path / "campaign.yaml").code == 0
+        found = say("--store", tmp_path / "s", "sql", "select count(*) n from sample where value is not null", "--csv")
+        assert found.out.split() == ["n", "600"]
+
+
 def test_a_unit_of_the_time_goes_with_the_names(tmp_path: Path) -> None:
     for k, head in enumerate(("t [min],T_bed_C", None)):
         lines = [f"{100 * k + i},{20 + i / 99:.3f}" for i in range(100)]

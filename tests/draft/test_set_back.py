@@ -30,10 +30,11 @@ def _asked(folder: Path, say: Say, seconds: Sequence[int], values: Sequence[floa
 EVEN = [10 * k for k in range(400)]
 
 
-@pytest.mark.parametrize("by", [137, 150, 3600])
-def test_a_long_step_back_is_asked(tmp_path: Path, say: Say, by: int) -> None:
+@pytest.mark.parametrize(("by", "told"), [(137, "2 min 7 s"), (150, "2 min 20 s"), (3600, "59 min 50 s")])
+def test_a_long_step_back_is_asked(tmp_path: Path, say: Say, by: int, told: str) -> None:
     asked = _asked(tmp_path, say, [t if t < 2000 else t - by for t in [*EVEN, *(4000 + t for t in EVEN)]])
-    assert f"row {201} of R2.csv is {by - 10} s earlier" in asked
+    assert f"the clock of R2.csv goes back by {told} (from 2026-04-26 08:33:10 UTC to " in asked
+    assert " UTC) at row 201, and what follows is lost: was the clock set back there?" in asked
     assert "# ?" in asked
 
 
@@ -64,13 +65,14 @@ def test_rows_in_no_order_are_to_be_sorted_and_not_joined(tmp_path: Path, say: S
     assert "resets" not in out
 
 
-def test_the_end_of_summer_time_is_left_to_the_zone(tmp_path: Path, say: Say) -> None:
+def test_the_end_of_summer_time_is_named_and_left_to_the_zone(tmp_path: Path, say: Say) -> None:
     local = [t if t < 10800 else t - 3600 for t in range(3600, 18000, 60)]
     rows = [f"2026-10-25 {t // 3600:02d}:{t // 60 % 60:02d}:00,{20 + k / 99:.3f}" for k, t in enumerate(local)]
     (tmp_path / "night.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]), encoding="utf-8")
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
     assert "timezone?" in text
+    assert "the end of summer time? then declare the timezone" in text
     assert "resets: allow" not in text
 
 

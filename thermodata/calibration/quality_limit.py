@@ -79,22 +79,20 @@ def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
 def sentinels(x: Float1D, own: RunStats) -> Bool1D:
     """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
     none: Bool1D = np.zeros(len(x), dtype=bool)
-    if np.isfinite(own.leap) and not np.isin([own.low, own.high], _SENTINELS).any():
+    ends = np.array([own.low, own.high])
+    if np.isfinite(own.leap) and not (np.isin(ends, _SENTINELS) | (np.abs(ends) >= _HUGE)).any():
         return none
-    finite = x[np.isfinite(x)]
-    if len(finite) < 10:
-        return none
-    low, high = float(finite.min()), float(finite.max())
-    coded = _SENTINELS[(low <= _SENTINELS) & (high >= _SENTINELS)]
-    coded = coded[(coded == low) | (coded == high)]  # a code is an extreme; between others it is a reading
-    if not len(coded):
-        return none
-    hit = np.isin(x, coded)
-    rest = finite[~np.isin(finite, coded)]
-    if len(rest) < 10:
+    with np.errstate(invalid="ignore"):
+        rest = x[np.abs(x) < _HUGE]  # an overflow beside them is no reading either
+    coded: list[float] = []
+    # a code is an extreme, once those beyond it are left out; between others it is a reading
+    while len(rest) >= 10 and len(at := np.intersect1d([rest.min(), rest.max()], _SENTINELS)):
+        coded += at.tolist()
+        rest = rest[~np.isin(rest, at)]
+    if not coded or len(rest) < 10:
         return none
     middle, spread = float(np.median(rest)), float(np.ptp(rest))
-    return hit & (np.abs(x - middle) > 3 * max(spread, own.step))
+    return np.isin(x, coded) & (np.abs(x - middle) > 3 * max(spread, own.step))
 
 
 def clipped(

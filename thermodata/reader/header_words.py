@@ -25,7 +25,17 @@ NAME_WORDS = (
     *("messstelle", "messpunkt", "kanal", "groesse", "größe", "kanál", "veličina", "senzor"),
 )
 # columns that say which sensor, entity or frame it is, and never how that is
-SENSOR_IDS = ("sensorid", "sensorname", "sensorno", "entityid", "frameid", "childframeid", "probeid")
+SENSOR_IDS = (
+    "sensorid",
+    "sensorname",
+    "sensorno",
+    "entityid",
+    "frameid",
+    "childframeid",
+    "probeid",
+    "tagindex",
+    "tagid",
+)
 # and which of several machines wrote a row
 HOST_IDS = (
     "host",

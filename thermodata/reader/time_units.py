@@ -55,11 +55,17 @@ SECONDS = {
 
 @dataclass(frozen=True, slots=True)
 class Epoch:
-    """seconds: of one unit; zero_s: its zero on the Unix scale [s]; local: in the time of the place, not in UTC."""
+    """seconds: of one unit; zero_s: its zero on the Unix scale [s]; local: in the time of the place, not in UTC; years:
+    the units are years, each as long as it is, and `seconds` is their mean."""
 
     seconds: float
     zero_s: int
     local: bool
+    years: bool = False
+
+    def ns(self, values: Array) -> Int1D:
+        """Nanoseconds on the Unix scale, in UTC or local time, shape as values; NAT where a number is no time."""
+        return _ns_of_years(values) if self.years else to_ns(values, self.seconds, self.zero_s)
 
 
 EPOCHS = {
@@ -76,6 +82,7 @@ EPOCHS = {
     "labview": Epoch(1.0, -2082844800, False),
     "filetime": Epoch(1e-7, -11644473600, False),
     "ticks": Epoch(1e-7, -62135596800, True),  # of .NET, which programs mostly take in local time
+    "decimal_year": Epoch(365.2425 * _DAY, -62167219200, True, years=True),  # 2026.5 is in the middle of 2026
 }
 # other words for them: of Windows' OLE automation, in which Gantner and .NET count Excel's days
 _ALSO = {
@@ -87,11 +94,13 @@ _ALSO = {
     "matlab datenum": "datenum",
     "unix time": "unix",
     "epoch": "unix",
+    "decimal year": "decimal_year",
+    "decimal years": "decimal_year",
     "unix s": "unix",
     "unix ms": "unix_ms",
 }
 _WITHOUT_STEP = ("epoch", "unix time")
-_REACH_S = 9e9
+REACH_S = 9e9  # beyond which nanoseconds in int64 end
 
 
 def known_unit(text: str) -> str | None:
@@ -131,13 +140,13 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     each = round(seconds * 1e9)
     zero = zero_s * 10**9 // each  # in units: FILETIME's zero is no time in int64 nanoseconds
     if values.dtype.kind in "iu":
-        low, high = (int((sign * _REACH_S - zero_s) / seconds) for sign in (-1, 1))
+        low, high = (int((sign * REACH_S - zero_s) / seconds) for sign in (-1, 1))
         whole = (values >= max(low, np.iinfo(np.int64).min)) & (values <= min(high, np.iinfo(np.int64).max))
         out[whole] = (values[whole].astype(np.int64) + zero) * each
         return out
     with np.errstate(over="ignore", invalid="ignore"):
         full = values.astype(np.float64)
-        good = np.isfinite(full) & (np.abs(full * seconds + zero_s) < _REACH_S) & (np.abs(full * seconds) < 1e12)
+        good = np.isfinite(full) & (np.abs(full * seconds + zero_s) < REACH_S) & (np.abs(full * seconds) < 1e12)
     safe = full if good.all() else np.where(good, full, 0.0)
     base = np.floor(safe)
     part = safe - base  # exact: the whole and the fraction keep all digits of the double
@@ -147,6 +156,17 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     else:
         out = (base.astype(np.int64) + zero) * each + np.rint(part * each).astype(np.int64)
     return out if safe is full else np.where(good, out, NAT)
+
+
+def _ns_of_years(values: Array) -> Int1D:
+    """Nanoseconds of decimal years, to the millisecond: ten digits behind the point tell no more."""
+    full = values.astype(np.float64)
+    good = (full >= 1700) & (full < 2200)
+    safe = np.where(good, full, 1970.0)
+    year = np.floor(safe).astype(np.int64)
+    begin, end = ((year - 1970 + k).astype("datetime64[Y]").astype("datetime64[s]").astype(np.int64) for k in (0, 1))
+    ms = begin * 1000 + np.rint((safe - year) * (end - begin) * 1000).astype(np.int64)
+    return np.where(good, ms * 1_000_000, NAT)
 
 
 def found_epoch(values: Array) -> str | None:

@@ -13,6 +13,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Bool1D, Int1D
 
 NAT = np.iinfo(np.int64).min
+NO_ZONE = "no time zone declared"  # begins the note on local times whose zone nobody says
 _S = 1_000_000_000
 # A clock that steps back by less is jitter; by more, inside a repeated hour, it is the hour that repeats.
 _STEP_BACK = 60 * _S
@@ -63,7 +64,7 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
     """
     local = naive.astype("datetime64[ns]").astype(np.int64)
     if timezone is None:
-        return local, ["no time zone declared: times are taken as UTC"]
+        return local, [f"{NO_ZONE}: times are taken as UTC"]
     tz = zone(timezone)
     valid = local != NAT
     if not valid.any():

@@ -69,6 +69,15 @@ UNIT_SPELLING: dict[str, str] = {
     "micrometer": "um",
     "mikrometer": "um",
     "mikron": "um",
+    "inches": "inch",
+    "kelvins": "K",
+    "watts": "W",
+    "watt": "W",
+    "amperes": "A",
+    "pascals": "Pa",
+    "radians": "rad",
+    "prozent": "percent",
+    "hertz": "turn/second",
     "mkm": "um",
     "mil": "thou",
     "mils": "thou",
@@ -176,6 +185,13 @@ _PER_TURN = re.compile(rf"(?P<length>mm|um|μm|in|inch)/{_TURN}", re.IGNORECASE)
 _FOOT_POUND = re.compile(
     r"(?P<length>ft|in)[-.·*]?lbf?|lbf?[-.·*]?(?P<behind>ft|in)|(?P<kilo>kgf|kp)[.·*]?(?P<metric>m|cm)", re.IGNORECASE
 )
+# LabVIEW and others write units out, in English or German, one or many: 'Micrometers', 'Millimetre', 'Millivolt'
+_PREFIX = {"nano": "n", "micro": "u", "mikro": "u", "milli": "m", "centi": "c", "zenti": "c", "kilo": "k", "mega": "M"}
+_IN_WORDS = re.compile(
+    rf"(?P<prefix>{'|'.join(_PREFIX)})(?:(?P<m>met(?:er|re)[sn]?)|(?P<V>volts?)|(?P<A>amp(?:[eè]re)?s?)|(?P<W>watts?)|"
+    r"(?P<N>newtons?)|(?P<Pa>pascals?)|(?P<K>kelvins?)|(?P<ohm>ohms?)|(?P<rad>radians?))",
+    re.IGNORECASE,
+)
 _GRAD = re.compile(r"(?<![^\W\d_])grad(?![^\W\d_])", re.IGNORECASE)
 # full-width letters, and signs that hold a whole unit (㎜ ㎛ ㎾ ℓ): what keyboards of East Asia write
 _WIDE = re.compile("[\uff01-\uff5e\u3351\u3371-\u33df\u2113\u2103\u2109]")
@@ -216,6 +232,8 @@ def spelled(text: str) -> str | None:
     bare = bare_unit(text)
     if found := _IN_THIS_CASE.get(bare) or UNIT_SPELLING.get(bare.casefold()):
         return found
+    if words := _IN_WORDS.fullmatch(bare):
+        return _PREFIX[words["prefix"].lower()] + next(k for k, v in words.groupdict().items() if v and k != "prefix")
     if turns := _TURNS_PER.fullmatch(bare):
         return f"{'kilo' if turns['kilo'] else ''}turn/{_time(turns['time'])}"
     if turns := _PER_TIME.fullmatch(bare) or _PER_TIME_RAISED.fullmatch(bare):

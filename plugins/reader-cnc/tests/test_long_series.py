@@ -177,3 +177,42 @@ def test_a_short_header_over_words_that_are_no_units_says_none(tmp_path: Path) -
     rows = [f"{stamp(k)},{tag},{20 + k / 8},{word}" for k in range(N) for tag, word in (("T1", "bar"), ("T2", "ERR"))]
     data = read(tmp_path, "time,tag,value,E", rows)
     assert {s.unit for s in data.recording.signals} == {None}
+
+
+def test_rows_in_units_that_convert_are_given_in_the_first_of_them(tmp_path: Path) -> None:
+    rows = [
+        f"{stamp(5 * k)},{t},{v},{u}"
+        for k in range(N)
+        for t, v, u in (
+            ("T", 20.5 if k % 2 else 68.9, "degC" if k % 2 else "degF"),
+            ("dZ", k / 8 if k < 20 else k / 8000, "µm" if k < 10 else "um" if k < 20 else "mm"),
+            ("state", "auto", ""),
+        )
+    ]
+    data = read(tmp_path, "Timestamp,Channel,Value,Unit", rows)
+    assert {s.name: s.unit for s in data.recording.signals} == {"T": "degF", "dZ": "µm", "state": None}
+    found = values(data)
+    np.testing.assert_allclose(found["dZ"], [k / 8 for k in range(N)], rtol=1e-12)
+    np.testing.assert_allclose(found["T"], 68.9)
+    assert not data.losses
+    assert any("'dZ' is given in µm, also where its rows say mm" in n for n in data.recording.notes)
+    assert any("'T' is given in degF, also where its rows say degC" in n for n in data.recording.notes)
+
+
+def test_rows_in_units_that_do_not_convert_are_refused_or_lost(tmp_path: Path) -> None:
+    rows = [f"{stamp(5 * k)},{t},{k / 8},um" for k in range(N) for t in ("dX", "dZ")]
+    with pytest.raises(FormatError, match="'dZ' has several units"):
+        read(tmp_path, "Timestamp,Channel,Value,Unit", [*rows[:-1], rows[-1].replace("um", "degC")])
+
+
+def test_a_unit_behind_the_first_look_converts_or_is_a_loss(tmp_path: Path) -> None:
+    rows = [
+        f"{stamp(k // 2 / 50)},{t},{k / 8},um{' ' * 100}" for k in range(120_000) for t in ("dX", "dZ")[k % 2 :][:1]
+    ]
+    rows[60_001] = rows[60_001].replace("um", "mm")
+    rows[60_003] = rows[60_003].replace("um", "degC")
+    data = read(tmp_path, "Timestamp,Channel,Value,Unit", rows)
+    assert [loss.reason for loss in data.losses] == [
+        "'dZ': a value in 'degC', which does not convert to um: '7500.375'"
+    ]
+    assert 60_001 / 8 * 1000 in values(data)["dZ"]

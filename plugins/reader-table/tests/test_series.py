@@ -277,3 +277,20 @@ def test_sheets_take_what_is_declared_of_series(tmp_path: Path, sheets: int) -> 
     assert set(values(parted)) == {f"{b}p{d}/T" for b in before for d in (0, 1)}
     with pytest.raises(FormatError, match="nothing is called 'host'"):
         load(Reader(), tmp_path / "a.xlsx", declared(["host"]))
+
+
+@pytest.mark.parametrize(("header", "parted"), [("TagIndex", True), ("Channels", False)])
+def test_the_number_of_a_tag_parts_the_rows_of_a_data_log(tmp_path: Path, header: str, parted: bool) -> None:
+    rows = [
+        f'"03/18/2026","08:{10 * k // 60:02d}:{10 * k % 60:02d}",{250 + d},{d},{20 + 10 * d + k / 8:.3f}," ","B",0'
+        for k in range(N)
+        for d in (0, 1, 2)
+    ]
+    data = read(tmp_path / "a.csv", f'"Date","Time","Millitm","{header}","Value","Status","Marker","Internal"', rows)
+    found = values(data)
+    assert (f"{header} 1/Value" in found) is parted
+    assert not any("Millitm" in name for name in found)
+    if parted:
+        assert found["TagIndex 1/Value"] == [30 + k / 8 for k in range(N)]
+        first = np.datetime64("2026-03-18T08:00:00.251", "ns").astype(np.int64)
+        assert data.t_ns["TagIndex 1"].tolist() == [first + 10 * 10**9 * k for k in range(N)]

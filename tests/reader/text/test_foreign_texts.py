@@ -19,6 +19,11 @@ DIADEM = "DIAEXTENDED  {@:ENGLISH\n#BEGINGLOBALHEADER\n1,WINDOWS 32Bit\n101,Spin
     f"#BEGINCHANNELHEADER\n200,Lager {i}\n202,K\n210,EXPLIZIT\n211,Spindel.R64\n#ENDCHANNELHEADER\n" for i in range(6)
 )
 
+SKETCH = "Booting... v1.3\nsensors found: 3\n" + "".join(f"t={10 * i} ms, T1=21.{i} C, dZ=-{i} um\n" for i in range(9))
+SYSLOG = "".join(f"Dec 31 20:0{i}:00 labpi thermo[412]: bearing=22.0{i} bed=20.48\n" for i in range(9))
+LOGGING = "".join(f"2026-03-02 08:00:0{i},123 INFO T1: 21.9{i} T2: -3\n" for i in range(9))
+BROKER = "".join(f'lab/bed/temp {{"ts": 177243840{i}, "v": 21.9{i}, "unit": "degC"}}\n' for i in range(9))
+
 
 @pytest.mark.parametrize(
     ("text", "what", "do"),
@@ -27,6 +32,10 @@ DIADEM = "DIAEXTENDED  {@:ENGLISH\n#BEGINGLOBALHEADER\n1,WINDOWS 32Bit\n101,Spin
         (STRINGS, "line protocol", "CSV"),
         (PRINT, "DPRNT", "commas"),
         (DIADEM, "DIAdem", "TDMS"),
+        (SKETCH, "name each of their values", "line of names"),
+        (SYSLOG, "name each of their values", "line of names"),
+        (LOGGING, "name each of their values", "line of names"),
+        (BROKER, "messages of a broker", "row a message"),
     ],
 )
 def test_such_a_text_is_refused_with_what_to_do(tmp_path: Path, text: str, what: str, do: str) -> None:
@@ -61,3 +70,17 @@ def test_a_line_of_quotes_has_one_way_to_be_read() -> None:
     line = "m " + ",".join('a="x,b=y"' for _ in range(200))
     assert foreign_text([line] * 3) is not None
     assert foreign_text([f"{line} !"] * 3) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a=1 b=2\n" + "time,T1\n" + "".join(f"2026-03-02T08:00:0{i},2{i}.5\n" for i in range(9)),  # a preamble
+        "".join(f"2026-03-02T08:0{i}:00,T08:0{i},2{i}.5\n" for i in range(9)),  # times
+        "".join(f"2026-03-02 08:0{i}:00\tmode=3\t2{i}.5\n" for i in range(9)),  # one name alone is a cell
+        "".join(f"a{i}=1 b{i}=2\n" for i in range(9)),  # settings
+        'time;note\n08:00;{"a": 1}\n08:01;\n',
+    ],
+)
+def test_what_may_hold_a_table_is_none_of_them(text: str) -> None:
+    assert foreign_text(text.splitlines()) is None

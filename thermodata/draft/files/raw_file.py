@@ -20,9 +20,12 @@ from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
 from thermodata.reader.text.times.unpadded import UNPADDED
+from thermodata.reader.zone import NO_ZONE
 
 _MOST_QUESTIONS = 4
-_ASSUMED = f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}"
+_ASSUMED = (
+    f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}|is that its unit"
+)
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 
@@ -94,7 +97,7 @@ class RawFile:
     @property
     def local(self) -> bool:
         """Whether it logs local times of a zone that it does not name."""
-        return self.recording.clock == "absolute" and any("no time zone" in n for n in self.recording.notes)
+        return self.recording.clock == "absolute" and any(NO_ZONE in n for n in self.recording.notes)
 
 
 def sampled_file(folder: Path, path: PurePosixPath) -> RawFile | None:

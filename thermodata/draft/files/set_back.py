@@ -18,10 +18,12 @@ _LEAST = 20
 
 @dataclass(frozen=True, slots=True)
 class SetBack:
-    """row: of the stream, from 1; by_ns: by how much; in_no_order: whether rows stand in no order at all."""
+    """row: of the stream, from 1; from_ns, to_ns: what it told before, and there; in_no_order: whether rows stand in no
+    order at all."""
 
     row: int
-    by_ns: int
+    from_ns: int
+    to_ns: int
     in_no_order: bool = False
 
 
@@ -80,7 +82,7 @@ class Clock:
         again = np.flatnonzero(t[keep:] <= high) + keep
         if self._stands_before(again, t):
             return None
-        return SetBack(keep + 1, high - int(t[keep]), self.steps.in_no_order)
+        return SetBack(keep + 1, high, int(t[keep]), self.steps.in_no_order)
 
 
 def first_of(clocks: Mapping[str, Clock]) -> SetBack | None:

@@ -12,6 +12,7 @@ from thermodata.draft.files.raw_file import Asked, RawFile, described_files, sam
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
 from thermodata.reader.registry import reader
+from thermodata.reader.rotated import unrotated
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.schema.counted import counted
 
@@ -47,7 +48,9 @@ def _is_nameless(file: RawFile) -> bool:
 
 
 def _kind(path: PurePosixPath) -> str:
-    """Its name without the numbers of parts: 'run', 'run_1' and 'run (2)' have the same."""
+    """Its name without the numbers of parts: 'run', 'run_1' and 'run (2)' have the same, as 'run.log' and the piece of
+    it that was put aside as 'run.log.2'."""
+    path = unrotated(path)
     bare = _NUMBER.sub("", path.stem)
     return f"{path.parent}/{bare}{path.suffix}".lower()
 

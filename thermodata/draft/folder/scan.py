@@ -21,6 +21,7 @@ from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.stores import within_stores
 from thermodata.schema.counted import counted
+from thermodata.schema.left_out import CANT_READ
 from thermodata.schema.lines import is_text
 
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
@@ -102,7 +103,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 tests = _not_as_series(who, full, path, encoding, None, _SAMPLES_S - spent)
                 if tests is None:
                     failed.append((str(path), who.name))
-                    said = f"reader '{who.name}' claims it and can't read it: {short(error)}{_try(error)}"
+                    said = f"reader '{who.name}' {CANT_READ}: {short(error)}{_try(error)}"
                     ignored.append((str(path), said))
                     continue
                 whole, found = tests[0], tests

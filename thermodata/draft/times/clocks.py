@@ -12,6 +12,7 @@ from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.errors import ThermodataError
+from thermodata.reader.step_back import likely_cause, said
 from thermodata.reader.text.tables.zone_named import OPEN
 from thermodata.schema.counted import counted
 from thermodata.store.ingest.repeated_times import MANY
@@ -123,27 +124,31 @@ def repeats_question(group: Group) -> str | None:
     return None
 
 
-_HOUR_NS, _ROW_NS = 3600 * 10**9, 120 * 10**9
-
-
 def set_back_question(group: Group) -> str | None:
     """What to ask where the clock steps back within a file by more than a time server corrects: ingest loses what
     follows."""
     for file in group.files:
-        said = file.sample.set_back
-        if said is not None and file.local and _HOUR_NS - _ROW_NS <= said.by_ns <= _HOUR_NS:
-            continue  # the end of summer time: the zone, which is asked for, tells it
-        if said is not None and said.in_no_order and file.block is None:
+        back = file.sample.set_back
+        if back is None or file.block is not None:
+            continue
+        if back.in_no_order:
             return (
-                f"the rows of {file.path.name} stand in no order of their times, and what follows row {said.row - 1} "
+                f"the rows of {file.path.name} stand in no order of their times, and what follows row {back.row - 1} "
                 "is lost: sort the file by its time"
             )
-        if said is not None and file.block is None and not any("resets: allow" in a.ask for a in file.asked):
-            return (
-                f"row {said.row} of {file.path.name} is {said.by_ns / 1e9:g} s earlier than the rows before, and what "
-                "follows is lost: was the clock set back there? then clock: {resets: allow} joins it; if another test "
-                "begins there, cut the file"
-            )
+        if any("resets: allow" in a.ask for a in file.asked):
+            continue
+        absolute = file.recording.clock == "absolute"
+        cause = likely_cause(back.from_ns, back.to_ns, file.local) if absolute else None
+        asked = (
+            "was the clock set back there? then clock: {resets: allow} joins it; if another test begins there, cut the "
+            "file"
+        )
+        by = said(back.from_ns, back.to_ns, absolute, file.local)
+        return (
+            f"the clock of {file.path.name} goes back by {by} at row {back.row}, and what follows is lost: "
+            f"{cause or asked}"
+        )
     return None
 
 

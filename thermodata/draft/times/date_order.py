@@ -13,6 +13,7 @@ from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_fi
 from thermodata.draft.folder.group import tests_of
 from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.times.hints import fitting_others, swapped
+from thermodata.draft.times.named_days import day_of_name
 from thermodata.errors import ThermodataError
 from thermodata.reader.guard import described
 from thermodata.reader.registry import reader
@@ -21,6 +22,7 @@ _ORDERS = ("dmy", "mdy")
 _EITHER = "format of the dates: dmy or mdy?"
 _DAY_NS = 86_400_000_000_000
 _LEAST_IN_ROW = 3  # files by whose names one more stands out of place
+_SHOWN = 3
 _LOOKED_AT = 40  # files of a source, each once for either order
 
 
@@ -35,8 +37,11 @@ def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ..
         told = _settled(folder, group, groups) if files else None
         if told is not None and _out_of_place(group, told[0]):
             told = None
-        if told is not None:
-            made |= {id(f): _told(folder, f, *told) for f in files}
+        against = None if told is None else next((w for f in files if (w := _contradicts(folder, f, told[0]))), None)
+        if told is not None and against is None:
+            made |= {id(f): _told(folder, f, told[0], f"{told[1]}{_either_way(files)}") for f in files}
+        elif against is not None:
+            made |= {id(f): _doubted(f, against) for f in files}
     return tuple(made.get(id(f), f) for f in logs)
 
 
@@ -80,6 +85,35 @@ def _out_of_place(group: Group, order: str) -> bool:
             for n in {n + beside for n in back for beside in (0, 1)}
         )
     )
+
+
+def _either_way(files: Sequence[RawFile]) -> str:
+    """Which files alone leave the order open."""
+    shown = ", ".join(f.path.name for f in files[:_SHOWN]) + (
+        f" and {len(files) - _SHOWN} more" * (len(files) > _SHOWN)
+    )
+    return f"; {shown} alone may be either"
+
+
+def _contradicts(folder: Path, file: RawFile, order: str) -> str | None:
+    """What of a file's own speaks for the other order: the day in its name, or when it was last written: right after
+    its last row by that one, or before its rows by this one. None where nothing does."""
+    other = next(o for o in _ORDERS if o != order)
+    (begin, end), (other_begin, other_end) = _span(file, order), _span(file, other)
+    day = day_of_name(file)
+    if day is not None and abs(other_begin - day) <= _DAY_NS < abs(begin - day):
+        return f"the day in the name of {file.path.name} fits {other}"
+    written = (folder / file.path).stat().st_mtime_ns
+    right_after = abs(written - other_end) <= _DAY_NS < abs(written - end)
+    if right_after or other_end <= written + _DAY_NS < end:
+        return f"{file.path.name} was last written when {other} says"
+    return None
+
+
+def _doubted(file: RawFile, against: str) -> RawFile:
+    """The file with what speaks against the order of the others in its question."""
+    asked = tuple(replace(a, ask=f"{a.ask}; {against}") if a.ask.startswith(_EITHER) else a for a in file.asked)
+    return replace(file, asked=asked)
 
 
 def _span(file: RawFile, order: str) -> tuple[int, int]:

@@ -71,12 +71,12 @@ def _began_ns(file: RawFile) -> int | None:
     said = file.recording
     if said.clock != "relative" or said.start_ns is not None or said.of_day_ns is None:
         return None
-    day = _day_ns(file)
+    day = day_of_name(file)
     return None if day is None else day + said.of_day_ns
 
 
-def _day_ns(file: RawFile) -> int | None:
-    """The day that a name says, at midnight, since 1970."""
+def day_of_name(file: RawFile) -> int | None:
+    """The day that a name says, at midnight, since 1970 [ns]; None where it says none."""
     date = said_by([file.path.stem]).conditions.get("date")
     try:
         day = None if date is None else datetime.strptime(date, "%Y-%m-%d").replace(tzinfo=UTC)
@@ -99,7 +99,7 @@ def _span_ns(file: RawFile) -> tuple[int, int] | None:
         return None
     if (began := _began_ns(file)) is not None:
         return began, began + seen.last_ns - seen.first_ns
-    dated = file.recording.clock == "absolute" and _day_ns(file) is not None
+    dated = file.recording.clock == "absolute" and day_of_name(file) is not None
     return (seen.first_ns, seen.last_ns) if dated else None
 
 
@@ -108,7 +108,7 @@ def _goes_on(before: Sequence[RawFile] | None, after: Sequence[RawFile]) -> bool
     if not before or _but_day(before[-1]) != _but_day(after[0]):
         return False
     ended, begins = _span_ns(before[-1]), _span_ns(after[0])
-    days = _day_ns(before[-1]), _day_ns(after[0])
+    days = day_of_name(before[-1]), day_of_name(after[0])
     if ended is None or begins is None or days[0] is None or days[1] is None or days[1] - days[0] != _DAY_NS:
         return False
     pause = max(_PAUSE_NS, _PAUSE_ROWS * (ended[1] - ended[0]) // max(before[-1].sample.rows - 1, 1))

@@ -9,6 +9,7 @@ from pathlib import PurePosixPath
 
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
+from thermodata.schema.left_out import left_out
 
 _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
 _ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"
@@ -51,7 +52,7 @@ def text_of(draft: Draft) -> str:
     lines += [_jump(j) for j in draft.jumps]
     lines += _tests(draft)
     lines += [f"# damaged: {one_line(p)}: {one_line(why)}" for p, why in draft.damaged]
-    lines += [f"# not used: {one_line(p)}: {one_line(why)}" for p, why in draft.not_used]
+    lines += [left_out(one_line(p), one_line(why)) for p, why in draft.not_used]
     lines += [f"# note: {one_line(n)}" for n in draft.notes]
     return "\n".join(lines) + "\n"
 

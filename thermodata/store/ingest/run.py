@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.calibration.limits import with_limits
 from thermodata.errors import StoreError, UsageError
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.left_out import left_out_for_a_fault
 from thermodata.schema.load import load_campaign
 from thermodata.schema.locate import located, placed
 from thermodata.store.catalogue.create import new_mark
@@ -205,6 +206,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
                 same_content(files_of_tests, files.hashes())
                 + [str(odd) for odd in odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})]
                 + unanswered(campaign)
+                + _left_out(path, files_of_tests)
                 + said
             )
         ),
@@ -231,6 +233,13 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         keep(here, mark, files.hashes(), parts, again.to_json(), of_each)
     summary.seconds = time.monotonic() - began
     return summary
+
+
+def _left_out(path: Path, files_of_tests: Mapping[str, Collection[str]]) -> list[str]:
+    """A note on files that the draft left out for a fault. path: of the campaign file."""
+    text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+    said = left_out_for_a_fault(text, {file for files in files_of_tests.values() for file in files})
+    return [said] if said else []
 
 
 def _inventory(

@@ -11,6 +11,8 @@ import numpy as np
 from thermodata.plugin import Array, Int1D, Loss
 from thermodata.reader.clock_leaps import LEAP_NS
 from thermodata.reader.newest_first import Steps
+from thermodata.reader.step_back import likely_cause, said
+from thermodata.reader.zone import NO_ZONE
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
@@ -80,15 +82,19 @@ def _keys(line: Timeline) -> Callable[[int, int], Hashes]:
 def _lost(line: Timeline, keep: int, n: int) -> Loss:
     steps = Steps()
     steps.add(line.file_times(keep, min(n, keep + _LOOKED_AT)))
+    at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
+    absolute = line.raws[0][0].clock == "absolute"
+    local = absolute and any(NO_ZONE in note for note in line.raws[0][0].notes)
     if steps.in_no_order:
         advice = "rows stand in no order of their times: sort the file by them"
+    elif (cause := likely_cause(before, at, local) if absolute else None) is not None:
+        advice = cause
     else:
         advice = "split the test there or set clock: {resets: allow}"
-    at, before = int(line.file_times(keep, keep + 1)[0]), int(line.file_times(keep - 1, keep)[0])
     return Loss(
         where=f"{line.raws[0][0].source_path} row {keep}",
         from_ns=at,
         to_ns=int(line.file_times(n - 1, n)[0]),
         fraction=(n - keep) / n,
-        reason=f"clock goes backwards: expected >= 0 ns, got {at - before}; {advice}",
+        reason=f"clock goes backwards by {said(before, at, absolute, local)}; {advice}",
     )

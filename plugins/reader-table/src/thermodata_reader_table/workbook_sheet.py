@@ -227,7 +227,7 @@ class Table:
         dated = [isinstance(c, dt.date) for c in cells]
         shown = [joined((c,)).isoformat() if is_date else "NaT" for c, is_date in zip(cells, dated, strict=True)]
         counts = tuple(None if is_date else c for c, is_date in zip(cells, dated, strict=True))
-        counted = to_ns(self._numbers(counts)[0], epoch.seconds, epoch.zero_s)
+        counted = epoch.ns(self._numbers(counts)[0])
         return np.where(dated, np.array(shown, "datetime64[ns]").view(np.int64), counted)
 
     def _numbers(self, cells: tuple[Any, ...]) -> tuple[Array, list[str], Bool1D]:

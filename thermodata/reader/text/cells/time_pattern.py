@@ -93,7 +93,7 @@ UNIX_MS = _format("offset", r"(?P<oms>\d{12,13})(?:\.(?P<of>\d{1,6})\d*|\.)?", "
 UNIX_US = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{3})", "microseconds since 1970", zone=False)
 UNIX_NS = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{6})", "nanoseconds since 1970", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
-MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|毫秒)\b")  # the name of such a column
+MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|millitm|毫秒)\b")  # the name of such a column
 # parts of a second in a column behind whole ones: the name of such a column, and how its cells read
 _PARTS_OF_A_SECOND = (
     (MILLISECONDS, MILLISECOND),

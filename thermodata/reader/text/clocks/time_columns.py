@@ -7,11 +7,14 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
+from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
 from thermodata.reader.text.clocks.odd_clocks import clock_question
 from thermodata.reader.text.clocks.time_questions import (
     ZONED_ROWS,
@@ -131,7 +134,10 @@ def time_of(
             "declare table: {time: {unit: ...}} if that is wrong"
         )
         text = epoch
-    return columns, check_unit(str(text), where), None, notes
+    known, values = check_unit(str(text), where), np.array([v for c in cells if (v := number_of(c)) is not None])
+    refuse_beyond(name, values, known, where)
+    quick = quick_note(name, values, known)
+    return columns, known, None, [*notes, *([quick] if quick else [])]
 
 
 def find_time(

@@ -14,6 +14,7 @@ from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
+from thermodata.reader.text.clocks.counts_of_days import count_question, may_be_excel
 from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times.clock_numbers import year_and_day
 from thermodata.reader.text.times.odd_stamps import guess_format
@@ -71,6 +72,8 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
         return None
     place, rising = _likely_time(data)
+    if rising is not None and (counted := count_question(names[place], rising, where, place + 1)) is not None:
+        return counted
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
         return unit_question(names[place], rising, where, place + 1)
     rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in data)
@@ -116,22 +119,6 @@ def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
-def _are_days(values: Array, first: float, last: float) -> bool:
-    """Whether numbers may be days between two counts, in steps below some hours."""
-    days = values.size > 1 and bool(((values > first) & (values < last)).all())
-    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())
-
-
-def may_be_excel(values: Array) -> bool:
-    """Whether numbers may be Excel's days of 2000 to 2099; or seconds all the same."""
-    return _are_days(values, 36_526, 73_051) and float(np.ptp(values)) < 400
-
-
-def _may_be_julian(values: Array) -> bool:
-    """Whether numbers may be Julian days of 1983 to 2119."""
-    return _are_days(values, 2_445_500, 2_495_000)
-
-
 def _day(number: float, unit: str) -> str:
     """The day that a count of days says."""
     return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
@@ -144,17 +131,8 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     epoch = found_epoch(values) if values.size else None
     if epoch is not None:
         return epoch
-    if _may_be_julian(values):
-        raise QuestionError(
-            "times that may be Julian days",
-            where=where,
-            got=f"{name}: {values[0]:.12g} ...",
-            expected="a unit",
-            hint="declare table: {time: {unit: jd}} or {time: {unit: s}}",
-            ask=f"unit of the time: jd (Julian days, in UTC) or s? '{name}' begins with {values[0]:.12g}",
-            declare={"time": {"unit": UNKNOWN}},
-            meanwhile={"time": {"unit": "jd"}},
-        )
+    if (counted := count_question(name, values, where)) is not None:
+        raise counted
     if may_be_excel(values):
         if re.search(r"(?i)dat", name):
             return "excel"

@@ -11,7 +11,10 @@ from thermodata.errors import FormatError
 # nothing else: were there two ways to read it, a line of n of them would be tried in 2^n ways
 _WORD, _VALUE = r"(?:[^\s,=\\]|\\.)+", r"(?:\"[^\"]*\"|[^\s,\"][^\s,]*)"
 _LINE_PROTOCOL = re.compile(rf"{_WORD}(?:,{_WORD}={_WORD})* {_WORD}={_VALUE}(?:,{_WORD}={_VALUE})*(?: -?\d+)?")
-_LOOKED_AT = 20
+# no part of a time: 'T08:00' behind a date is none
+_PAIR = re.compile(r"(?<![\w.:/-])([^\W\d][\w.]{0,30})\s?[=:]\s?[+-]?\d+(?:\.\d+)?(?![\d:/])")
+_MESSAGE = re.compile(r"[^\s{}\"]+(?: [^\s{}\"]+)? +\{\".*\}")
+_LOOKED_AT, _NEARLY_ALL = 20, 0.8
 _FEWEST = 2
 
 
@@ -49,6 +52,20 @@ def _is_header_of_diadem(lines: Sequence[str]) -> bool:
     return lines[0].startswith("DIAEXTENDED")
 
 
+def _names_each_value(lines: Sequence[str]) -> bool:
+    """Whether nearly all lines, but for some at the start, hold the same names, each with its number: 'T1=21.97 C'."""
+    told = [tuple(_PAIR.findall(line)) for line in lines]
+    names = max(set(told), key=told.count)
+    begins = next(i for i, each in enumerate(told) if each == names)
+    return len(names) > 1 and len(lines) - begins > _FEWEST and told.count(names) >= _NEARLY_ALL * (len(told) - begins)
+
+
+def _is_messages_of_json(lines: Sequence[str]) -> bool:
+    """Whether each line is a topic, or a stamp, and what was sent there, as a broker of MQTT prints it."""
+    points = lines[:-1] or lines  # the last one may be cut
+    return len(points) >= _FEWEST and all(map(_MESSAGE.fullmatch, points))
+
+
 _KNOWN = (
     (
         _is_line_protocol,
@@ -65,5 +82,16 @@ _KNOWN = (
         _is_header_of_diadem,
         "the header of a DIAdem data set, whose values stand in a binary file beside it (.R64, .I16, ...)",
         "save the data set in DIAdem as TDMS, or export it as CSV",
+    ),
+    (
+        _names_each_value,
+        "lines that name each of their values ('T1=21.97 C'), as sketches and logs of messages print them",
+        "print a line of names with units first ('time [ms],T1 [degC]'), and below it the numbers alone with commas "
+        "between them; in what is printed already, take out the names, the units and the words before them",
+    ),
+    (
+        _is_messages_of_json,
+        "messages of a broker (MQTT), each with a topic and JSON",
+        "write a CSV with a row a message: time,topic,value,unit",
     ),
 )

@@ -19,6 +19,7 @@ from thermodata.reader.text.names.header_rows import are_numbers, lines_between,
 from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.misfit import refuse_misfit
+from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import with_interval
 from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.time_units import EPOCHS, SECONDS
@@ -118,6 +119,8 @@ def find(
         times = said.get("time") or {}
         told = not isinstance(times, Mapping) or times.get("column") is not None
         lacking = refuse_misfit(above, below, width, row_of_units, skip, between, where, told)
+    if between is not None and said.get("names") is None:
+        refuse_units_misfit(above, width, row_of_units, skip, between, where)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
     unused = None
     if said.get("names") is not None and list(said["names"]) != heads:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from thermodata.errors import FormatError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_stamp, mostly
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.names_of_time import (
@@ -27,6 +27,8 @@ _CLOCK_WORD = re.compile(
     r"(?i)clock|tod|hours?|hrs?|hh|h|stunde|std|uhr|klok|klocka|hodina|godz|heures?|ore|uur|óra|min(utes?)?|local|lokal|"
     r"period|format|unnamed|column|dst|offset|zone"
 )
+
+_WHOLE, _THREE = re.compile(r":\d\d$"), re.compile(r"\d{3}")
 
 
 def refuse_misfit(
@@ -66,6 +68,8 @@ def refuse_misfit(
             f"the last name of the header has no column, for rows have {columns} cells: '{names[said - 1]}'; "
             "the others are taken to stand over theirs"
         )
+    if said == columns - 1 and (behind := _milliseconds(names, rows, columns)):
+        raise _parted_stamps(names[:said], behind, skip + len(above), f"{where} line {skip + place + 1}", rows)
     few = said < width
     first = skip + len(above) + 1
     at = skip + place + 1
@@ -82,6 +86,37 @@ def refuse_misfit(
         f"'{' '.join(names)[:60]}'",
         hint=f"{commas}{blanks}put cells that hold {delimiter} in quotes, or export with another delimiter; {lacking}"
         f"declare table: {{skip_rows: {first - 1}, header_rows: 0, names: [...]}} with a name for each column",
+    )
+
+
+def _milliseconds(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns: int) -> int:
+    """The column of three digits behind times to the second, which the mark before a fraction parts from these: Python
+    logs '08:00:00,250'. 0 where there is none."""
+    run = names_of_time(names)
+    place = 0 if run is None else run[-1] + 1
+    if run is None or not 0 < place < columns:
+        return 0
+    pairs = [(texts_of(r)[place - 1], texts_of(r)[place]) for r in rows if len(r) > place]
+    good = [is_stamp(time) and _WHOLE.search(time) and _THREE.fullmatch(part) for time, part in pairs]
+    return place if good and sum(map(bool, good)) >= ENOUGH * len(good) else 0
+
+
+def _parted_stamps(
+    names: Sequence[str], place: int, above: int, where: str, rows: Sequence[Sequence[Cell]]
+) -> QuestionError:
+    """Asks whether such a column holds milliseconds; meanwhile it does."""
+    all_names = [*names[:place], "ms", *names[place:]]
+    said = {"skip_rows": above, "header_rows": 0, "names": all_names}
+    shown = ",".join(texts_of(rows[0])[place - 1 : place + 1])
+    return QuestionError(
+        "times whose milliseconds stand in a cell of their own, which the header does not name",
+        where=where,
+        expected="a name for each column",
+        got=shown,
+        hint=f"declare table: {{skip_rows: {above}, header_rows: 0, names: [{', '.join(all_names)}]}}",
+        ask=f"names? the header names one column fewer than there are: is '{shown}' a time with its milliseconds?",
+        declare=said,
+        meanwhile=said,
     )
 
 

@@ -30,6 +30,7 @@ from thermodata.reader.text.tables.row_series import with_series
 from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
 from thermodata.reader.text.tables.standing_columns import standing_columns
 from thermodata.reader.text.tables.table import Table, TimedGroup, bare_line
+from thermodata.reader.text.tables.told_thousands import told_thousands
 from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
@@ -167,8 +168,9 @@ def find_table(
     declared = said.get("decimal")
     if declared == UNKNOWN:
         raise unanswered("decimal", "'.' or ','", where)
-    decimal = declared or find_decimal(numbers, delimiter, where)
-    if declared is None:
+    told = told_thousands(numbers) if declared is None else None
+    decimal = declared or (told.decimal if told else find_decimal(numbers, delimiter, where))
+    if declared is None and told is None:
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
@@ -193,6 +195,7 @@ def find_table(
         *_notes(layout, kinds, groups),
         *midnights,
         *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
+        told.note if told else None,
         *units_noted,
         *shared(quality),
         standing_note,
@@ -209,7 +212,7 @@ def find_table(
         groups=groups,
         kinds=tuple(kinds),
         decimal=decimal,
-        decimal_declared=declared is not None,
+        decimal_declared=declared is not None or told is not None,
         header=header,
         quality=quality,
         notes=tuple(dict.fromkeys(note for note in found if note)),

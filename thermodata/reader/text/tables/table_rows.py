@@ -294,7 +294,7 @@ class _Clock:
             cells = rows.columns[group.time[0]]
             if self.epoch is None:
                 return to_ns(cells.values, group.seconds or 1.0)
-            ns = to_ns(cells.values, self.epoch.seconds, self.epoch.zero_s)
+            ns = self.epoch.ns(cells.values)
             if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
                 ns[cells.empty] = NAT
                 ns[[row for row, _ in cells.odd]] = NAT

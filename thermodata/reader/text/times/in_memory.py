@@ -55,7 +55,7 @@ def times_of_numbers(values: Array, unit: str, timezone: str | None) -> Stamps:
     if unit in SECONDS:
         return Stamps(to_ns(values, SECONDS[unit]), False, ())
     epoch = EPOCHS[unit]
-    t_ns = to_ns(values, epoch.seconds, epoch.zero_s)
+    t_ns = epoch.ns(values)
     return times_of_dates(t_ns.view("datetime64[ns]"), timezone) if epoch.local else Stamps(t_ns, True, ())
 
 

@@ -54,8 +54,8 @@ class Layout:
     @property
     def wanted(self) -> set[int]:
         """The columns that say something of an event."""
-        found = {*self.times, *self.tags, self.value}
-        return found if self.status is None else {*found, self.status}
+        maybe = {k for k in (self.status, self.unit) if k is not None}
+        return {*self.times, *self.tags, self.value, *maybe}
 
     @property
     def grid(self) -> Grid:

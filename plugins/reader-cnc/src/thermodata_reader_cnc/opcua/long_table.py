@@ -31,6 +31,7 @@ from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable
 from thermodata_reader_cnc.opcua.long_layout import Layout, find_layout
+from thermodata_reader_cnc.opcua.row_units import in_unit_of, units_of
 from thermodata_reader_cnc.opcua.sections import Sections, find_sections
 
 EXAMPLE = b"DateTime,TagName,TagVal,TagQuality\n2024-01-01 00:00:00,T1,20.5,192\n2024-01-01 00:00:01,T2,20.5,192\n"
@@ -52,9 +53,11 @@ def claims(lines: Sequence[str]) -> str | None:
     return "OPC UA: a long table of time, tag and value"
 
 
-def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Event | Loss, None, bool]:
+def _events(
+    layout: Layout, data: bytes, line: int, name: str, units: Mapping[str, str]
+) -> Generator[Event | Loss, None, bool]:
     """What whole lines in UTF-8 report, in order; whether the table ends in them. line: the number of the first,
-    0-based in the file."""
+    0-based in the file; units: of tags, in which their values are given."""
     rows, part = parse(data, line, layout.grid), f"{name} line"
     columns = {k: rows.columns[k].values.tolist() for k in layout.wanted}
     stamps = [columns[k] for k in layout.times]
@@ -64,8 +67,9 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Even
     values = columns[layout.value]
     tags = layout.named(columns, rows.n)
     statuses = [None] * rows.n if layout.status is None else columns[layout.status]
-    each_row = zip(rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], tags, values, statuses, strict=True)
-    for number, time, good, stamp, tag, value, status in each_row:
+    written = [""] * rows.n if layout.unit is None else columns[layout.unit]
+    of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], tags, values, statuses, written)
+    for number, time, good, stamp, tag, value, status, unit in zip(*of_row, strict=True):
         while losses and losses[0][0] <= number:
             yield losses.pop(0)[1]
         if end is not None and number >= end:
@@ -80,6 +84,10 @@ def _events(layout: Layout, data: bytes, line: int, name: str) -> Generator[Even
             flag |= BAD
         if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
             value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
+        value, wrong = in_unit_of(tag, value or "", (unit or "").strip(), units)
+        if wrong is not None:
+            yield Loss(f"{part} {number + 1}", reason=f"'{tag}': a value {wrong}: '{value[:40]}'")
+            continue
         yield Event(time, tag, value or GONE, number + 1, part, flag)
     yield from (loss for _, loss in losses)
     return end is not None
@@ -141,10 +149,11 @@ def _look(path: Path, source: Source) -> _Look:
     lines = first.head[:-1] if first.whole and not first.ends_with_newline else first.head
     sections = find_sections(path, first.encoding, layout, declared)
     layout = sections.all[0].layout if sections.all else layout
-    head = _sampled(sections, layout, lines[layout.row + 1 :], layout.row + 1, path.name)
-    rest = [] if sections.all else _sampled(sections, layout, first.rest, 0, path.name)
+    units, converted = units_of(layout, (*lines[layout.row + 1 :], *first.rest), path.name)
+    head = _sampled(sections, layout, lines[layout.row + 1 :], layout.row + 1, path.name, units)
+    rest = [] if sections.all else _sampled(sections, layout, first.rest, 0, path.name, units)
     for section in {s.layout.header: s for s in sections.all}.values():
-        rest += _sampled(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name)
+        rest += _sampled(Sections(), section.layout, sections.seen[section.layout.header], 0, path.name, units)
     plan = events.plan([*head, *rest], form=layout.form)
     if not plan.items:
         raise FormatError("no rows", where=path.name, expected="rows of time, tag and value", got="none")
@@ -152,7 +161,7 @@ def _look(path: Path, source: Source) -> _Look:
     changes = sum(a.key != b.key for a, b in pairwise(ordered))
     back = sum(a.key != b.key and b.time < a.time for a, b in pairwise(ordered))
     by_tag = 0 < changes < 0.1 * len(ordered) and 2 * back > changes
-    notes = [first.note] if first.note else []
+    notes = [*([first.note] if first.note else []), *converted]
     notes += ["sorted by tag: each tag is a stream"] if by_tag else []
     ends = (first.rest or first.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, layout.delimiter)] for line in ends)
@@ -165,42 +174,22 @@ def _look(path: Path, source: Source) -> _Look:
         by_tag,
         first.ends_with_newline,
         tuple(notes),
-        _units(layout, (*lines[layout.row + 1 :], *first.rest), path.name),
+        units,
         sections,
     )
 
 
-def _sampled(sections: Sections, first: Layout, lines: Sequence[str], line: int, name: str) -> list[Event]:
+def _sampled(
+    sections: Sections, first: Layout, lines: Sequence[str], line: int, name: str, units: Mapping[str, str]
+) -> list[Event]:
     """What sampled lines report, of which the first is number `line` of the file."""
     return [
         event
         for k in range(0, len(lines), _LINES)
         for layout, data, number in sections.parts(("\n".join(lines[k : k + _LINES]) + "\n").encode(), line + k, first)
-        for event in _events(layout, data, number, name)
+        for event in _events(layout, data, number, name, units)
         if isinstance(event, Event)
     ]
-
-
-def _units(layout: Layout, lines: Sequence[str], where: str) -> dict[str, str]:
-    """The unit of each tag, where rows name one; FormatError where a tag has several."""
-    units: dict[str, str] = {}
-    if layout.unit is None or not layout.tags:
-        return units
-    for line in lines:
-        cells = [clean(c) for c in fields(line, layout.delimiter)]
-        if len(cells) != layout.width or not cells[layout.unit]:
-            continue
-        tag = layout.named({k: [c] for k, c in enumerate(cells)}, 1)[0]
-        unit = cells[layout.unit]
-        if units.setdefault(tag, unit) != unit:
-            raise FormatError(
-                f"'{tag}' has several units",
-                where=where,
-                expected="one",
-                got=f"{units[tag]} and {unit}",
-                hint="give the values of each unit a name of their own",
-            )
-    return units
 
 
 def describe(path: Path, source: Source) -> Recording:
@@ -258,7 +247,7 @@ def _all(path: Path, look: _Look) -> Iterator[Event | Loss]:
             cut = data.rfind(b"\n", 0, data.rfind(b'"')) + 1
             data, held = (data[:cut], data[cut:]) if len(data) - cut < _MOST_HELD else (data, b"")
         for layout, part, number in look.sections.parts(data, line, look.layout):
-            if (yield from _events(layout, part, number, path.name)):
+            if (yield from _events(layout, part, number, path.name, look.units)):
                 return
         text = tail.decode("utf-8", "replace")
         if text.strip("\0 \r"):

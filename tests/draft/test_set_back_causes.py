@@ -1,0 +1,34 @@
+"""Init and ingest name what set a clock back: a clock of 12 hours, the end of summer time, or somebody."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.make import draft_files
+from thermodata.store import Store
+from thermodata.store.ingest.run import ingest
+
+
+@pytest.mark.parametrize(
+    ("start", "row", "back", "cause", "by"),
+    [
+        (datetime(2026, 3, 22, 8), 300, timedelta(hours=12), "a clock of 12 hours", "11 h 59 min"),
+        (datetime(2026, 10, 24, 22), 300, timedelta(hours=1), "the end of summer time", "59 min"),
+        (datetime(2026, 10, 24, 22), 200, timedelta(hours=2), "was the clock set back", "1 h 59 min"),
+    ],
+)
+def test_the_cause_is_told(tmp_path: Path, start: datetime, row: int, back: timedelta, cause: str, by: str) -> None:
+    times = [start + timedelta(minutes=k) - (back if k >= row else timedelta()) for k in range(600)]
+    rows = [f"{t:%Y-%m-%d %H:%M:%S},{20 + k / 100:.2f}" for k, t in enumerate(times)]
+    (tmp_path / "a.csv").write_text("\n".join(["time,T_bed [degC]", *rows, ""]))
+    (source,) = draft_files(tmp_path).draft.sources
+    (asked,) = [q for q in source.questions if "goes back" in q]
+    assert f"the clock of a.csv goes back by {by} (from " in asked
+    assert cause in asked
+    (loss,) = ingest(Store(tmp_path / "s", create=True), tmp_path / "campaign.yaml").losses
+    assert f"clock goes backwards by {by} (from {times[row - 1]} to {times[row]}); " in loss["reason"]
+    assert cause in loss["reason"] or cause.startswith("was the clock")
+    assert " ns" not in loss["reason"]

@@ -1,0 +1,55 @@
+"""A clock that goes back: in words, and what set it back where that shows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from thermodata.reader.step_back import in_words, likely_cause, said
+
+
+def ns(text: str) -> int:
+    return int(np.datetime64(text, "ns").astype(np.int64))
+
+
+@pytest.mark.parametrize(
+    ("span_ns", "words"),
+    [
+        (43_140 * 10**9, "11 h 59 min"),
+        (-3540 * 10**9, "59 min"),
+        (3600 * 10**9, "1 h"),
+        (90_061 * 10**9, "25 h 1 min 1 s"),
+        (43 * 10**9, "43 s"),
+        (1_500_000_000, "1.5 s"),
+        (59_999_999_999, "60 s"),
+    ],
+)
+def test_a_span_is_told_in_hours_minutes_and_seconds(span_ns: int, words: str) -> None:
+    assert in_words(span_ns) == words
+
+
+def test_from_when_to_when_is_told_on_the_clock_of_the_file() -> None:
+    a, b = ns("2026-10-25T02:59"), ns("2026-10-25T02:00")
+    assert said(a, b, absolute=True, local=True) == "59 min (from 2026-10-25 02:59:00 to 2026-10-25 02:00:00)"
+    assert said(a, b, absolute=True, local=False).endswith("to 2026-10-25 02:00:00 UTC)")
+    assert said(7200 * 10**9, 0, absolute=False, local=False) == "2 h (from 2 h after its start to 0 s after its start)"
+
+
+@pytest.mark.parametrize(
+    ("before", "at", "local", "cause"),
+    [
+        ("2026-03-22T12:59", "2026-03-22T01:00", True, "12 hours"),
+        ("2026-03-22T11:59", "2026-03-22T00:00", False, "12 hours"),  # of a zone that is declared: in UTC
+        ("2026-03-22T12:30", "2026-03-22T00:31", True, None),  # set, in the middle of an hour
+        ("2026-03-22T12:59", "2026-03-22T03:00", True, None),
+        ("2026-10-25T02:59", "2026-10-25T02:00", True, "summer time"),
+        ("2026-10-25T02:59", "2026-10-25T02:00", False, None),  # in UTC, or its zone tells it
+        ("2026-10-26T02:59", "2026-10-26T02:00", True, None),  # a Monday
+        ("2026-07-26T02:59", "2026-07-26T02:00", True, None),  # a Sunday in July
+        ("2026-10-25T14:59", "2026-10-25T14:00", True, None),
+        ("2026-10-25T02:59", "2026-10-25T02:30", True, None),
+    ],
+)
+def test_what_set_a_clock_back_is_named_where_it_shows(before: str, at: str, local: bool, cause: str | None) -> None:
+    found = likely_cause(ns(before), ns(at), local)
+    assert (found is None) if cause is None else (cause in str(found))

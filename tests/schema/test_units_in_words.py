@@ -1,0 +1,42 @@
+"""Units written out, as LabVIEW and others do, in English or German."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.schema.quantity import is_unit, linear_conversion
+
+
+@pytest.mark.parametrize(
+    ("written", "unit", "factor"),
+    [
+        ("Micrometers", "um", 1.0),
+        ("Micrometer", "um", 1.0),
+        ("micrometre", "um", 1.0),
+        ("Micrometres", "um", 1.0),
+        ("Mikrometern", "um", 1.0),
+        ("MILLIMETERS", "um", 1000.0),
+        ("Nanometer", "um", 1e-3),
+        ("Zentimeter", "mm", 10.0),
+        ("Millivolts", "V", 1e-3),
+        ("Milliampere", "A", 1e-3),
+        ("Kilowatt", "kW", 1.0),
+        ("Kilopascals", "bar", 0.01),
+        ("Amperes", "A", 1.0),
+        ("Prozent", "%", 1.0),
+        ("Inches", "mm", 25.4),
+    ],
+)
+def test_a_unit_written_out_is_known(written: str, unit: str, factor: float) -> None:
+    assert linear_conversion(written, unit) == (pytest.approx(factor), 0.0)
+    assert looks_like_unit(written)
+    assert split_unit(f"dZ [{written}]") == ("dZ", written)
+
+
+@pytest.mark.parametrize(
+    "word", ["Micrometry", "Millimeterpapier", "Micro", "Kilo", "Milling", "Megabar", "Meter", "Bar"]
+)
+def test_words_that_are_none_stay_words(word: str) -> None:
+    assert not looks_like_unit(word)
+    assert not is_unit(word)

@@ -1,0 +1,48 @@
+"""A clock that goes back: by how much, in words, and what most likely set it back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+_S, _MIN, _H = 10**9, 60 * 10**9, 3600 * 10**9
+_ROW_NS = 10 * _MIN  # from row to row at most, so that the hour shows at which the clock turned
+_MONTHS = (3, 4, 9, 10, 11)  # in which summer time ends somewhere: always on a Sunday, by three or so
+
+
+def in_words(ns: int) -> str:
+    """A span of time: '11 h 59 min', '59 min', '43 s', '0.5 s'."""
+    rest = abs(ns)
+    if rest < _MIN:
+        return f"{rest / _S:.3g} s"
+    rest = round(rest / _S) * _S
+    parts = [(rest // _H, "h"), (rest % _H // _MIN, "min"), (rest % _MIN // _S, "s")]
+    return " ".join(f"{n} {unit}" for n, unit in parts if n)
+
+
+def said(before_ns: int, at_ns: int, absolute: bool, local: bool) -> str:
+    """By how much it went back, and from when to when: on the clock of the file where that is local and names no zone
+    (local), else in UTC; from the start of a file without dates."""
+    return (
+        f"{in_words(before_ns - at_ns)} (from {moment(before_ns, absolute, local)} to {moment(at_ns, absolute, local)})"
+    )
+
+
+def moment(ns: int, absolute: bool, local: bool) -> str:
+    """A time of a file; absolute, local: as of `said`."""
+    if not absolute:
+        return f"{in_words(ns) or '0 s'} after its start"
+    return str(np.datetime64(ns // _S, "s")).replace("T", " ") + ("" if local else " UTC")
+
+
+def likely_cause(before_ns: int, at_ns: int, local: bool) -> str | None:
+    """What set it back by all that shows, and what to do; None where nothing tells. local: it logs local times, and no
+    zone is known."""
+    by = before_ns - at_ns
+    turns = before_ns % _H >= _H - _ROW_NS and at_ns % _H < _ROW_NS  # 12:59, then 1:00; zones differ by whole hours
+    if 12 * _H - _ROW_NS <= by < 12 * _H and turns:
+        return "a clock of 12 hours without AM and PM? export the times in 24 hours, or with AM and PM"
+    at = np.datetime64(at_ns // _S, "s").item()
+    autumn = at.weekday() == 6 and at.month in _MONTHS and before_ns % (24 * _H) < 3 * _H + _ROW_NS
+    if local and _H - _ROW_NS <= by <= _H and autumn:
+        return "the end of summer time? then declare the timezone of the source, e.g. timezone: Europe/Prague"
+    return None

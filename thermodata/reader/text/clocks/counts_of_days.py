@@ -1,0 +1,101 @@
+"""Times that count days or years from a date, by the size and the steps of their numbers; and numbers that can be no
+times in the unit that they are said to have."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from thermodata.errors import FormatError, QuestionError
+from thermodata.plugin import Array
+from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
+
+_SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
+_MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
+_QUICK_S = 5e-6  # from row to row: what measures heat is slower by far
+
+
+def may_be_excel(values: Array) -> bool:
+    """Whether numbers may be Excel's days of 2000 to 2099; or seconds all the same."""
+    return _are_days(values, 36_526, 73_051) and float(np.ptp(values)) < 400
+
+
+def counted_by(name: str, values: Array) -> str | None:
+    """The count of days or years that numbers can only be, by their size and their steps: Julian days (1983 to 2119),
+    decimal years (1990 to 2099), and modified Julian days where the name says so, for Excel's are of the same size.
+    None where they may be something else. values: shape (n,)."""
+    if _are_days(values, 2_445_500, 2_495_000):
+        return "jd"
+    if _MJD_NAME.search(name) and _are_days(values, 40_000, 90_000):
+        return "mjd"
+    # within some days from row to row; whole years only, or few of them, are anything
+    years = _are_days(values, 1990, 2100) and float(np.ptp(values)) < 10 and float(np.diff(values).max()) < 0.02
+    return "decimal_year" if years and bool((np.diff(values) > 0).all()) and float(np.median(values % 1)) else None
+
+
+def count_question(name: str, values: Array, where: str, column: int | None = None) -> QuestionError | None:
+    """Asks whether a time is such a count, in the draft that reads it so meanwhile; None where it is none. column: its
+    number, from 1, where its name does not tell it for a time."""
+    unit = counted_by(name, values)
+    if unit is None:
+        return None
+    said = {"time": {**({} if column is None else {"column": column}), "unit": unit}}
+    day = when(values[0], unit)
+    shown = ", ".join(f"{key}: {value}" for key, value in said["time"].items())
+    return QuestionError(
+        f"times that may be {_SAID[unit]}",
+        where=where,
+        got=f"{name}: {values[0]:.14g} ...",
+        expected="a unit",
+        hint=f"declare table: {{time: {{{shown}}}}}; else {{time: {{period: 60 s}}}}",
+        times=[name],
+        ask=f"unit of the time: is '{name}' in {unit} ({_SAID[unit]})? {values[0]:.14g} is {day} then",
+        declare=said,
+        meanwhile=said,
+    )
+
+
+def when(number: float, unit: str) -> str:
+    """The day and hour that a count from a date says."""
+    (ns,) = EPOCHS[unit].ns(np.array([number], np.float64))
+    return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
+
+
+def refuse_beyond(name: str, values: Array, unit: str, where: str) -> None:
+    """FormatError where most numbers are longer than any time in their unit, as days counted from a date are."""
+    seconds = SECONDS.get(unit)
+    finite = values[np.isfinite(values)]
+    if seconds is None or not finite.size or float(np.median(np.abs(finite))) * seconds < REACH_S:
+        return
+    epoch = counted_by(name, finite) or found_epoch(finite)
+    told = f": as {epoch} it is {when(finite[0], epoch)}" if epoch else ""
+    raise FormatError(
+        f"'{name}' can be no time in {unit}",
+        where=where,
+        expected=f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
+        got=f"{finite[0]:.14g}",
+        hint=f"declare table: {{time: {{unit: {epoch or '...'}}}}}{told}; counted from a date are {', '.join(EPOCHS)}",
+    )
+
+
+def quick_note(name: str, values: Array, unit: str) -> str | None:
+    """What is told of rows that follow each other by less than any sensor of heat needs; None where they do not."""
+    seconds = SECONDS.get(unit)
+    finite = values[np.isfinite(values)]
+    steps = np.abs(np.diff(finite))
+    if seconds is None or not steps.size or not 0 < float(np.mean(steps)) * seconds < _QUICK_S:
+        return None
+    epoch = counted_by(name, finite)
+    step_us = float(np.mean(steps)) * seconds * 1e6
+    or_as = f"; as {epoch} it begins at {when(finite[0], epoch)}" if epoch else ""
+    return (
+        f"rows are {step_us:.2g} us apart by '{name}' in {unit}: is that its unit{or_as}? "
+        "declare table: {time: {unit: ...}} if it is not"
+    )
+
+
+def _are_days(values: Array, first: float, last: float) -> bool:
+    """Whether numbers may be days between two counts, in steps below some hours."""
+    days = values.size > 1 and bool(((values > first) & (values < last)).all())
+    return days and bool((np.abs(np.diff(values)) < 0.2).all()) and bool((values != np.floor(values)).any())

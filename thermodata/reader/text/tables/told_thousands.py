@@ -1,0 +1,45 @@
+"""A decimal mark that the numbers of a file tell though both marks occur: '22,04' beside '3.000' and '-690'."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from thermodata.reader.text.cells.number import spelled
+from thermodata.reader.text.cells.quotes import clean
+
+_SHORT, _LONG = re.compile(r"[+-]?[1-9]\d{0,2}", re.ASCII), re.compile(r"[+-]?\d{4,}(?:[.,]\d*)?", re.ASCII)
+# of no thousands: not three digits behind the mark, or a zero before it
+_FRACTION = {m: re.compile(rf"[+-]?(?:\d+{re.escape(m)}(?!\d{{3}}$)\d+|0{re.escape(m)}\d+)", re.ASCII) for m in ".,"}
+_GROUPED = {
+    m: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:{re.escape(o)}\d{{3}})+(?:{re.escape(m)}\d*)?", re.ASCII)
+    for m, o in ((".", ","), (",", "."))
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """decimal: the mark; note: by what."""
+
+    decimal: str
+    note: str
+
+
+def told_thousands(columns: Iterable[Sequence[str]]) -> Told | None:
+    """The decimal mark where one of both begins fractions that are no thousands, and the other parts thousands wherever
+    it stands: in groups of three digits only, in columns that write all that is below a thousand without it and
+    nothing above. None where one of this is lacking: numbers may be written in two ways. columns: cells of numbers."""
+    cells = [[spelled(clean(c)) for c in column] for column in columns]
+    for mark, other in ((",", "."), (".", ",")):
+        begins = next((c for column in cells for c in column if _FRACTION[mark].fullmatch(c)), None)
+        parted = [column for column in cells if any(other in c for c in column)]
+        groups = [c for column in parted for c in column if other in c]
+        if begins is None or not groups or not all(map(_GROUPED[mark].fullmatch, groups)):
+            continue
+        if any(_LONG.fullmatch(c) for column in parted for c in column):
+            continue
+        if not any(_SHORT.fullmatch(c) for column in parted for c in column):
+            continue  # three digits behind the mark in each number: of a fixed format as well
+        return Told(mark, f"'{other}' parts thousands ('{groups[0]}'), for '{mark}' begins fractions ('{begins}')")
+    return None
