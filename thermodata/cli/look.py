@@ -7,7 +7,6 @@ from typing import Any
 
 import click
 
-from thermodata.calibration.limits import with_limits
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.ingest import calibrations_text
@@ -131,6 +130,8 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
     Signed sensitivity, uncertainty, noise, and what failed a check. JSON has all checks, each with the limit by which
     it passes.
     """
+    from thermodata.calibration.limits import with_limits
+
     rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
     rows = [{**row, "checks": with_limits(row["checks"])} for row in rows]
     session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
