@@ -194,11 +194,56 @@ def test_bursts_of_measuring_tell_no_clock_for_heat_acts_between_them() -> None:
 
 
 @pytest.mark.parametrize(
-    ("minutes", "elsewhere", "off"),
-    [(60, 0.05, True), (60, 0.09, False), (65, 0.05, True), (66, 0.05, False), (114, 0.05, False), (20, 0.09, True)],
+    ("minutes", "chance", "off"),
+    [
+        (60, 0.0049, True),
+        (60, 0.0051, False),
+        (65, 0.0, True),
+        (66, 0.0, False),
+        (114, 0.0, False),
+        (20, 0.0051, False),
+    ],
 )
-def test_an_hour_stands_out_of_what_chance_gives_at_other_shifts(minutes: int, elsewhere: float, off: bool) -> None:
-    found = Timing("nc", 60.0 * minutes, 0.135, 0.0, "c", "t0", elsewhere)
+def test_among_so_many_shifts_of_a_test_one_stands_out_by_chance(minutes: int, chance: float, off: bool) -> None:
+    found = Timing("nc", 60.0 * minutes, 0.135, 0.0, "c", "t0", chance)
     assert clock_is_off(found, 60.0) is off
-    of_all = replace(found, test="", elsewhere=0.135)
-    assert clock_is_off(of_all, 60.0) is (minutes not in (66, 114)), "all tests speak for it"
+
+
+def with_a_stroke(seed: int, size: float = 0.0, late: int = 0, own_um: float = 4.0, minutes: int = 90) -> Problem:
+    """Three tests in which the speed acts at once, and a short one of strokes of 3 to 6 min with rests between. There
+    the displacement answers them by size [um], and does jumps of its own: some near-by hall crane, a few in the test;
+    the strokes are logged so many samples late."""
+    rng, asked = np.random.default_rng(seed), off_by(0, tests=4)
+    runs = rng.integers(3, 7, 2 * minutes)
+    n = np.repeat(np.arange(len(runs)) % 2, runs)[:minutes].astype(float)
+    own = np.cumsum(rng.normal(size=minutes) * own_um * (rng.random(minutes) < 0.15))
+    y = size * n + own + 0.1 * rng.normal(size=minutes)
+    logged = n[np.clip(np.arange(minutes) - late, 0, minutes - 1)]
+    one = problem(Parts(y - y.mean(), response=y - y.mean(), values={"n": 3000 * logged, "T": n})).blocks[0]
+    one = replace(one, test=replace(one.test, test="strokes"))
+    return replace(asked, blocks=(*asked.blocks[:3], one))
+
+
+@pytest.mark.parametrize("seed", [11, 30, 41, 48])
+def test_strokes_that_meet_a_few_jumps_at_some_shift_tell_no_clock(seed: int) -> None:
+    """At one shift of the many a tenth to a fifth of the squared jumps is foretold, without the largest, too."""
+    assert timings(with_a_stroke(seed, own_um=16.0 if seed == 30 else 10.0), CHANNELS).off() == []
+
+
+@pytest.mark.parametrize("late", [-25, -12, 12, 25])
+def test_strokes_that_are_followed_at_once_tell_one(late: int) -> None:
+    (found,) = timings(with_a_stroke(2, size=5.0, late=late), CHANNELS).off()
+    assert (found.test, found.shift_s) == ("strokes", -60.0 * late)
+
+
+def test_what_to_declare_is_of_the_test_with_all_that_its_clock_is_moved_by() -> None:
+    asked = off_by(3, apart={2: 60})
+    of_all, of_one = timings(asked, CHANNELS).off()
+    assert as_artefact(of_all, asked).why.endswith(
+        "If it was off, declare at source 'nc' clock: {offset: -180 s}; if it was right, clock: {offset: 0 s}, and it "
+        "is not asked again"
+    )
+    assert as_artefact(of_one, asked).why.endswith(
+        "If it was off, declare at the test clocks: {nc: -3600 s}; if it was right, clocks: {nc: 0 s}, and it is not "
+        "asked again"
+    )

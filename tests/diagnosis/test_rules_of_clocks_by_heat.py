@@ -11,6 +11,8 @@ from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.clocks import by_heat as clocks_by_heat
 from thermodata.diagnosis.clocks.by_heat import as_artefact, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.heat_balance import Disagreement, Pair
+from thermodata.diagnosis.clocks.timings import Timing
+from thermodata.diagnosis.sound import not_refuted
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
@@ -201,6 +203,40 @@ def in_one(tests: list[TestData]) -> list[tuple[str, str | None, float]]:
 @pytest.mark.parametrize("source", ["log", "nc"])
 def test_a_log_that_is_late_in_one_test_is_told_by_the_others(source: str, minutes: float) -> None:
     assert in_one(logged({source: minutes}, only=(2,))) == [("t2", source, pytest.approx(-minutes, abs=4))]
+
+
+@pytest.mark.parametrize(
+    ("late", "test", "minutes", "as_logged"),
+    [
+        ({}, 2, 40, True),  # what commands move at once met it by chance
+        ({"nc": 40.0}, 2, -40, False),
+        ({"nc": 40.0}, 1, -40, True),
+        ({"nc": 40.0, "log": 40.0}, 2, -40, False),  # of the displacement's own log: its heat says so
+        ({"nc": 40.0}, 2, -330, False),  # too little of the test is left to say
+    ],
+)
+def test_heat_says_of_a_test_whether_its_commands_are_right_as_they_were_logged(
+    late: dict[str, float], test: int, minutes: float, as_logged: bool
+) -> None:
+    logs = compared(logged(late, only=(2,)), CHANNELS, "dZ", STEP_S)
+    assert logs.comes_as_logged("nc", ("c", f"t{test}"), 60 * minutes) is as_logged
+
+
+def test_where_nothing_warms_heat_refutes_no_clock() -> None:
+    logs = compared(logged(heat=0.0), CHANNELS, "dZ", STEP_S)
+    assert not logs.comes_as_logged("nc", ("c", "t2"), 2400.0)
+
+
+@pytest.mark.parametrize(
+    ("told", "stays"),
+    [
+        ([Timing("nc", 2400.0, 0.3, 0.0, "c", "t2")], False),
+        ([Timing("nc", 2400.0, 0.3, 0.0)], True),  # of all tests
+        ([Timing("nc", 2400.0, 0.3, 0.0), Timing("nc", 1200.0, 0.3, 0.0, "c", "t2", all_s=2400.0)], True),
+    ],
+)
+def test_a_clock_of_one_test_is_moved_where_heat_does_not_refute_it(told: list[Timing], stays: bool) -> None:
+    assert not_refuted(told, compared(logged(), CHANNELS, "dZ", STEP_S)) == (told if stays else [])
 
 
 def test_of_a_test_in_which_the_machine_waits_nothing_is_said() -> None:

@@ -79,7 +79,7 @@ def test_a_clock_that_is_off_from_a_test_on_is_moved_in_these(only: tuple[int, .
     said = as_artefact(found, "c")
     assert said.test == f"t{only[0]}"
     assert f"from t{only[0]} on (" in said.why
-    assert "clocks: {nc: ...} at the tests" in said.why
+    assert f"declare at these tests clocks: {{nc: {found.shift_s:.0f} s}}; if it was right" in said.why
 
 
 def test_a_clock_that_was_put_right_is_off_up_to_a_test() -> None:

@@ -186,10 +186,14 @@ def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, 
     before = pooled(kept, "calibration", responses=["dZ"])
     assert before != pytest.approx(pooled(parent.scores, "calibration", responses=["dZ"]), rel=0.01)
     n = len(world.tests) - sum(t.role in ("locked", "none") for t in world.tests)
-    said = f"1 of {n} tests is lost, for this version can't predict it: c/{lost} (no driver for feed_screw)"
+    said = f"1 of {n} tests is lost, for this version does not predict it: c/{lost} (no driver for feed_screw)"
     # the command and the notebook
     text = before_after_text(grown)
     assert text.splitlines()[0].startswith(f"{said}; before and after are over the {n - 1} that both predict")
+    left_out = "made without t9: the clock of nc is off in it"
+    noted = before_after_text(grown.model_copy(update={"notes": ["read in steps", left_out]}))
+    assert noted.splitlines()[:2] == [left_out, ""]
+    assert noted.endswith(text)
     (row,) = (line.split() for line in text.splitlines() if line.split()[:3] == ["-", "all", "calibration"])
     assert float(row[3]) == pytest.approx(before, rel=0.01)
     # the versions: own errors keep their keys

@@ -43,8 +43,17 @@ def test_nor_does_one_whose_clock_is_off_by_itself(model: Model, data: Dataset) 
     grown, notes = heeding(model, data, PutRight(clocks=[clock]))
     assert (grown.calibrate_on, grown.verify_on) == (named(data, 0, 1), [])
     assert notes == [
-        f"made without {test}: the clock of nc is off in it; mend it in the campaign file, ingest, and fit again"
+        f"made without {test}: the clock of nc is off in it by +60 min, the diagnosis says. If so, declare at this "
+        "test clocks: {nc: 3600 s}; if it was right, clocks: {nc: 0 s}; then ingest, and fit again"
     ]
+
+
+def test_what_to_declare_at_a_test_is_all_that_its_clock_is_moved_by(model: Model, data: Dataset) -> None:
+    campaign, test = data.tests[2].key
+    of_all = ClockMoved(source="nc", moved_s=-120.0)
+    of_one = ClockMoved(source="nc", campaign=campaign, test=test, moved_s=3600.0)
+    *_, note = heeding(model, data, PutRight(clocks=[of_all, of_one]))[1]
+    assert "clocks: {nc: 3480 s}; if it was right, clocks: {nc: 0 s}" in note
 
 
 def test_a_clock_that_is_off_in_all_tests_is_told_and_nothing_left_out(model: Model, data: Dataset) -> None:

@@ -769,9 +769,12 @@ MUTANTS = [
     diagnosis("by_heat.py", "told.right - declared", "told.right", "what is declared speaks for the rest"),
     diagnosis("timings.py", "abs(t.shift_s + all_s) <=", "abs(t.shift_s) <=", "all are moved for a part"),
     diagnosis("moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
-    diagnosis("timings.py", "timing.share >= BEATS * by_chance", "True", "an hour that chance gives is told"),
-    diagnosis("timings.py", "if timing.test else 0.0", "", "an hour in all tests is asked twice"),
-    diagnosis("timings.py", "from_hour_s <= ABOUT_S and", "", "any long shift is taken for an hour"),
+    diagnosis("timings.py", "timing.chance <= CHANCE and", "", "what chance gives moves a clock"),
+    diagnosis(
+        "by_commands.py", ", float(many ** (-2.0 * max(beyond, 0.0))))", ")", "a program that alternates hides a clock"
+    ),
+    diagnosis("by_heat.py", "moved - where_it_is >= DECIDES", "False", "the displacement's own log is never late"),
+    diagnosis("timings.py", "late &= from_hour_s <= ABOUT_S", "pass", "any long shift is taken for an hour"),
     diagnosis(
         "by_commands.py", "2 * AROUND * step_s) <", "2 * AROUND * np.median(np.diff(t_s))) <", "bursts tell a clock"
     ),

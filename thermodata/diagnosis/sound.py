@@ -9,13 +9,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from thermodata.diagnosis.clocks.by_commands import timings
+from thermodata.diagnosis.clocks.by_heat import Logs, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.by_heat import as_artefact as by_heat
-from thermodata.diagnosis.clocks.by_heat import compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.declared import Declared
 from thermodata.diagnosis.clocks.ends_of_logs import UNKNOWN, Ends, is_alike, meets
 from thermodata.diagnosis.clocks.moves import with_clocks_right
 from thermodata.diagnosis.clocks.sides import in_order
-from thermodata.diagnosis.clocks.timings import as_artefact
+from thermodata.diagnosis.clocks.timings import Timing, as_artefact
 from thermodata.diagnosis.locked.confirm import on_all_open
 from thermodata.diagnosis.question.compressed import compressed
 from thermodata.diagnosis.question.once import as_artefacts, each_once
@@ -114,6 +114,13 @@ def _moved(found: Sound, clocks: Sequence[ClockMoved]) -> Sound:
     return replace(right, faults=found.faults, put_right=PutRight(clocks=every))
 
 
+def not_refuted(off: Sequence[Timing], logs: Logs) -> list[Timing]:
+    """Without clocks of single tests that heat says are right there. Of one that is off in all tests heat is asked once
+    it is moved."""
+    in_all = {t.source for t in off if not t.test}
+    return [t for t in off if not t.test or t.source in in_all or not logs.comes_as_logged(t.source, t.key, t.shift_s)]
+
+
 def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     """By what commands move at once; then, by heat, of the logs that no such command is in."""
     response, keys = found.fitted.responses[index], {t.key for t in found.tests}
@@ -126,6 +133,7 @@ def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     in_one = {key: (sources - word.of_all) | by_ends.get(key, frozenset()) for key, sources in word.in_one.items()}
     order = in_order([*found.tests, *found.fitted.tests(found.data, "locked")])
     off = [t for t in known.off(order, in_one) if t.source not in word.of_clock(t.campaign, t.test)]
+    off = not_refuted(off, compared(found.tests, found.data.channels, response.name, found.data.step_s))
     clocks = [move for t in off for move in t.moves()]
     faults = [as_artefact(t, problem) for t in off]
 

@@ -6,6 +6,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import on_common
+from thermodata.modelling.versions.unsound import MADE_WITHOUT
 from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table
@@ -187,7 +188,8 @@ def spots_text(spots: list[WeakSpot], response: str = "", most: int = 8) -> str:
 
 
 def before_after_text(result: FitResult) -> str:
-    """What an added effect did, a row a test; roles pooled below over the tests that both versions predict."""
+    """What an added effect did, a row a test; roles pooled below over the tests that both versions predict. First which
+    tests it is made without, which may be sound."""
     common = on_common([result.before or [], result.scores])
     before = {(s.campaign, s.test, s.response, s.phase): s for s in result.before or []}
     rows: list[dict[str, Any]] = []
@@ -211,7 +213,8 @@ def before_after_text(result: FitResult) -> str:
         ("change", "change"),
     ]
     lost = lost_sentence(result.before or [], result.scores, result.checks)
-    head = f"{lost}\n\n" if lost else ""
+    left_out = [note for note in result.notes if note.startswith(MADE_WITHOUT)]
+    head = "".join(f"{line}\n\n" for line in [*left_out, lost] if line)
     return f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
 
 

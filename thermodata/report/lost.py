@@ -30,7 +30,7 @@ def lost_sentence(before: Iterable[Score], after: Iterable[Score], checks: Itera
     why = list(dict.fromkeys(t.why for t in lost if t.why))
     do, them = ("is", "it") if len(names) == 1 else ("are", "them")
     return (
-        f"{len(names)} of {counted(len(had), 'test')} {do} lost{of}, for this version can't predict {them}: "
+        f"{len(names)} of {counted(len(had), 'test')} {do} lost{of}, for this version does not predict {them}: "
         f"{_some(names)}"
         + (f" ({'; '.join(why[:2])})" if why else "")
         + "; "

@@ -7,6 +7,7 @@ whether the model has it or not, so the displacement itself is asked, in its jum
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -20,8 +21,9 @@ from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import ChannelInfo, TestData
 
 MOST_SAMPLES = 60  # and no more than these;
-RIM = 2.0  # asked for so many times as far: what chance gives, and what is best beyond is no whole hour
+RIM = 2.0  # asked for so many times as far: what is best beyond is no whole hour
 AROUND = 5  # samples on either side of a jump that its slope is taken over
+LEAST_LEFT = 0.45  # of what is foretold of a test, where commands are moved by a shift: less of it is another test
 RIDGE = 0.1  # of a column's squares: what hardly changes in the other tests must not foretell a large jump
 
 
@@ -73,8 +75,10 @@ class _Sums:
         """at_s: by which all the others are moved."""
         gains = self._gains(i)[self._nearest(at_s)]
         campaign, test = self.tests[i]
-        shares = self._shares(i, gains)
-        found = replace(self._timing(source, shares, at_s), campaign=campaign, test=test)
+        shares, asked = self._shares(i, gains), self._inside(i, gains, at_s)
+        best = self._timing(source, np.where(asked, shares, -np.inf), at_s)
+        chance = self._chance(i, gains, best.shift_s + at_s, asked)
+        found = replace(best, campaign=campaign, test=test, chance=chance, all_s=at_s)
         quiet = self._without_loudest()._shares(i, gains)
         near = float(quiet[self._near(at_s)].max())
         if clock_is_off(
@@ -102,6 +106,28 @@ class _Sums:
         ridge = held[:, :, None] * np.eye(held.shape[1])
         return np.asarray(np.linalg.solve(whole - self.gram[i] + ridge, (of_all - self.cross[i])[..., None])[..., 0])
 
+    def _inside(self, i: int, gains: Float1D, at_s: float) -> Bool1D:
+        """Shifts that leave enough of what the commands do within the test, shape (s,): where nothing changes, nothing
+        is foretold wrongly, and what little is left meets some jump."""
+        power = np.einsum("j,sjk,k->s", gains, self.gram[i], gains)
+        whole = max(float(power[self._near(at_s)].max()), float(np.median(power)))
+        return np.asarray(self._near(at_s) | (power >= LEAST_LEFT * whole))
+
+    def _chance(self, i: int, gains: Float1D, shift_s: float, asked: Bool1D) -> float:
+        """That one of all shifts that are asked goes with a test's jumps as this one does, where none is right: so far
+        out of what the correlations at the others spread by, or beyond the largest of them (docs/artefacts.md)."""
+        along, power = self.cross[i] @ gains, np.einsum("j,sjk,k->s", gains, self.gram[i], gains)
+        goes_with = along / np.sqrt(np.maximum(power, 1e-300))  # as a correlation, but for the energy of the jumps
+        others = asked & (np.abs(self.shifts_s - shift_s) > 1.01 * AROUND * self.step_s)
+        here, many = float(goes_with[self._nearest(shift_s)]), int(asked.sum())
+        spread = float(np.sqrt(np.mean(goes_with[others] ** 2))) if int(others.sum()) >= AROUND else 0.0
+        if here <= 0 or spread <= 0:
+            return 1.0
+        beyond = here / float(np.abs(goes_with[others]).max()) - 1
+        return min(
+            1.0, many * 0.5 * math.erfc(here / spread / math.sqrt(2.0)), float(many ** (-2.0 * max(beyond, 0.0)))
+        )
+
     def _left(self, i: int, gains: FloatND) -> Float1D:
         """Squared jumps of a test at each shift, less what gains, shape (s, k) or (k,), foretell of them."""
         gains = np.broadcast_to(gains, self.cross[i].shape)
@@ -111,9 +137,7 @@ class _Sums:
     def _timing(self, source: str, shares: Float1D, all_s: float) -> Timing:
         best = int(np.argmax(shares))
         unmoved = float(shares[self._near(all_s)].max())
-        others = np.abs(self.shifts_s - self.shifts_s[best]) > 1.01 * AROUND * self.step_s
-        elsewhere = float(shares[others].max(initial=0.0))
-        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved, elsewhere=elsewhere)
+        return Timing(source, float(self.shifts_s[best] - all_s), float(shares[best]), unmoved)
 
     def _near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= 1.01 * self.step_s)

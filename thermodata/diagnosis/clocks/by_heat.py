@@ -15,6 +15,7 @@ import numpy as np
 
 from thermodata.diagnosis.clocks.heat_balance import LEAST_TELLING, UNMOVED_S, Disagreement, Pair, pair_of
 from thermodata.diagnosis.clocks.sides import Key, Part, either, in_order, in_words, own_shifts, part_of, sides
+from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.places import holds
 from thermodata.schema.diagnosis import Artefact, ClockMoved
@@ -101,10 +102,11 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
     if late.source is not None:
         which = f"the choice is made with '{late.source}' moved by {late.shift_s / 60:+.0f} min"
         which += " in these tests" if part else ""
-    by, where = "in tests left out", "clock: {offset: ...} at the source"
-    if first[1]:
-        by = "as they do in the other tests"
-        where = f"clocks: {{{late.source or of.by}: ...}} at the test{'s' if part else ''}"
+    by = "as they do in the other tests" if first[1] else "in tests left out"
+    tests = "" if not first[1] else "these tests" if part else "the test"
+    declare = f"declare what holds, clocks: {{{of.by}: ..., {of.warmed}: ...}}, 0 s for one that was right"
+    if late.source is not None:
+        declare = what_to_declare(late.source, late.shift_s, tests)
     return Artefact(
         kind="clock_offset",
         campaign=first[0] or campaign,
@@ -114,7 +116,7 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
         why=f"{of.telling} temperatures of source '{of.warmed}' follow the commands of source '{of.by}' best with "
         f"these moved by {of.shift_s / 60:+.0f} min (give or take {known_to:.0f}){in_words(part)}: {of.share:.0%} of "
         f"their squared rises are foretold {by}, unmoved {max(of.unmoved, 0.0):.0%}. So {which}; check the time zone "
-        f"and the clocks, or declare what holds: {where}",
+        f"and the clocks. {declare}",
     )
 
 
@@ -189,6 +191,22 @@ class Logs:
         left = [_left(p, by_s if p.by == source else -by_s, off) for p in filter(None, [own, *both])]
         return bool(left) and float(np.prod(left)) <= MOST_LEFT
 
+    def comes_as_logged(self, source: str, key: Key, shift_s: float) -> bool:
+        """Whether heat says of a test that the clock of a source is right in it, and by no such shift off: what another
+        log measured warms as it commands where it stands, and not with the commands moved.
+
+        Where the response, by its own heat, says that it is off, it is the response's own clock that is, and the one of
+        the temperatures goes with that of the commands.
+        """
+        own = self.own(source)
+        if own is not None and _asked(own, key, shift_s):
+            where_it_is, moved = either(own, shift_s, [key])
+            if moved >= DECIDES and moved - where_it_is >= DECIDES:
+                return False
+        return any(
+            key in sides(pair, shift_s).right for pair in self.pairs if pair.by == source and _asked(pair, key, shift_s)
+        )
+
     def which(self, of: Disagreement, right: Collection[str], off: Collection[Key] = ()) -> Late:
         """The one that disagrees with the response, too: with its own clock, or with its own heat. off: the tests in
         which they disagree, where that is a part of them."""
@@ -241,6 +259,14 @@ def _pairs(
             names, drives = _of(warm, warmed), _of(commands, by)
             pairs.append(pair_of(tests, names, drives, step_s, warmed=warmed, by=by, air=air))
     return tuple(p for p in pairs if p is not None)
+
+
+def _asked(pair: Pair, key: Key, shift_s: float) -> bool:
+    """Whether enough of a test is left with the commands moved, so that heat can say which of two times is right."""
+    near = np.abs(pair.shifts_s - shift_s) <= UNMOVED_S
+    return any(
+        t.key == key and bool((energy[:, near] > 0).any()) for t, energy in zip(pair.tests, pair.energy, strict=True)
+    )
 
 
 def _left(pair: Pair, shift_s: float, off: set[Key]) -> float:

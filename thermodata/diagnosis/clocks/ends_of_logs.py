@@ -83,7 +83,8 @@ class Ends:
             then = f"Nothing was moved for it here, for {_BY_NO_HEAT if move is not None else _IN_NEITHER}"
             if move is not None and move in moved:
                 by = f"{move.moved_s / 60:+.3g} min"
-                then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}"
+                then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}. "
+                then += f"If it was right, declare at this test clocks: {{{move.source}: 0 s}}"
             found.append(
                 Artefact(
                     kind="clock_offset",

@@ -15,14 +15,16 @@ LEAST_SHARE = 0.1  # of the squared jumps, which the other tests foretell at the
 BEATS = 2.0  # times what they foretell unmoved
 LEAST_S = 150.0  # quick heat is late by up to 2 min where clocks are right
 GIVE_OR_TAKE = 2  # samples between the shift found and the right one, at most
+CHANCE = 0.005  # that one of all shifts of a test stands out so far where no clock is off
 
 
 @dataclass(frozen=True, slots=True)
 class Timing:
     """shift_s: by which a source's commands foretell most when moved later; of one test beyond what all are moved by.
     share: of the squared jumps, foretold by the other tests at that shift. unmoved: the most within a sample of none.
-    campaign, test: the one that is asked of; '' for all of them. elsewhere: the most at shifts that are not near it.
-    part: the tests in which the clock is off, where it is right in others; None: in `test`, or in all."""
+    campaign, test: the one that is asked of; '' for all of them. chance: that among all shifts of a test one stands out
+    so far by itself; 0 of all tests, which speak for it together. all_s: by which all are moved, where one is off
+    beyond that. part: the tests in which the clock is off, where it is right in others; None: in `test`, or in all."""
 
     source: str
     shift_s: float
@@ -30,7 +32,8 @@ class Timing:
     unmoved: float
     campaign: str = ""
     test: str = ""
-    elsewhere: float = 0.0
+    chance: float = 0.0
+    all_s: float = 0.0
     part: Part | None = None
 
     @property
@@ -116,10 +119,21 @@ def clock_is_off(timing: Timing, step_s: float) -> bool:
     late = abs(timing.shift_s) >= max(LEAST_S, (GIVE_OR_TAKE + 0.5) * step_s)
     from_hour_s = abs(timing.shift_s - 3600.0 * round(timing.shift_s / 3600.0))
     if abs(timing.shift_s) > MOST_S:
-        # among so many shifts some stands out by chance, in a test by itself
-        by_chance = timing.elsewhere if timing.test else 0.0
-        late &= from_hour_s <= ABOUT_S and timing.share >= BEATS * by_chance
-    return late and timing.tells and timing.share >= BEATS * timing.unmoved
+        late &= from_hour_s <= ABOUT_S
+    return late and timing.chance <= CHANCE and timing.tells and timing.share >= BEATS * timing.unmoved
+
+
+def what_to_declare(source: str, moved_s: float, tests: str) -> str:
+    """In the campaign file, to make a move for good, and to have it never made again. tests: where, 'the test'; '' for
+    all of them."""
+    where, was_off, was_right = f"at {tests}", f"clocks: {{{source}: {moved_s:.0f} s}}", f"clocks: {{{source}: 0 s}}"
+    if not tests:
+        where, was_off, was_right = (
+            f"at source '{source}'",
+            f"clock: {{offset: {moved_s:.0f} s}}",
+            "clock: {offset: 0 s}",
+        )
+    return f"If it was off, declare {where} {was_off}; if it was right, {was_right}, and it is not asked again"
 
 
 def as_artefact(timing: Timing, problem: Problem) -> Artefact:
@@ -127,9 +141,7 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
     minutes, known_to = timing.shift_s / 60, GIVE_OR_TAKE * problem.step_s / 60
     first = timing.key if timing.part is None else timing.part.off[0]
     of = "in this test, by how they act in the others" if timing.test else "in tests left out"
-    where = "clock: {offset: ...}"
-    if timing.part is not None:
-        where = f"clocks: {{{timing.source}: ...}} at the tests"
+    tests = "" if not first[1] else "the test" if timing.part is None else "these tests"
     return Artefact(
         kind="clock_offset",
         campaign=first[0] or problem.blocks[0].test.campaign,
@@ -139,5 +151,5 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
         why=f"with the clock of source '{timing.source}' moved by {minutes:+.0f} min (give or take {known_to:.0f})"
         f"{in_words(timing.part)} its commands foretell {timing.share:.0%} of the squared jumps of the displacement "
         f"{of}, unmoved {max(timing.unmoved, 0.0):.0%}. The choice is made with it moved; check the time zone and the "
-        f"clocks, or declare {where}",
+        f"clocks. {what_to_declare(timing.source, timing.all_s + timing.shift_s, tests)}",
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import NOT_DRIVERS
 from thermodata.diagnosis.clocks.moves import moved
+from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.diagnosis import Artefact
@@ -57,7 +58,7 @@ def clock_offsets(
                     size_um=rms[0] - rms[1],
                     why=f"with the clock of source '{source}' moved by {best / 60:+.0f} min the error falls from "
                     f"{rms[0]:.2f} to {rms[1]:.2f} {problem.unit} in all tests together: check the time zone and the "
-                    "clocks, or declare clock: {offset: ...}",
+                    f"clocks. {what_to_declare(source, best, '')}",
                 )
             )
     return artefacts

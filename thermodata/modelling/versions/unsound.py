@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from thermodata.modelling.inputs.roles import Key, resolve_roles
-from thermodata.schema.diagnosis import PutRight
+from thermodata.schema.diagnosis import ClockMoved, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
+
+MADE_WITHOUT = "made without"  # a test: begins the note of each that is left out
 
 
 def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, list[str]]:
@@ -19,8 +21,8 @@ def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, 
     if found is None:
         return spec, []
     notes = [_of_all(c.source, c.moved_s) for c in found.clocks if not c.test]
-    turned = dict.fromkeys(found.left_out, "its probe is turned")
-    late = {(c.campaign, c.test): f"the clock of {c.source} is off in it" for c in found.clocks if c.test}
+    turned = dict.fromkeys(found.left_out, "its probe is turned; mend it in the campaign file, ingest, and fit again")
+    late = {(c.campaign, c.test): _of_one(c.campaign, c.test, found.clocks) for c in found.clocks if c.test}
     wrong = {**late, **turned}
     roles = resolve_roles(spec, data)
     kept = [key for key in roles.calibrate if key not in wrong]
@@ -28,14 +30,27 @@ def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, 
     if not gone or not kept:
         return spec, notes
     verify = [key for key in roles.verify if key not in wrong]
-    notes += [
-        f"made without {key[1]}: {wrong[key]}; mend it in the campaign file, ingest, and fit again" for key in gone
-    ]
+    notes += [f"{MADE_WITHOUT} {key[1]}: {wrong[key]}" for key in gone]
     return spec.model_copy(update={"calibrate_on": _names(kept), "verify_on": _names(verify)}), notes
 
 
 def _names(keys: Iterable[Key]) -> list[str]:
     return ["/".join(key) for key in keys]
+
+
+def _of_one(campaign: str, test: str, clocks: Sequence[ClockMoved]) -> str:
+    """Of a test in which clocks are off by themselves, each with all that it is moved by there."""
+    by_s: dict[str, float] = {c.source: 0.0 for c in clocks if (c.campaign, c.test) == (campaign, test)}
+    for c in clocks:
+        if c.source in by_s and (not c.test or (c.campaign, c.test) == (campaign, test)):
+            by_s[c.source] += c.moved_s
+    off = " and ".join(f"the clock of {source} is off in it by {s / 60:+.0f} min" for source, s in by_s.items())
+    mended = ", ".join(f"{source}: {s:.0f} s" for source, s in by_s.items())
+    sound = ", ".join(f"{source}: 0 s" for source in by_s)
+    return (
+        f"{off}, the diagnosis says. If so, declare at this test clocks: {{{mended}}}; if it was right, clocks: "
+        f"{{{sound}}}; then ingest, and fit again"
+    )
 
 
 def _of_all(source: str, moved_s: float) -> str:
