@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import answer as answering
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape
 from thermodata.diagnosis.question.discrepancy import Noise
@@ -59,6 +60,14 @@ def claim(*claims: Scored, beside: Sequence[Judged] = ()) -> Judgement:
 def nothing(verdict: Verdict, *members: Judged) -> Judgement:
     refined = tuple(j for j in members if j.refines) if verdict == "refine" else ()
     return Judgement(verdict, (), refined, members, "because")
+
+
+class OtherGains(CandidateEffect):
+    """An effect of the model with other gains."""
+
+    @property
+    def within(self) -> str:
+        return "a"
 
 
 class TestAnswer:
@@ -416,6 +425,9 @@ class TestAnswer:
         assert of(nothing("unknown", member(FIRST, "a mode"))) == [twin, None, None], "something else is missing"
         mode = replace(TWIN, candidate=replace(TWIN.candidate, kin="same"))
         assert of(nothing("unknown"), (FIRST, mode)) == [first, None], "of what was not selected nobody asked"
+        given = {f.name: getattr(TWIN.candidate, f.name) for f in fields(TWIN.candidate)}
+        other_gains = replace(TWIN, candidate=OtherGains(**given))
+        assert of(nothing("unknown"), (FIRST, other_gains)) == [first, None]
         dull = replace(TWIN, evidence=30.0)
         below = of(claim(FIRST, beside=[member(dull)]), (FIRST, dull))
         assert below == [borne_out, pytest.approx(0.454)], "judged beside the claim, and no claim"
@@ -458,6 +470,16 @@ class TestAnswer:
         assert order(member(duller), ranked=(dull, duller)) == ["first", "twin"]
         broken = replace(TWIN, gained=-TWIN.gained)
         assert order(member(broken), ranked=(dull, broken)) == ["first", "twin"]
+
+    @pytest.mark.parametrize(("after", "order"), [(0.9, ["twin", "first"]), (1.1, ["first", "twin"])])
+    def test_a_refinement_that_lets_no_error_fall_comes_behind_the_likeliest(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, after: float, order: list[str]
+    ) -> None:
+        sse = after**2 * TWIN.rows
+        mode = member(replace(TWIN, sse_after=sse, own_after=sse), "a mode")
+        judgement = replace(nothing("unknown", mode), refinements=(mode,))
+        found = self.answered(monkeypatch, spec, judgement, ranked=(FIRST, mode.scored, OTHER))
+        assert [c.effect for c in found.candidates][:2] == order
 
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

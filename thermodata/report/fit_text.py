@@ -223,7 +223,7 @@ def worse_on_locked(result: FitResult) -> str:
     return (
         f"the locked tests get worse with what the diagnosis claims: {number(before)} -> {number(after)} um, "
         f"{number(after / before, 2)} times as much. The errors below are of tests that it was fitted to or chosen by, "
-        "so look at the locked ones (thermodata compare) before this version is used"
+        "so ask the locked ones (thermodata confirm tells each) before this version is used"
     )
 
 

@@ -17,6 +17,7 @@ from thermodata.diagnosis.tell.stated import Row, goes_by_name, likeliest, state
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.candidate import Candidate
@@ -30,10 +31,12 @@ def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
 
 
 def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
-    """Claims, what the locked tests refused, refinements, then all others by what they would give as the answer tells
-    it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the others comes before
-    them."""
-    first = [*judgement.claims, *judgement.refused, *judgement.refinements]
+    """Claims, what the locked tests refused, refinements that let an error fall, then all others by what they would
+    give as the answer tells it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the
+    others comes before them; then other refinements."""
+    idle = [j for j in judgement.refinements if not _lets_an_error_fall(j.scored, investigation)]
+    refinements = [j for j in judgement.refinements if not among(j, idle)]
+    first = [*judgement.claims, *judgement.refused, *refinements]
     order: list[Row] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
     others: list[Row] = [(j.scored, j) for j in rest]
@@ -44,9 +47,25 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
                 others.append((s, None))
     others.sort(key=lambda item: -explained(_beside_the_model(item[0], investigation)[0]))
     head = likeliest(others, investigation.measure, investigation.problem.unit)
+    others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
         others.sort(key=lambda item: item[0] is not head)
     return [*order, *others][:SHOWN]
+
+
+def _lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
+    """Whether left-out tests are foretold better with it, over all or where it acts, and locked ones that were opened
+    for it no worse: nothing else is advised."""
+    added = _added(s)
+    if added is not None and added.after >= added.before:
+        return False
+    return s.drop > 0 or fall(_beside_the_model(s, investigation)[0]) > 0
+
+
+def _added(s: Scored) -> Foretold | None:
+    """What locked tests say of it, added to the model as it stands; None where they were not opened, or say nothing."""
+    added = s.looked.added if s.looked is not None else None
+    return added if added is not None and s.looked is not None and added in s.looked.saying else None
 
 
 def with_probability(shown: Sequence[Row], investigation: Investigation, judgement: Judgement) -> list[Scored]:
@@ -84,7 +103,7 @@ def candidate(
     refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
-    shape = held.on(held.asked) if held else s.looked.added if refining and s.looked is not None else None
+    shape = held.on(held.asked) if held else _added(s) if refining else None
     told, of_model = _beside_the_model(s, investigation)
     by_name = goes_by_name(s, told_with) if member is None else None
     twins = [t.candidate for t in equivalents(s, beside)]
