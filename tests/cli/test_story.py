@@ -46,6 +46,8 @@ FIT = {
     "added",
     "notes",
     "lost",
+    "locked_rmse_um_before",
+    "locked_rmse_um_after",
 }
 
 
@@ -316,6 +318,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "fitted_rmse_um",
         "locked_rmse_um",
         "explainable",
+        "explainable_by",
         "weak_spots",
         "candidates",
         "artefacts",

@@ -18,12 +18,12 @@ from thermodata.diagnosis.unlogged.goes_with import (
 )
 from thermodata.diagnosis.unlogged.missing_heat import Course, MissingHeat
 from thermodata.diagnosis.unlogged.unexplained import characterise
-from thermodata.diagnosis.verdict.suspect import First, Suspect, first
+from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect, doubt_of_heat, first
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData
 
-from .hand_made import STEP_S, Parts, a_test, candidate, problem, scored
+from .hand_made import STEP_S, Parts, a_test, candidate, measure, problem, scored
 
 STEPS = 40  # of 10 min, ten rows each
 CHANNELS = {
@@ -222,11 +222,12 @@ def said(
     suspect: Suspect | None = None,
     first: First | None = None,
     warm: tuple[str, str] | None = None,
+    doubt: Doubt = "none",
     **changed: object,
 ) -> str:
     asked = replace(half(20, 0), **changed)  # type: ignore[arg-type]
     tests = [c.test for c in asked.courses]
-    return where(asked, found, tests[:1], tests[1:2], suspect, first, warm)
+    return where(asked, found, tests[:1], tests[1:2], suspect, first, warm, doubt)
 
 
 WITH_SPINDLE = Companion(CHANNELS["n"], "with", 0.96, 0.04, None)
@@ -388,6 +389,23 @@ def test_a_channel_of_what_is_likely_it_is_not_ruled_out() -> None:
 
 def test_a_residual_without_a_course_has_no_missing_heat() -> None:
     assert characterise(problem(*[Parts(np.zeros(240))] * 3), []).heat is None
+
+
+@pytest.mark.parametrize(("doubt", "told"), [("none", True), ("some", True), ("all", False)])
+def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: bool) -> None:
+    wave = lag(12.0 * np.repeat([0.0, 1.0, 0.0, 1.0, 1.0, 0.0], 80), 2400.0, STEP_S)
+    found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], doubt=doubt)
+    assert (found.heat is not None) is told
+    assert (found.heat is not None and found.heat.where.startswith("It may be no heat at all")) is (doubt == "some")
+
+
+@pytest.mark.parametrize(
+    ("left", "known", "doubt"),
+    [(5.1, False, "none"), (5.0, False, "some"), (2.6, False, "some"), (2.5, False, "all"), (0.1, True, "none")],
+)
+def test_what_is_left_says_whether_any_heat_is_missing(left: float, known: bool, doubt: Doubt) -> None:
+    """Of a response of 10 um; a plausible cause, or locked tests, say it whatever is left."""
+    assert doubt_of_heat(left, measure(spread=10.0), known=known) == doubt
 
 
 def test_a_channel_that_is_not_logged_in_a_test_rests_there() -> None:

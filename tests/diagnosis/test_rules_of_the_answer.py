@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis import answer as answering
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape
 from thermodata.diagnosis.question.discrepancy import Noise
@@ -59,6 +60,14 @@ def claim(*claims: Scored, beside: Sequence[Judged] = ()) -> Judgement:
 def nothing(verdict: Verdict, *members: Judged) -> Judgement:
     refined = tuple(j for j in members if j.refines) if verdict == "refine" else ()
     return Judgement(verdict, (), refined, members, "because")
+
+
+class OtherGains(CandidateEffect):
+    """An effect of the model with other gains."""
+
+    @property
+    def within(self) -> str:
+        return "a"
 
 
 class TestAnswer:
@@ -397,53 +406,104 @@ class TestAnswer:
         assert (alone.verdict, alone.candidates[0].refinement) == ("refine", True)
         assert alone.unknown is None
 
-    def test_a_probability_is_said_of_claims_and_of_what_heads_the_list(
+    def test_a_probability_is_said_of_claims_and_of_causes_that_keep_the_other_rules(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        """Nothing is known of the share of the others, nor of refinements."""
+        """Nothing is known of the share of the others, nor of refinements; beside a claim what it may explain is not
+        known either."""
 
-        def of(judgement: Judgement) -> list[float | None]:
-            found = self.answered(monkeypatch, spec, judgement)
+        def of(judgement: Judgement, ranked: Sequence[Scored] = RANKED) -> list[float | None]:
+            found = self.answered(monkeypatch, spec, judgement, ranked=ranked)
             return [None if c.probability is None else round(c.probability, 3) for c in found.candidates]
 
         first, twin = 0.911, 0.906
         borne_out, other = 0.949, 0.962  # by a fall of the locked error from 1 to 0.5
         assert of(claim(SECOND, FIRST)) == [other, borne_out, None]
         assert of(claim(FIRST)) == [borne_out, None, None]
-        assert of(nothing("unknown")) == [first, None, None]
+        assert of(nothing("unknown")) == [first, twin, None], "the last one does no better than chance"
         assert of(nothing("refine", member(FIRST, "a mode"))) == [None, twin, None]
         assert of(nothing("unknown", member(FIRST, "a mode"))) == [twin, None, None], "something else is missing"
+        mode = replace(TWIN, candidate=replace(TWIN.candidate, kin="same"))
+        assert of(nothing("unknown"), (FIRST, mode)) == [first, None], "of what was not selected nobody asked"
+        given = {f.name: getattr(TWIN.candidate, f.name) for f in fields(TWIN.candidate)}
+        other_gains = replace(TWIN, candidate=OtherGains(**given))
+        assert of(nothing("unknown"), (FIRST, other_gains)) == [first, None]
+        dull = replace(TWIN, evidence=30.0)
+        below = of(claim(FIRST, beside=[member(dull)]), (FIRST, dull))
+        assert below == [borne_out, pytest.approx(0.454)], "judged beside the claim, and no claim"
+        assert of(claim(FIRST), (FIRST, dull)) == [borne_out, None], "not judged beside it"
+
+    def test_a_lag_of_the_channels_of_a_name_has_none_of_its_own(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """Where the name has as much evidence; its reason is that name then, and no probability."""
+        lag = replace(FIRST, candidate=replace(FIRST.candidate, family="generic"), sse_after=0.01 * FIRST.rows)
+        name = replace(TWIN, candidate=scored("twin").candidate)
+        less = replace(lag, evidence=name.evidence / 0.94)
+
+        def of(one: Scored) -> list[tuple[str, bool]]:
+            found = self.answered(monkeypatch, spec, nothing("unknown"), ranked=(one, name))
+            self.why = {c.effect: c.why for c in found.candidates}
+            return [(c.effect, c.probability is not None) for c in found.candidates]
+
+        assert of(lag) == [("twin", True), ("first", False)]
+        assert self.why["first"].endswith("not claimed: twin:T_a says the same of its channels by a name")
+        assert of(less) == [("first", True), ("twin", True)]
 
     def test_the_likeliest_comes_first_of_what_is_not_claimed(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
-        """Of the sound members and of what would give most; a mode of the model, and what breaks a rule, is no head."""
+        """Of what keeps the other rules and of what would give most; a mode of the model, and what breaks a rule, is no
+        head."""
         dull = replace(FIRST, evidence=20.0)
-        ranked = (dull, TWIN)
 
-        def order(*members: Judged, verdict: Verdict = "unknown") -> list[str]:
-            found = self.answered(monkeypatch, spec, nothing(verdict, *members), ranked=ranked)
-            assert [c.probability is not None for c in found.candidates].count(True) == 1
+        def order(*members: Judged, ranked: Sequence[Scored] = (dull, TWIN)) -> list[str]:
+            found = self.answered(monkeypatch, spec, nothing("unknown", *members), ranked=ranked)
+            told = [c.probability for c in found.candidates if c.probability is not None]
+            assert told[0] == max(told), "what heads the list is called the likeliest"
             return [c.effect for c in found.candidates if c.probability is not None or not c.refinement]
 
-        assert order() == ["first", "twin"]
+        assert order() == ["twin", "first"]
         assert order(member(TWIN)) == ["twin", "first"]
         assert order(member(TWIN, "another mode")) == ["first", "twin"]
-        assert order(member(replace(TWIN, evidence=10.0))) == ["first", "twin"]
+        duller = replace(TWIN, evidence=10.0)
+        assert order(member(duller), ranked=(dull, duller)) == ["first", "twin"]
         broken = replace(TWIN, gained=-TWIN.gained)
-        assert order(member(broken)) == ["first", "twin"]
+        assert order(member(broken), ranked=(dull, broken)) == ["first", "twin"]
+
+    @pytest.mark.parametrize(("after", "order"), [(0.9, ["twin", "first"]), (1.1, ["first", "twin"])])
+    def test_a_refinement_that_lets_no_error_fall_comes_behind_the_likeliest(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model, after: float, order: list[str]
+    ) -> None:
+        sse = after**2 * TWIN.rows
+        mode = member(replace(TWIN, sse_after=sse, own_after=sse), "a mode")
+        judgement = replace(nothing("unknown", mode), refinements=(mode,))
+        found = self.answered(monkeypatch, spec, judgement, ranked=(FIRST, mode.scored, OTHER))
+        assert [c.effect for c in found.candidates][:2] == order
 
     def test_others_come_by_what_they_would_give_and_what_was_dropped_as_it_was_judged(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:
         dropped = replace(OTHER, sse_after=0.01 * OTHER.sse_before, own_after=0.01 * OTHER.own_before)
         found = self.answered(monkeypatch, spec, nothing("unknown"), dropped=[dropped])
-        assert [c.effect for c in found.candidates] == ["other", "first", "twin"]
-        assert found.candidates[0].rmse_um_after == pytest.approx(0.1)
+        assert [c.effect for c in found.candidates] == ["first", "other", "twin"], "the likeliest comes before them"
+        assert found.candidates[1].rmse_um_after == pytest.approx(0.1)
         as_ranked = self.answered(monkeypatch, spec, nothing("unknown"))
         assert [c.effect for c in as_ranked.candidates] == ["first", "twin", "other"]
         standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=60.0))))
         assert "not claimed: causes like it were right in 62% of cases only" in standing.candidates[1].why
+
+    def test_others_stand_in_the_order_of_the_errors_that_are_told_of_them(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        """Beside another one, as it was judged, a cause hardly lets the error fall that it takes away alone."""
+        judged = replace(TWIN, sse_before=0.16 * TWIN.rows, own_before=0.16 * TWIN.rows, others=("first:T_a",))
+        small = replace(OTHER, evidence=-50.0, own_after=0.6 * OTHER.own_before, sse_after=0.6 * OTHER.sse_before)
+        found = self.answered(
+            monkeypatch, spec, nothing("unknown", member(FIRST), member(judged)), ranked=(FIRST, TWIN, small)
+        )
+        assert [(c.effect, c.beside) for c in found.candidates] == [("first", []), ("twin", []), ("other", [])]
+        assert found.explainable_by == "first:T_a"
 
     @pytest.mark.parametrize(
         ("verdict", "advice", "characterised"),

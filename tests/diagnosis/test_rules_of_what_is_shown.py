@@ -259,6 +259,13 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
     assert ("coolant on" in advice) == (tests == 8)
 
 
+@pytest.mark.parametrize(("tests", "told"), [(3, True), (4, False), (7, False), (8, False)])
+def test_what_more_tests_gave_elsewhere_is_told_of_few_tests_only(tests: int, told: bool) -> None:
+    advice = to_find(tests, [], CHANNELS)
+    assert ("72 % with 3, 86 % with 8" in advice) is told
+    assert ("until each acts in two at least" in advice) is (tests < 8)
+
+
 @pytest.mark.parametrize(("drop", "named"), [(0.31, True), (0.29, False)])
 def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop: float, named: bool) -> None:
     first = scored("screw", channels=("T_nut",), after=1 - drop)

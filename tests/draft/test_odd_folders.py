@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from thermodata.schema.load import load_campaign
+from thermodata.schema.load import load_campaign, load_model
 
 from .conftest import Said
 from .labs import workbook
@@ -193,9 +193,36 @@ def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: 
     rows = [f"{10 * i},{0.1 * i:.2f},{0.05 * i:.2f},{20 + 0.02 * i:.2f}" for i in range(100)]
     header = "Time [s],Displ. Y [um],Displ. Z [um],Front bearing [degC]"
     (tmp_path / "warm.csv").write_text("\n".join([header, *rows]) + "\n")
-    assert say("init", tmp_path).code == 0
+    said = say("init", tmp_path)
+    assert said.code == 0
+    assert "of what the sensors explain of Displ_Z: " in said.err
+    assert (
+        f"; Displ_Y is measured too: thermodata first-model {tmp_path / 'campaign.yaml'} --response Displ_Y" in said.err
+    )
     text = (tmp_path / "model.yaml").read_text("utf-8")
     assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in text
+
+
+@pytest.mark.parametrize(
+    ("nut", "line"), [("X", "# on another axis than the response's, Z: feed_screw (Nut_X"), ("Z", "")]
+)
+def test_a_first_model_offers_what_is_logged_and_says_which_sensors_are_of_another_axis(
+    tmp_path: Path, say: Say, nut: str, line: str
+) -> None:
+    rows = [f"{10 * i},{0.05 * i:.2f},{20 + 0.02 * i:.2f},{20 + 0.03 * i:.2f},{20 + 0.01 * i:.2f}" for i in range(100)]
+    header = f"Time [s],Displ. Z [um],Front bearing [degC],Spindle motor [degC],Nut {nut} [degC]"
+    (tmp_path / "warm.csv").write_text("\n".join([header, *rows]) + "\n")
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "model.yaml"
+    text = path.read_text("utf-8")
+    offered = "#  - {effect: spindle_motor, drivers: {temperature: Spindle_motor"
+    assert offered in text
+    assert "spindle_motor" not in [e.effect for e in load_model(path).effects]
+    path.write_text(text.replace(offered, offered[1:]))
+    assert "spindle_motor" in [e.effect for e in load_model(path).effects]
+    assert line in text
+    assert ("feed_screw" in text.partition("# no sensor for")[2]) is False
+    assert ("effect: feed_screw" in text) is (nut == "Z")
 
 
 def test_files_whose_values_nobody_had_time_for_are_said(

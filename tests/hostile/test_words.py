@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.report.fit_text import made_worse
+from thermodata.report.fit_text import before_after_text, made_worse
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.result import FitResult, Score
 from thermodata.store.ingest.unanswered import unanswered
@@ -153,6 +153,22 @@ def test_an_effect_that_makes_a_model_worse_is_said(after: float, worse: bool) -
         scores=[score("verification", after)], before=[score("verification", 3.61)],
     )  # fmt: skip
     assert (made_worse(result, {}) is not None) is worse
+
+
+@pytest.mark.parametrize(
+    ("locked", "told"), [((1.84, 5.01), True), ((1.84, 1.84), False), ((1.84, 1.2), False), ((None, None), False)]
+)
+def test_locked_tests_that_a_claim_makes_worse_come_before_the_errors_that_it_makes_better(
+    locked: tuple[float | None, float | None], told: bool
+) -> None:
+    result = FitResult(
+        model="m", name="m", parent=None, campaigns=["c"], response="dZ", parameters={}, checks=[],
+        scores=[score("verification", 0.3)], before=[score("verification", 3.0)],
+        locked_rmse_um_before=locked[0], locked_rmse_um_after=locked[1],
+    )  # fmt: skip
+    text = before_after_text(result)
+    assert text.startswith("the locked tests get worse with what the diagnosis claims: 1.84 -> 5.01 um, 2.7 ") is told
+    assert ("locked" in text) is told
 
 
 def test_a_response_that_gets_worse_is_said_in_its_own_unit_beside_one_that_gets_better() -> None:

@@ -35,6 +35,8 @@ FIT = {
     "added",
     "notes",
     "lost",
+    "locked_rmse_um_before",
+    "locked_rmse_um_after",
 }
 PARAMETER = {"value", "unit", "low", "high"}
 SCORE = {
@@ -66,6 +68,7 @@ DIAGNOSIS = {
     "fitted_rmse_um",
     "locked_rmse_um",
     "explainable",
+    "explainable_by",
     "weak_spots",
     "candidates",
     "artefacts",

@@ -37,6 +37,7 @@ BESIDE = {
     "known.py": ("the_noise",),
     "known_effects.py": ("investigation", "refinement"),
     "listed.py": ("the_answer", "the_locked_tests"),
+    "stated.py": ("the_answer",),
     "on_locked.py": ("the_locked_tests", "investigation"),
     "logging_faults.py": ("logging_faults",),
     "loose.py": ("loose_sensors",),
@@ -421,7 +422,25 @@ MUTANTS = [
     diagnosis("discrepancy.py", "np.hstack([offsets, start])", "offsets", "a warm start counts as evidence"),
     diagnosis("opened.py", "TWINS_TRIED = 4", "TWINS_TRIED = 0", "a twin that holds is not found"),
     diagnosis("answer.py", "return int(np.argmax([", "return int(np.argmin([", "the best response is diagnosed"),
-    diagnosis("listed.py", "if heads else None", "", "a share that nobody measured is told"),
+    diagnosis(
+        "listed.py", "if any(s is one for one in told_with) else None", "", "a share that nobody measured is told"
+    ),
+    diagnosis(
+        "listed.py",
+        "explained(_beside_the_model(item[0], investigation)[0])",
+        "explained(item[0])",
+        "the list contradicts the errors that stand in it",
+    ),
+    diagnosis("stated.py", "if s.candidate.within:", "if False:", "a change of an effect is called a cause"),
+    diagnosis("stated.py", 'kin not in ("same", "heat")', 'kin != ""', "a mode of the model is called the likeliest"),
+    diagnosis("stated.py", "NAMED_SHARE * s.evidence", "0.0", "a name stands for a lag that is far more evident"),
+    diagnosis("stated.py", "if s.candidate.family not in UNNAMED:", "if True:", "a lag heads the list before its name"),
+    diagnosis(
+        "listed.py",
+        "told = [s for s in told if blunt(s)",
+        "told or [s for s in told if blunt(s)",
+        "what a claim explains is told",
+    ),
     diagnosis("listed.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
     diagnosis("listed.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
     diagnosis(

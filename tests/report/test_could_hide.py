@@ -55,6 +55,16 @@ def test_what_would_have_to_be_large_is_named_with_what_it_hides_behind() -> Non
     )
 
 
+def test_of_what_nothing_bounds_the_one_that_the_tests_speak_for_comes_first() -> None:
+    """However much larger another one could be; of what is bounded the one that could do most."""
+    limits = [one("oil", 30.0), one("coolant", 20.0), one("cut", 9.5), one("floor", 8.0), one("sun", 5.0)]
+    spoken = [None, 10.0, 290.0, 5.0, 300.0]
+    asked = found(*(limit.model_copy(update={"evidence": e}) for limit, e in zip(limits, spoken, strict=True)))
+    names = [part.split(" (")[0].removeprefix("these tests can't exclude ") for part in could_hide(asked).split("; ")]
+    assert names[:4] == ["cut", "coolant", "oil", "floor"]
+    assert could_be(asked) == "cut (T), coolant (T) or oil (T)"
+
+
 def test_more_than_all_that_was_measured_is_no_bound() -> None:
     assert "floor (T) of any size" in could_hide(found(one("floor", 9.1)))
     assert "floor (T) up to 8.90 um" in could_hide(found(one("floor", 8.9)))

@@ -46,10 +46,11 @@ def test_the_terminal_names_all_tests_of_a_fault_in_one_line() -> None:
     assert "  ! parameters in all tests of shop. refit it" in text
 
 
-def test_a_size_without_a_moment_is_told_without_one() -> None:
+def test_an_error_of_a_whole_test_is_no_size_of_its_fault() -> None:
+    """How far a turned probe is off says how large the response was."""
     turned = Artefact(kind="sign", campaign="shop", test="two", at_s=None, size_um=2.94, why="it is turned")
     text = diagnosis_text(diagnosis().model_copy(update={"artefacts": [turned]}))
-    assert "  ! sign in shop/two: 2.94 um. it is turned" in text
+    assert "  ! sign in shop/two. it is turned" in text
 
 
 def test_what_all_tests_share_names_no_test_and_is_null_in_json() -> None:

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from thermodata.diagnosis.claims import measure, rules
+from thermodata.report import left_over, verdict
 from thermodata.report.candidate_errors import beside
 from thermodata.report.collect import _reason
 from thermodata.report.data import ReportData
@@ -15,7 +17,8 @@ from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.report.error_rows import error_rows
 from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
-from thermodata.report.verdict import explainable, in_parts, named, probability, told, verdict_sentence
+from thermodata.report.refined import named
+from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.report.words import listed
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight
@@ -144,7 +147,92 @@ def test_an_error_that_falls_nowhere_is_not_said_to_fall_where_the_effect_acts(f
     mode = one("mode", refinement=True, rmse_um_before=1.38, rmse_um_after=1.48, rungs=[rung])
     text = verdict_sentence(found("refine", [mode]))
     assert ("(falls where it acts only; over all: 1.38 -> 1.48 um)" in text) is falls
-    assert ("(does not fall, though the evidence speaks for it: 1.38 -> 1.48 um)" in text) is not falls
+    assert ("left-out tests are foretold no better (1.38 -> 1.48 um) with it, so adding it is not" in text) is not falls
+    assert ("can be refined by" in text) is falls
+
+
+@pytest.mark.parametrize(
+    ("left_out", "fall", "locked", "advised"),
+    [
+        ((1.0, 0.9), 0.1, None, True),
+        ((1.0, 1.1), 0.1, None, True),
+        ((1.0, 1.1), -0.1, None, False),
+        ((1.0, 0.9), 0.1, (1.0, 0.8), True),
+        ((1.0, 0.9), 0.1, (1.0, 1.3), False),
+    ],
+)
+def test_what_lets_no_error_fall_is_not_advised(
+    left_out: tuple[float, float], fall: float, locked: tuple[float, float] | None, advised: bool
+) -> None:
+    """An error of left-out tests may rise over all where it falls in those in which the mode acts."""
+    (before, after), (held, holds) = left_out, locked or (None, None)
+    rungs = [Rung(name="fall", asks="", value=fall, limit=0.15, unit="1", at="least", holds=True, asked=True)]
+    mode = one(
+        "mode",
+        refinement=True,
+        rmse_um_before=before,
+        rmse_um_after=after,
+        locked_shape_um_before=held,
+        locked_shape_um_after=holds,
+        rungs=rungs,
+    )
+    text = verdict_sentence(found("unknown", [mode, one("other", refinement=True)]))
+    assert "refined by other (T)" in text or advised
+    assert text.endswith("add them and ask again") is advised
+    assert ("add it and ask again" in text) is not advised
+    assert ("mode (T) goes with what is left" in text and "not advised" in text) is not advised
+    claimed = verdict_sentence(found("effect", [claim("screw"), mode]))
+    assert claimed.endswith("; what the model has can be refined by mode (T)") is advised
+
+
+@pytest.mark.parametrize(
+    ("share", "left", "locked", "said"),
+    [
+        (0.06, 0.7, None, "something may be missing, though models of machines that lack nothing leave as much (10 %"),
+        (0.06, 3.5, None, "something may be missing, though models of machines that lack nothing leave as much (50 %"),
+        (0.06, 3.6, None, "something is missing, and the evidence suffices"),
+        (0.3, 0.7, None, "something is missing, and the evidence suffices"),
+        (0.06, 0.7, 1.4, "something is missing on the locked tests, which"),
+        (
+            0.04,
+            0.7,
+            None,
+            "something is left on left-out tests (0.700 um of the response's 7.00) that nothing logged is "
+            "likely to explain, though models of machines that lack nothing leave as much (10 % of the response)",
+        ),
+        (
+            0.04,
+            3.6,
+            None,
+            "something is left on left-out tests (3.60 um of the response's 7.00) that nothing logged is "
+            "likely to explain: ",
+        ),
+    ],
+)
+def test_something_is_missing_where_more_is_left_than_of_a_machine_that_lacks_nothing(
+    share: float, left: float, locked: float | None, said: str
+) -> None:
+    """Or where a cause is plausible, or a claim left the locked tests with it."""
+    known = {"rmse_um": left, "response_um": 7.0, "locked_rmse_um": locked}
+    assert verdict_sentence(found("unknown", [one("sun", probability=share)], **known)).startswith(said)
+
+
+def test_limits_of_words_are_those_of_the_rules() -> None:
+    assert verdict.PLAUSIBLE == rules.PLAUSIBLE
+    assert left_over.OF_NOTHING == measure.OF_NOTHING
+
+
+def test_the_likeliest_says_by_which_name_it_may_go_and_what_else_it_may_be() -> None:
+    lag = one("lag", probability=0.41, equivalent=["oil:T"], unread=["axis.z.nut"])
+    assert "is lag (T), which may be oil or heat at axis.z.nut, probability 41 %" in verdict_sentence(
+        found("unknown", [lag])
+    )
+
+
+def test_what_one_candidate_alone_takes_away_says_which() -> None:
+    assert explainable(found("unknown", [], explainable=0.62, explainable_by="oil:T")) == (
+        "the best candidate alone, oil:T, takes away 62 % of the squared residual, which by itself names no cause"
+    )
 
 
 def test_errors_beside_other_candidates_are_none_of_the_users_model_and_say_so() -> None:

@@ -17,6 +17,24 @@ tests: [{id: a, role: calibration}]
 
 
 @pytest.mark.parametrize(
+    ("at", "meant"),
+    [
+        ("hall.air", "hall"),
+        ("hall.dor", "hall.door"),
+        ("hal.door", "hall.door"),
+        ("spindle.bearing.frnt", "spindle.bearing.front"),
+    ],
+)
+def test_a_place_with_an_unknown_part_is_meant_as_a_whole_unless_a_part_is_spelt_alike(at: str, meant: str) -> None:
+    text = (TEXT % "").replace(
+        "channels: {", f"channels: {{T_1: {{source: daq, signal: T, quantity: temperature, at: {at}}}, "
+    )
+    assert [s for s in unanswered(parse_campaign(text)) if "is known" in s] == [
+        f"channel 'T_1': no place '{at}' is known; did you mean '{meant}'?"
+    ]
+
+
+@pytest.mark.parametrize(
     ("keys", "told"),
     [(", facing: -X", True), (", facing: -X, increases_with: gap", False), ("", False)],
 )

@@ -32,6 +32,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     """
     from thermodata.draft.make import draft_files
     from thermodata.draft.writing.answer import as_json
+    from thermodata.draft.writing.baseline import responses_of_draft
     from thermodata.draft.writing.write import one_line
     from thermodata.reader.registry import failed_readers
     from thermodata.schema.counted import counted
@@ -40,7 +41,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     for before, after in made.kept:
         session.say(f"the {before.name} that was there is now {after}")
     if made.model is not None:
-        session.say(f"a first model of what the sensors explain: {made.model}")
+        session.say(_model_of(made, *responses_of_draft(made.draft)))
     if made.no_model is not None:
         session.say(made.no_model)
     draft = made.draft
@@ -101,6 +102,16 @@ def first_model_command(session: Session, campaign: Path, response: str | None) 
         },
         lambda: str(made.model),
     )
+
+
+def _model_of(made: Drafted, first: str, *others: str) -> str:
+    """Which displacement the first model is of, and how one of another is drafted."""
+    said = f"a first model of what the sensors explain of {first}: {made.model}"
+    if not others:
+        return said
+    are = "is" if len(others) == 1 else "are"
+    command = f"thermodata first-model {made.campaign} --response {others[0]}"
+    return f"{said}; {' and '.join(others)} {are} measured too: {command}"
 
 
 def _next_steps(made: Drafted, model: Path | None) -> str:

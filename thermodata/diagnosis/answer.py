@@ -22,11 +22,11 @@ from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
-from thermodata.diagnosis.tell.listed import candidate, explainable, listed
+from thermodata.diagnosis.tell.listed import candidate, explainable, first_cause, listed, with_probability
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.verdict.suspect import first, suspect
+from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, suspect
 from thermodata.errors import unknown_name
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -124,10 +124,13 @@ def _answer(
         chosen = [c.scored.candidate for c in judgement.claims]
         confirmation = confirm(fitted.spec, index, data, chosen, usable, opened.locked, refitted)
         confirmation = replace(confirmation, asked=_asked(judgement.claims))
+    on_locked = False
     if not judgement.claims:
+        told_by_open = judgement
         judgement = contradicted(judgement, known, response, locked)
+        on_locked = judgement is not told_by_open
     terms = [t.id for t in refitted.responses[index].terms]
-    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms)
+    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
     left_out = [*asked_of.put_right.left_out, *opened.turned]
     beside = {
         "locked_rmse_um": known,
@@ -197,13 +200,16 @@ def _diagnosis(
     data: Dataset,
     model_id: str,
     terms: Sequence[str],
+    *,
+    on_locked: bool,
 ) -> Diagnosis:
-    """terms: ids of the model's effects."""
+    """terms: ids of the model's effects. on_locked: whether it is only the locked tests that miss something."""
     problem = investigation.problem
     shown = listed(investigation, judgement)
-    # what refines the model is no missing cause, also where more is missing than it gives
-    head = next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
-
+    head = first_cause(shown)
+    told_with = with_probability(shown, investigation, judgement)
+    likely, plausible = suspect(judgement, head, investigation.measure, problem.unit), first(head, problem)
+    most, most_by = explainable([s for s, _ in shown], investigation)
     alone = investigation.selection
     return Diagnosis(
         model=model_id,
@@ -212,26 +218,30 @@ def _diagnosis(
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
         rmse_um=alone.left if alone is not None else _left(problem),
-        explainable=explainable([s for s, _ in shown], investigation),
+        explainable=most,
+        explainable_by=most_by,
         weak_spots=investigation.spots,
         candidates=[
-            candidate(i + 1, s, member, s is head, investigation, judgement, confirmation, data)
+            candidate(i + 1, s, member, s is head, told_with, investigation, judgement, confirmation, data)
             for i, (s, member) in enumerate(shown)
         ],
         artefacts=investigation.artefacts,
         unknown=characterise(
             problem,
             investigation.spots,
-            suspect(judgement, head, investigation.measure, problem.unit),
-            first(head, problem),
+            likely,
+            plausible,
+            doubt_of_heat(
+                alone.left if alone is not None else np.inf,
+                investigation.measure,
+                known=on_locked or likely is not None or plausible is not None,
+            ),
         )
         if judgement.verdict == "unknown"
         else None,
         next_test=advice(investigation, judgement, confirmation, shown[0][0] if shown else None, data, terms),
         response_um=investigation.measure.spread,
-        limits=[]
-        if judgement.claims
-        else [_limit(one, terms, investigation.measure.spread) for one in investigation.limits],
+        limits=[] if judgement.claims else [_limit(one, terms, investigation) for one in investigation.limits],
         at_rest=[] if judgement.claims else _at_rest(investigation.at_rest, data),
         chance=ladder.chance(investigation.measure),
     )
@@ -244,7 +254,9 @@ def _as_fitted(response: FittedResponse, tests: Sequence[TestData]) -> float | N
     return float(np.sqrt(np.mean(whole**2))) if len(whole) else None
 
 
-def _limit(one: Limit, terms: Sequence[str], spread: float) -> DetectionLimit:
+def _limit(one: Limit, terms: Sequence[str], investigation: Investigation) -> DetectionLimit:
+    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
+    evidence = next((s.evidence for s in ranked if s.candidate.id == one.candidate.id), None)
     return DetectionLimit(
         id=one.candidate.id,
         effect=one.candidate.effect.name,
@@ -253,7 +265,8 @@ def _limit(one: Limit, terms: Sequence[str], spread: float) -> DetectionLimit:
         least_um=one.least if np.isfinite(one.least) else None,
         seen=one.beyond,
         behind=terms[one.like] if one.like is not None and one.hides else None,
-        large=one.least > LARGE * spread,
+        large=one.least > LARGE * investigation.measure.spread,
+        evidence=float(evidence) if evidence is not None and np.isfinite(evidence) else None,
     )
 
 

@@ -30,8 +30,10 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     old = load(store, parent.model)
     if isinstance(candidate, EffectSpec):
         grown = with_effect(parent.spec, candidate)
+        name = None
     else:
-        grown = with_candidate(parent.spec, chosen_id(store, parent.model, candidate), old.data.channels)
+        name = chosen_id(store, parent.model, candidate)
+        grown = with_candidate(parent.spec, name, old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
     # what was found before the data changed may be mended
     diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
@@ -41,7 +43,13 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
         grown, notes = refined.spec, [*notes, *refined.notes]
     had = term_ids(parent.spec.effects)
     added = [i for i in term_ids(grown.effects) if i not in had]
-    return fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
+    result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
+    claims = [c for c in diagnosis.candidates if c.claimed and c.id == name] if diagnosis is not None else []
+    if not claims:
+        return result
+    # the lock was opened when it was claimed: what that gave is told, and nothing is opened again
+    asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in ("before", "after")}
+    return result.model_copy(update=asked)
 
 
 def chosen_id(store: Store, model: str, candidate: str | int, response: str | None = None) -> str:

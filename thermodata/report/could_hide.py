@@ -27,7 +27,7 @@ def could_be(found: Diagnosis) -> str:
     resting = {channel for one in found.at_rest for channel in (one.channel, *one.warms)}
     names += [
         _name(one)
-        for one in _of_each(found.limits)
+        for one in _of_each(found.limits, response)
         if one.large and _is_unbound(one, response) and resting.isdisjoint(one.drivers)
     ]
     shown = list(dict.fromkeys(names))
@@ -46,27 +46,35 @@ def _never_moved(found: Diagnosis) -> str:
 
 
 def _limits(found: Diagnosis) -> str:
-    least = _of_each(found.limits)
+    least = _of_each(found.limits, found.response_um or 0.0)
     if not least or not found.response_um:
         return ""
     size = f"RMS where it acts; the response has {number(found.response_um)} um"
     large = [one for one in least if one.large]
     if not large:
+        most = max(least, key=_size)
         return (
-            f"an effect of the library that acts by more than {number(least[0].least_um)} um ({size}) would have been "
-            f"named here; {_name(least[0])} could hide most"
+            f"an effect of the library that acts by more than {number(most.least_um)} um ({size}) would have been "
+            f"named here; {_name(most)} could hide most"
         )
     told = "; ".join(_one(one, found.response_um) for one in large[:SHOWN])
     rest = f"; {len(large) - SHOWN} more" if len(large) > SHOWN else ""
     return f"these tests can't exclude {told}{rest} ({size})"
 
 
-def _of_each(limits: list[DetectionLimit]) -> list[DetectionLimit]:
-    """Of each effect and family the sensor that shows it best, the one that could hide most first."""
+def _of_each(limits: list[DetectionLimit], response: float) -> list[DetectionLimit]:
+    """Of each effect and family the sensor that shows it best, the one that could hide most first; of what nothing
+    bounds, the one that the tests speak for most."""
     best: dict[tuple[str, str], DetectionLimit] = {}
     for one in sorted(limits, key=_size):
         best.setdefault((one.effect, one.family), one)
-    return sorted(best.values(), key=_size, reverse=True)
+
+    def could_do(one: DetectionLimit) -> tuple[bool, float, float]:
+        unbound = _is_unbound(one, response)
+        spoken_for = one.evidence if unbound and one.evidence is not None else float("-inf")
+        return unbound, spoken_for, _size(one)
+
+    return sorted(best.values(), key=could_do, reverse=True)
 
 
 def _size(one: DetectionLimit) -> float:

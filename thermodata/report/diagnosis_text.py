@@ -132,7 +132,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
             + "\n".join(
                 f"  ! {a.kind} in {', '.join(a.places)}"
                 + ("" if a.at_s is None else f" at {duration(a.at_s)}")
-                + ("" if a.size_um is None else f": {number(a.size_um)} um")
+                + ("" if a.step_um is None else f": {number(a.step_um)} um")
                 + f". {a.why}"
                 for a in log_faults(found.artefacts)
             )

@@ -214,8 +214,20 @@ def before_after_text(result: FitResult) -> str:
     ]
     lost = lost_sentence(result.before or [], result.scores, result.checks)
     left_out = [note for note in result.notes if note.startswith(MADE_WITHOUT)]
-    head = "".join(f"{line}\n\n" for line in [*left_out, lost] if line)
+    head = "".join(f"{said}\n\n" for said in (*left_out, worse_on_locked(result), lost) if said)
     return f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
+
+
+def worse_on_locked(result: FitResult) -> str:
+    """That the locked tests get worse with what the diagnosis claims, though open ones get better; else ''."""
+    before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
+    if before is None or after is None or after <= before * _RISES:
+        return ""
+    return (
+        f"the locked tests get worse with what the diagnosis claims: {number(before)} -> {number(after)} um, "
+        f"{number(after / before, 2)} times as much. The errors below are of tests that it was fitted to or chosen by, "
+        "so ask the locked ones (thermodata confirm tells each) before this version is used"
+    )
 
 
 def made_worse(result: FitResult, units: Mapping[str, str]) -> str | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import duration, number
+from thermodata.report.words import duration, number, percent
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis
@@ -13,6 +13,9 @@ NOISY = 1.5
 """An error up to so many times the noise is noise."""
 OTHERWISE = 3.0
 """An error of so many times that on left-out tests says that the model's effects act otherwise than it has them."""
+
+OF_NOTHING = 0.5
+"""Models of lags leave up to this share of the response of a machine that lacks nothing (docs/method.md#verdicts)."""
 
 
 def left_over(found: Diagnosis) -> str:
@@ -26,6 +29,15 @@ def left_over(found: Diagnosis) -> str:
     if found.rmse_um <= NOISY * found.noise_um:
         return f"{left}, and they are {noise}{as_fitted}"
     return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
+
+
+def as_of_nothing(found: Diagnosis) -> str:
+    """'models of machines that lack nothing leave as much (9 % of the response)'; '' where they leave less, or what is
+    left is not known."""
+    left, response = found.rmse_um, found.response_um
+    if left is None or not response or left > OF_NOTHING * response:
+        return ""
+    return f"models of machines that lack nothing leave as much ({percent(left / response)} of the response)"
 
 
 def otherwise(found: Diagnosis) -> str:

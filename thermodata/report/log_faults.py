@@ -22,6 +22,12 @@ class LogFault:
     why: str
 
     @property
+    def step_um(self) -> float | None:
+        """The size of what happened at one moment; None where it is an error of the whole test, which is no size of the
+        fault (a probe that is turned round is as wrong as the response is large)."""
+        return None if self.at_s is None else self.size_um
+
+    @property
     def where(self) -> list[str]:
         """The tests that have it, by their names alone."""
         return ["all tests" if test is None else test for _, test in self.tests]

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.could_hide import could_be
-from thermodata.report.left_over import left_over, on_left_out
+from thermodata.report.left_over import as_of_nothing, left_over, on_left_out
+from thermodata.report.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words import listed, number, percent
 from thermodata.schema.places import heat_at
 
@@ -21,6 +22,8 @@ _UNNAMED = ("lag", "control_compensation")  # which say no more than the channel
 _MOST_TWINS = 2
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
+PLAUSIBLE = 0.3
+"""What is so probable speaks for a missing cause (thermodata/diagnosis/claims/rules.py)."""
 NO_MORE = "the open tests show no missing cause apart from what the model has in part"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""
@@ -65,13 +68,6 @@ def _leaves_far_less(found: Diagnosis, claims: Sequence[Candidate]) -> list[Cand
     return [first] if first is not None and (first.rmse_um_after or 0.0) < FAR_LESS * least else []
 
 
-def named(one: Candidate) -> str:
-    """'feed_screw (T_nut_Z)', and how it acts otherwise than the model has it."""
-    name = f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
-    by_phase = f" with a function of its own in {listed(one.phases)}" if one.phases else ""
-    return f"{name}{by_phase}{f' with a gain for each {one.gain_by}' if one.gain_by else ''}"
-
-
 def other_heat(one: Candidate) -> str:
     """'heat at axis.z.guide', which may be it as well; '' where its channels tell it from all else."""
     return heat_at(one.unread, " or ")
@@ -99,27 +95,15 @@ def put_right(found: PutRight | None) -> str:
 
 def _verdict(found: Diagnosis) -> str:
     claims, refined = claims_of(found), refinements_of(found)
-    beside = f"what the model has can be refined by {listed([named(c) for c in refined])}" if refined else ""
     if found.verdict == "effect" and claims:
-        return "; ".join(filter(None, [_missing(claims, found.rmse_um), beside]))
+        return "; ".join(filter(None, [_missing(claims, found.rmse_um), can_be_refined(found)]))
     if found.verdict == "unknown":
-        errors, them = left_out_errors(refined, found.rmse_um), "it" if len(refined) == 1 else "them"
-        again = f"{beside}, {errors}: add {them} and ask again"
-        return "; ".join(filter(None, [_unclaimed(found), again if beside else ""]))
+        return "; ".join(filter(None, [_unclaimed(found), told_with_errors(found, ": add {them} and ask again")]))
     far = _far_on_locked(found)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
     open_still = "; ".join(filter(None, [there, _not_excluded(found)]))
-    if found.verdict == "refine" and beside:
-        return "; ".join(
-            filter(
-                None,
-                [
-                    NO_MORE,
-                    f"{beside}, {left_out_errors(refined, found.rmse_um)}",
-                    open_still,
-                ],
-            )
-        )
+    if found.verdict == "refine" and refined:
+        return "; ".join(filter(None, [NO_MORE, told_with_errors(found), open_still]))
     if found.verdict == "none":
         return "; ".join(filter(None, [f"the open tests show no missing effect: {left_over(found)}", open_still]))
     return {
@@ -186,22 +170,26 @@ def _how_sure(one: Candidate) -> str:
 def _unclaimed(found: Diagnosis) -> str:
     """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
     first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
-    far = _far_on_locked(found)
+    far, share = _far_on_locked(found), 0.0 if first is None else first.probability or 0.0
     seen = f" on the locked tests, which an earlier claim left with {far}" if far else ""
-    if first is None:
-        return f"something is missing{seen}, and nothing logged may be named for it"
-    asked = ", with that of the locked tests," if first.locked_tests_asked else ""
-    if (first.probability or 0.0) < UNLIKELY:
+    # no more than models leave of a machine that lacks nothing, and nothing is plausible: then nobody knows
+    as_much = "" if far or share >= PLAUSIBLE else as_of_nothing(found)
+    if first is not None and share < UNLIKELY:
         left = f"something is left{seen or on_left_out(found)} that nothing logged is likely to explain"
-        nearest = f"{named(first)} comes nearest, probability {probability(first.probability)}"
+        left += f", though {as_much}" if as_much else ""
+        nearest = f"{_or_elsewhere(first)} comes nearest, probability {probability(share)}"
         open_still = could_be(found)
         if open_still:
             still = f"it may still be {open_still}, which they can't exclude"
             return f"{left}, as far as these tests can tell: {nearest}; {still}"
         return f"{left}: {nearest}"
+    missing = f"something may be missing, though {as_much}; " if as_much else f"something is missing{seen}, and "
+    if first is None:
+        return f"{missing}nothing logged may be named for it"
+    asked = ", with that of the locked tests," if first.locked_tests_asked else ""
     return (
-        f"something is missing{seen}, and the evidence{asked} suffices to name no cause; the likeliest that was logged "
-        f"is {named(first)}, probability {probability(first.probability)}"
+        f"{missing}the evidence{asked} suffices to name no cause; the likeliest that was logged "
+        f"is {_or_elsewhere(first)}, probability {probability(share)}"
         f"{', though the locked tests do not bear it out' if _is_refused(first) else ''}"
     )
 
@@ -236,5 +224,6 @@ def explainable(found: Diagnosis) -> str:
     """What the best single candidate takes away, which is no claim; '' where nothing is known of it."""
     if not found.explainable:
         return ""
-    said = f"the best candidate alone takes away {percent(found.explainable)} of the squared residual"
+    which = f", {found.explainable_by}," if found.explainable_by else ""
+    said = f"the best candidate alone{which} takes away {percent(found.explainable)} of the squared residual"
     return said if claims_of(found) else f"{said}, which by itself names no cause"

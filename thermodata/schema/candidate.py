@@ -81,7 +81,8 @@ class Candidate(Result):
     claimed: whether the evidence suffices for a missing cause
     refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
         missing cause
-    probability: posterior probability that this cause is missing, given the data; null where none is stated
+    probability: posterior probability that this cause is missing, given the data; of claims, of the first cause and of
+        causes that keep all other rules, null for all else
     p_value: share of responses in which nothing is missing on which the best of all candidates does as well
     rmse_um_before: error on left-out tests without it, in the response's unit
     rmse_um_after: with it
@@ -89,7 +90,8 @@ class Candidate(Result):
     fit_after: with it
     locked_rmse_um_before: error on the locked tests without it; for a claimed one only
     locked_rmse_um_after: with it
-    locked_shape_um_before: the same over those in which the claims act, a free offset for each
+    locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
+        they were opened for, over those in which it acts
     locked_shape_um_after: with it
     locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
         where it is not known, or nothing was opened for it

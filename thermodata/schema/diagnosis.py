@@ -43,7 +43,8 @@ class Artefact(Result):
     campaign: id
     test: id; null where all tests share it
     at_s: from the test's start [s]
-    size_um: its size, in the response's unit; null for a sensor
+    size_um: of a step its size, in the response's unit; of a sign or a gain the RMS error of the test as it stands; of
+        parameters by how much the error of the model as fitted is larger than that of a refit; null for all else
     why: the evidence in a sentence
     """
 
@@ -92,6 +93,7 @@ class DetectionLimit(Result):
     seen: share of what it does that the model's effects can't do, 0 to 1
     behind: id of the effect of the model that would take it for its own; null where slow noise covers it
     large: whether it would have to be larger than a third of the response
+    evidence: log Bayes factor of the model with it against the model without; null where it was not asked
     """
 
     id: str
@@ -102,6 +104,7 @@ class DetectionLimit(Result):
     seen: float
     behind: str | None = None
     large: bool = False
+    evidence: float | None = None
 
 
 class ResponseLeft(Result):
@@ -158,6 +161,7 @@ class Diagnosis(Result):
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
         none were
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
+    explainable_by: id of that candidate; null where none is known, or in an answer of an older version
     weak_spots: where the model fails, by cost
     candidates: best first
     artefacts: faults of the logs
@@ -182,6 +186,7 @@ class Diagnosis(Result):
     fitted_rmse_um: float | None = None
     locked_rmse_um: float | None = None
     explainable: float | None
+    explainable_by: str | None = None
     weak_spots: list[WeakSpot]
     candidates: list[Candidate]
     artefacts: list[Artefact]

@@ -9,14 +9,15 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import reads
-from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import elsewhere, probability
-from thermodata.diagnosis.claims.rules import explained, failed_rules
+from thermodata.diagnosis.claims.rules import blunt, explained
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import ladder
+from thermodata.diagnosis.tell.stated import Row, goes_by_name, likeliest, stated
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
+from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.candidate import Candidate
@@ -29,30 +30,59 @@ def _count(tests: frozenset[tuple[str, str]] | None) -> int | None:
     return None if tests is None else len(tests)
 
 
-def listed(investigation: Investigation, judgement: Judgement) -> list[tuple[Scored, Judged | None]]:
-    """Claims, what the locked tests refused, refinements, then all others by what they would give; what was dropped as
-    it was judged last. Where nothing is claimed the likeliest of the others comes before them."""
-    first = [*judgement.claims, *judgement.refused, *judgement.refinements]
-    order: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in first]
+def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
+    """Claims, what the locked tests refused, refinements that let an error fall, then all others by what they would
+    give as the answer tells it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the
+    others comes before them; then other refinements."""
+    idle = [j for j in judgement.refinements if not _lets_an_error_fall(j.scored, investigation)]
+    refinements = [j for j in judgement.refinements if not among(j, idle)]
+    first = [*judgement.claims, *judgement.refused, *refinements]
+    order: list[Row] = [(j.scored, j) for j in first]
     rest = [j for j in judgement.judged if not any(j.scored.columns is f.scored.columns for f in first)]
-    others: list[tuple[Scored, Judged | None]] = [(j.scored, j) for j in rest]
+    others: list[Row] = [(j.scored, j) for j in rest]
     if investigation.selection is not None:
         found = [*investigation.selection.dropped, *investigation.selection.first.ranked]
         for s in found:
             if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
                 others.append((s, None))
-    others.sort(key=lambda item: -explained(item[0]))
-    head = _likeliest(others, investigation.measure, investigation.problem.unit)
+    others.sort(key=lambda item: -explained(_beside_the_model(item[0], investigation)[0]))
+    head = likeliest(others, investigation.measure, investigation.problem.unit)
+    others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
         others.sort(key=lambda item: item[0] is not head)
     return [*order, *others][:SHOWN]
 
 
-def _likeliest(others: Sequence[tuple[Scored, Judged | None]], measure: Measure, unit: str) -> Scored | None:
-    """Of what would give most, and of the sound members; what refines the model is no cause."""
-    causes = [(s, m) for s, m in others if not s.candidate.within and (m is None or m.refines is None)]
-    sound = [s for s, m in causes if m is not None and not failed_rules(s, measure, unit)]
-    return max([*(s for s, _ in causes[:1]), *sound], key=probability, default=None)
+def _lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
+    """Whether left-out tests are foretold better with it, over all or where it acts, and locked ones that were opened
+    for it no worse: nothing else is advised."""
+    added = _added(s)
+    if added is not None and added.after >= added.before:
+        return False
+    return s.drop > 0 or fall(_beside_the_model(s, investigation)[0]) > 0
+
+
+def _added(s: Scored) -> Foretold | None:
+    """What locked tests say of it, added to the model as it stands; None where they were not opened, or say nothing."""
+    added = s.looked.added if s.looked is not None else None
+    return added if added is not None and s.looked is not None and added in s.looked.saying else None
+
+
+def with_probability(shown: Sequence[Row], investigation: Investigation, judgement: Judgement) -> list[Scored]:
+    """Of which candidates a probability is stated: claims, what the locked tests refused, the first cause, and causes
+    that keep all other rules. What a claim may explain is judged beside it, or not at all, and may be another mode of
+    it where its probability would do."""
+    heads = [s for s, m in shown if among(m, judgement.claims) or among(m, judgement.refused)]
+    told = stated(shown, investigation.measure, investigation.problem.unit)
+    if heads:
+        judged = [j.scored for j in judgement.judged]
+        told = [s for s in told if blunt(s) is not None and any(s is j for j in judged)]
+    return [*heads, *told, *([first] if (first := first_cause(shown)) is not None else [])]
+
+
+def first_cause(shown: Sequence[Row]) -> Scored | None:
+    """The first of the list that refines nothing: what does is no missing cause, also where it leaves much."""
+    return next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
 
 
 def candidate(
@@ -60,19 +90,22 @@ def candidate(
     s: Scored,
     member: Judged | None,
     heads: bool,
+    told_with: Sequence[Scored],
     investigation: Investigation,
     judgement: Judgement,
     confirmation: Confirmation | None,
     data: Dataset,
 ) -> Candidate:
+    """heads: whether it is the first that refines nothing. told_with: of which a probability is stated."""
     problem, measure = investigation.problem, investigation.measure
     claimed = among(member, judgement.claims)
     heads = heads or claimed or among(member, judgement.refused)
     refining = among(member, judgement.refinements)
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
-    shape = held.on(held.asked) if held else None
+    shape = held.on(held.asked) if held else _added(s) if refining else None
     told, of_model = _beside_the_model(s, investigation)
+    by_name = goes_by_name(s, told_with) if member is None else None
     twins = [t.candidate for t in equivalents(s, beside)]
     return Candidate(
         rank=rank,
@@ -84,8 +117,8 @@ def candidate(
         phases=list(s.candidate.phases),
         claimed=claimed,
         refinement=refining,
-        # measured for what heads the list, and for what was claimed; nothing is known of the share of the others
-        probability=probability(s) if heads else None,
+        # measured for what is sound; nothing is known of the share of the others
+        probability=probability(s) if any(s is one for one in told_with) else None,
         p_value=p_value(s.evidence, measure.chance),
         rmse_um_before=_rmse(told.sse_before, told),
         rmse_um_after=_rmse(told.sse_after, told),
@@ -101,7 +134,7 @@ def candidate(
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
-        why=why(s, member, investigation, judgement, held, told if of_model else None),
+        why=why(s, member, investigation, judgement, held, told if of_model else None, by_name),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
@@ -133,13 +166,15 @@ def _beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, 
     return (alone, True) if fall(alone) >= fall(s) else (s, False)
 
 
-def explainable(shown: Sequence[Scored], investigation: Investigation) -> float | None:
-    """What one candidate alone takes off the squared error, as a share: the most of those listed, and of all others
-    beside the model. Beside others a candidate takes away what they leave; of one alone that says nothing."""
+def explainable(shown: Sequence[Scored], investigation: Investigation) -> tuple[float | None, str | None]:
+    """What one candidate alone takes off the squared error, as a share, and which that is: the most of those listed,
+    and of all others beside the model. Beside others a candidate takes away what they leave; of one alone that says
+    nothing."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     told = [_beside_the_model(s, investigation)[0] for s in shown]
     alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
-    return max((float(np.clip(fall(s), 0.0, 1.0)) for s in alone), default=None)
+    best = max(alone, key=fall, default=None)
+    return (None, None) if best is None else (float(np.clip(fall(best), 0.0, 1.0)), best.candidate.id)
 
 
 def _rmse(sse: np.ndarray, s: Scored) -> float | None:

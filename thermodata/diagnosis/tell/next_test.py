@@ -18,6 +18,7 @@ from thermodata.view.dataset import ChannelInfo
 ALL_AT_ONCE = ((3, "72 %"), (8, "86 %"), (16, "80 %"))
 ONE_EACH = ((3, "36 %"), (8, "83 %"))
 ENOUGH_TESTS = 8
+FEW_TESTS = 3  # so few, and the shares say what more of them would give
 # of the squared error, on left-out tests: what a channel must give to be named before a sensor that is not there
 WORTH_A_TEST = 0.3
 
@@ -165,14 +166,16 @@ def to_find(
     """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
     first: the candidate that ranks first, whose channels are logged and are no advice to log."""
     if tests < ENOUGH_TESTS:
+        add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
+        if tests > FEW_TESTS:
+            return f"{counted(tests, 'test')} took part; {add} at least: no other test foretells what acts in one alone"
         all_at_once, one_each = (
             ", ".join(f"{share} with {n}" for n, share in some) for some in (ALL_AT_ONCE, ONE_EACH)
         )
         return (
             f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
             f"machines a missing cause was named on {all_at_once} tests where most of them work all parts, and on "
-            f"{one_each} where each works one, for no other test foretells what acts in one alone. So add tests that "
-            "each heat one source alone (spindle, one axis, table, hall air), until each acts in two at least"
+            f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add} at least"
         )
     worst = spots[0].state if spots else "no state in particular"
     logged = ""

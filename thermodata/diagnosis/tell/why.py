@@ -11,6 +11,7 @@ from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
+from thermodata.diagnosis.tell.stated import is_a_cause
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.figures import from_to, way
@@ -49,9 +50,11 @@ def why(
     judgement: Judgement,
     held: Confirmation | None,
     alone: Scored | None = None,
+    by_name: Scored | None = None,
 ) -> str:
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
-    alone: the same beside the model alone, where the answer's errors are those, and not of what it is judged by."""
+    alone: the same beside the model alone, where the answer's errors are those, and not of what it is judged by.
+    by_name: what says the same of its channels by a name, and has its probability stated."""
     unit, count = investigation.problem.unit, int(s.acts.sum())
     others = judged_beside(s, member, investigation, judgement)
     beside = f", beside {' and '.join(others)}," if others else ""
@@ -88,6 +91,11 @@ def why(
     if member is not None and member.refines:
         return f"{numbers}; a refinement, not claimed as missing: {member.refines}"
     failed = failed_rules(s, investigation.measure, unit)
+    # a probability that is stated of no candidate is no reason either
+    if not failed and by_name is not None:
+        return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
+    if not failed and member is None and not is_a_cause(s, member):
+        return f"{numbers}; not claimed: it would be another mode of what the model has"
     failed += [why for why in [blunt(s)] if why]
     if failed:
         asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0

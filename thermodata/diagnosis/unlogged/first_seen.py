@@ -6,13 +6,18 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
-from thermodata.diagnosis.verdict.suspect import First, Suspect
+from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
 from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
 NAMED = 4
 # [s]: what a lag of such a length is on a machine tool (docs/model.md, "Bounds of the effects")
 SMALL_S, LARGE_S = 900.0, 5400.0
+
+_DOUBTED = (
+    "It may be no heat at all, for models of machines that lack nothing leave as much, and any course can be drawn as "
+    "that of a body. If heat is missing"
+)
 
 
 def where(
@@ -23,12 +28,13 @@ def where(
     suspect: Suspect | None = None,
     first: First | None = None,
     warm: tuple[str, str] | None = None,
+    doubt: Doubt = "none",
 ) -> str:
     """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
     first: what ranks first, and is plausible. warm: the key of the test at whose warm start the model
-    fails most."""
+    fails most. doubt: whether any heat is missing."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
-    said = [_capital(_body(heat)), told]
+    said = [*([_DOUBTED] if doubt != "none" else []), _capital(_body(heat)), told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
     if is_warm:
         said.append(_began_warm(strongest))

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
-from thermodata.diagnosis.verdict.suspect import First, Suspect
+from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
@@ -18,19 +18,28 @@ DIGITS = 4  # of a course, which is many numbers
 
 
 def characterise(
-    problem: Problem, spots: Sequence[WeakSpot], suspect: Suspect | None = None, first: First | None = None
+    problem: Problem,
+    spots: Sequence[WeakSpot],
+    suspect: Suspect | None = None,
+    first: First | None = None,
+    doubt: Doubt = "none",
 ) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
-    missing heat itself, estimated. suspect: what is likely it. first: what ranks first, and is plausible."""
+    missing heat itself, estimated, unless nobody knows of any. suspect: what is likely it. first: what ranks first, and
+    is plausible. doubt: whether any heat is missing."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),
         states=list(dict.fromkeys(s.state for s in spots[:5])),
-        heat=_heat(problem, suspect, first, spots[0] if spots and spots[0].after_warm_start else None),
+        heat=None
+        if doubt == "all"
+        else _heat(problem, suspect, first, spots[0] if spots and spots[0].after_warm_start else None, doubt),
     )
 
 
-def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: WeakSpot | None) -> MissingHeat | None:
+def _heat(
+    problem: Problem, suspect: Suspect | None, first: First | None, warm: WeakSpot | None, doubt: Doubt
+) -> MissingHeat | None:
     heat = missing_heat(problem)
     if heat is None:
         return None
@@ -52,7 +61,7 @@ def _heat(problem: Problem, suspect: Suspect | None, first: First | None, warm: 
         goes_with=[_companion(c) for c in found if c.verdict == "with"],
         goes_not_with=[_companion(c) for c in reversed(found) if c.verdict == "not" and c.info.name not in likely],
         where=first_seen.where(
-            heat, found, strong, weak, suspect, first, (warm.campaign, warm.test) if warm is not None else None
+            heat, found, strong, weak, suspect, first, (warm.campaign, warm.test) if warm is not None else None, doubt
         ),
         courses=[_course(c) for c in heat.courses],
     )

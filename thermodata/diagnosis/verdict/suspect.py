@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.measure import GOOD_SHARE, OF_NOTHING, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
 from thermodata.diagnosis.claims.rules import PLAUSIBLE, apart, failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.scored import Scored
+
+Doubt = Literal["none", "some", "all"]
+"""Whether any heat is missing: more is left than of machines that lack nothing, as much, or as a good model leaves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,3 +69,13 @@ def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: s
         else "alone it keeps the rules of a claim, but not beside what else was chosen"
     )
     return Suspect((head.candidate,), stopped)
+
+
+def doubt_of_heat(left: float, measure: Measure, *, known: bool) -> Doubt:
+    """What is left speaks for a body that nobody logged by its size alone: any residual has a course that one gives.
+
+    left: the error of left-out tests, in the response's unit. known: whether a plausible cause, or locked tests, say
+    that something is missing."""
+    if known or left > OF_NOTHING * measure.spread:
+        return "none"
+    return "some" if left > max(measure.noises, GOOD_SHARE * measure.spread) else "all"

@@ -14,6 +14,8 @@ from thermodata.schema.places import is_around
 
 # what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
 _PLAIN = ("spindle_bearing", "feed_screw", "column_bending", "table_bearing", "ambient_frame")
+# what many machines have besides: offered where a sensor is there, and left to the lab and to `diagnose`
+_OFFERED = ("spindle_motor", "coolant_temperature", "hydraulics")
 _WITHOUT_SENSOR = {"spindle_bearing": "spindle_friction"}  # where only the speed is logged
 _AXES = ("Z", "Y", "X")
 _ASKED = ("temperature", "rotational_speed")
@@ -32,6 +34,15 @@ def model_text(draft: Draft) -> str | None:
     """The text of model.yaml; None where no displacement with an axis is there, or no sensor drives a plain effect."""
     said = {c.name: c.said for c in draft.channels}
     return _text(draft.campaign, {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity})
+
+
+def responses_of_draft(draft: Draft) -> list[str]:
+    """The displacements of the tool that the first model of a draft is of, or could be: the one that it takes first."""
+    said = {c.name: c.said for c in draft.channels}
+    channels = {n: _Known(s.quantity, s.at, s.axis) for n, s in said.items() if s.quantity}
+    axes = _axes(channels)
+    found = [n for n, c in channels.items() if _is_tools(c) and c.axis in axes]
+    return sorted(found, key=lambda n: axes.index(str(channels[n].axis)))
 
 
 def model_text_of(campaign: Campaign, response: str | None = None) -> str | None:
@@ -67,20 +78,27 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
     others = [a for a in axes if a != axis]
     drivers = {n: c for n, c in channels.items() if c.quantity not in ("displacement", "label")}
     known = effects()
-    lines, missing = [], []
+    lines, missing, elsewhere = [], [], []
+
+    def fitting(name: str) -> list[dict[str, str]]:
+        effect = known.get(name)
+        return _on_axis(unnamed(effect, drivers), drivers, axis or "none") if effect is not None else []
+
     for name in _PLAIN:
         for tried in filter(None, (name, _WITHOUT_SENSOR.get(name))):
-            effect = known.get(tried)
-            fits = _on_axis(unnamed(effect, drivers), drivers, axis or "none") if effect is not None else []
-            if effect is not None and fits:
+            if fits := fitting(tried):
                 rest = f"; or by {one_line(', '.join(fits[1].values()))}" if len(fits) > 1 else ""
-                spec = flow({"effect": tried, "drivers": fits[0]})
-                lines.append(f"  - {{{spec}}}   # {one_line(effect.meaning.split(':')[0])}{rest}")
+                lines.append(f"{_line(tried, fits[0])}   # {one_line(known[tried].meaning.split(':')[0])}{rest}")
                 break
         else:
-            missing.append(name)
+            there = unnamed(known[name], drivers) if name in known else []
+            if there:
+                elsewhere.append(f"{name} ({one_line(', '.join(there[0].values()))})")
+            else:
+                missing.append(name)
     if not lines:
         return None
+    offered = [_line(name, fits[0]) for name in _OFFERED if (fits := fitting(name))]
     nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
     return "\n".join(
         [
@@ -93,6 +111,9 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
             "step: 60 s",
             "effects:",
             *lines,
+            *(["# logged too, and left to thermodata diagnose; to have one now, delete its '#':"] if offered else []),
+            *(f"#{line}" for line in offered),
+            *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
             *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
             *(
                 [f"# ? drive nothing until their place ('at') is answered: {', '.join(nowhere[:12])}"]
@@ -102,6 +123,10 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
             "",
         ]
     )
+
+
+def _line(effect: str, drivers: Mapping[str, str]) -> str:
+    return f"  - {{{flow({'effect': effect, 'drivers': dict(drivers)})}}}"
 
 
 def _axes(channels: Mapping[str, _Known]) -> list[str]:

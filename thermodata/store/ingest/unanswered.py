@@ -16,12 +16,23 @@ SIGN = (
 )
 
 
+def _nearest_place(at: str) -> str | None:
+    """The place that was meant: one spelt alike, or what the unknown part is of: of 'hall.air' not 'hall.door', which
+    is another part of the hall, but 'hall'."""
+    near = nearest(at, [p for p in PLACES if "*" not in p])
+    whole, _, part = at.rpartition(".")
+    if not whole or not is_known(whole):
+        return near
+    same_part = near is not None and near.startswith(f"{whole}.") and nearest(part, [near.rpartition(".")[2]])
+    return near if same_part else whole
+
+
 def unanswered(campaign: Campaign) -> list[str]:
     """Sentences for the summary of an ingest."""
     said = []
     for name, channel in campaign.channels.items():
         if channel.at and not is_known(channel.at):
-            near = nearest(channel.at, [p for p in PLACES if "*" not in p])
+            near = _nearest_place(channel.at)
             meant = called_here(channel.at) or ((near,) if near is not None else ())
             if meant:
                 choices = " or ".join(f"'{m}'" for m in meant)

@@ -283,7 +283,9 @@ def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:
     times = set(layout.time)
     names = [n for i, (n, kind) in enumerate(zip(layout.names, kinds, strict=True)) if kind and i not in times]
-    if any(n.startswith("column ") for n in names):
+    # a name of the file may begin with that word
+    places = {f"column {i + 1}" for i in range(len(layout.names))}
+    if not places.isdisjoint(names):
         yield "columns without a name are called by their place"
     if any("#" in n and n.rsplit("#", 1)[-1].isdigit() for n in names):
         yield "names that repeat are numbered: #2, #3, ..."

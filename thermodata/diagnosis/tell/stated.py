@@ -1,0 +1,48 @@
+"""Of which candidates an answer states a probability, and which of them heads the list."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.claims.probability import probability
+from thermodata.diagnosis.claims.rules import failed_rules
+from thermodata.diagnosis.verdict.judge import Judged
+from thermodata.diagnosis.verdict.preference import NAMED_SHARE, UNNAMED
+from thermodata.diagnosis.weigh.scored import Scored
+
+Row = tuple[Scored, Judged | None]
+"""A candidate, and how it was judged; None where it was not selected."""
+
+
+def stated(rows: Sequence[Row], measure: Measure, unit: str) -> list[Scored]:
+    """Those that keep every rule but that of the probability, and are causes of their own; without what a name among
+    them says of the same channels. unit: of the response."""
+    sound = [(s, m) for s, m in rows if is_a_cause(s, m) and len(s.rows) and not failed_rules(s, measure, unit)]
+    return [s for s, m in sound if m is not None or goes_by_name(s, [t for t, _ in sound]) is None]
+
+
+def likeliest(rows: Sequence[Row], measure: Measure, unit: str) -> Scored | None:
+    """The head of what is not claimed: of what would give most and of all of which a probability is stated. rows: by
+    what they would give."""
+    told = stated(rows, measure, unit)
+    no_refinement = (s for s, m in rows if not s.candidate.within and (m is None or m.refines is None))
+    most = next((s for s in no_refinement if goes_by_name(s, told) is None), None)
+    return max([*([most] if most is not None else []), *told], key=probability, default=None)
+
+
+def is_a_cause(s: Scored, member: Judged | None) -> bool:
+    """Whether it is none that refines the model. Of what was not selected nobody asked that, so that a mode of what the
+    model has, by its kin, is none."""
+    if s.candidate.within:
+        return False
+    return s.candidate.kin not in ("same", "heat") if member is None else member.refines is None
+
+
+def goes_by_name(s: Scored, sound: Sequence[Scored]) -> Scored | None:
+    """The sound effect with a name that says of the same channels what a lag of them does, and is as evident."""
+    if s.candidate.family not in UNNAMED:
+        return None
+    own = set(s.candidate.channels)
+    named = (t for t in sound if t.candidate.family not in UNNAMED and set(t.candidate.channels) == own)
+    return next((t for t in named if t.evidence >= NAMED_SHARE * s.evidence), None)

@@ -1,0 +1,66 @@
+"""What would refine the model, in words: what is worth adding, and what left-out or locked tests do not bear out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.report.candidate_errors import left_out_errors
+from thermodata.report.words import listed, number
+
+if TYPE_CHECKING:
+    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.diagnosis import Diagnosis
+
+
+def worth_adding(one: Candidate) -> bool:
+    """Whether left-out tests are foretold better with it, over all or where it acts; and locked ones no worse, where
+    they were opened for it."""
+    return _rises_on_locked(one) is None and _rises_on_left_out(one) is None
+
+
+def can_be_refined(found: Diagnosis) -> str:
+    """'what the model has can be refined by mode (T)', of what is worth adding; '' where nothing is."""
+    worth = [c for c in found.candidates if c.refinement and worth_adding(c)]
+    return f"what the model has can be refined by {listed([named(c) for c in worth])}" if worth else ""
+
+
+def told_with_errors(found: Diagnosis, advice: str = "") -> str:
+    """The same with errors on left-out tests, and what is not worth adding with the errors that say so. advice: what
+    to do with the former, '{them}' standing for it."""
+    refined = [c for c in found.candidates if c.refinement]
+    worth, others = ([c for c in refined if worth_adding(c) is is_worth] for is_worth in (True, False))
+    parts = []
+    if worth:
+        them = "it" if len(worth) == 1 else "them"
+        parts.append(f"{can_be_refined(found)}, {left_out_errors(worth, found.rmse_um)}{advice.format(them=them)}")
+    return "; ".join([*parts, *map(_not_worth, others)])
+
+
+def _not_worth(one: Candidate) -> str:
+    return (
+        f"{named(one)} goes with what is left as another mode of what the model has, but "
+        f"{_rises_on_locked(one) or _rises_on_left_out(one)} with it, so adding it is not advised"
+    )
+
+
+def _rises_on_left_out(one: Candidate) -> str | None:
+    before, after = one.rmse_um_before, one.rmse_um_after
+    falls = next((r.value for r in one.rungs if r.name == "fall"), None)
+    if before is None or after is None or after < before or falls is None or falls > 0:
+        return None
+    beside = f" beside {listed(one.beside)}" if one.beside else ""
+    return f"left-out tests are foretold no better ({number(before)} -> {number(after)} um{beside})"
+
+
+def _rises_on_locked(one: Candidate) -> str | None:
+    before, after = one.locked_shape_um_before, one.locked_shape_um_after
+    if before is None or after is None or after < before:
+        return None
+    return f"locked tests are foretold no better ({number(before)} -> {number(after)} um)"
+
+
+def named(one: Candidate) -> str:
+    """'feed_screw (T_nut_Z)', and how it acts otherwise than the model has it."""
+    name = f"{one.effect} ({', '.join(one.drivers)})" if one.drivers else one.effect
+    by_phase = f" with a function of its own in {listed(one.phases)}" if one.phases else ""
+    return f"{name}{by_phase}{f' with a gain for each {one.gain_by}' if one.gain_by else ''}"
