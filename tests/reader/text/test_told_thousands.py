@@ -49,8 +49,9 @@ def test_thousands_that_the_file_proves_are_read(tmp_path: Path) -> None:
         [f"{k - 30:.3f}" if k != 30 else "0" for k in range(60)],
         [german(900 + 40 * k) if k % 2 else str(900 + 40 * k) for k in range(60)],  # thousands without a point too
         [german(900 + 40 * k) if k else "0.5" for k in range(60)],  # a fraction with a point
+        [german(8000) if k % 2 else "950" for k in range(60)],  # two numbers show no way to write them
     ],
-    ids=["fixed", "zero", "unparted", "fraction"],
+    ids=["fixed", "zero", "unparted", "fraction", "few"],
 )
 def test_numbers_that_may_be_written_in_two_ways_are_asked(tmp_path: Path, other: list[str]) -> None:
     with pytest.raises(QuestionError) as asked:
@@ -62,6 +63,6 @@ def test_commas_alone_or_without_a_fraction_tell_nothing() -> None:
     assert told_thousands([["1.500", "900", "2.500"]]) is None
     assert told_thousands([["1.500", "900"], ["1,250", "3,500"]]) is None
     assert told_thousands([TEMPERATURES]) is None
-    english = told_thousands([["1,500", "900", "12,500.25"], ["20.04", "21.5"]])
+    english = told_thousands([["1,500", "900", "12,500.25", "-20", "8,000", "7"], ["20.04", "21.5"]])
     assert english is not None
     assert english.decimal == "."

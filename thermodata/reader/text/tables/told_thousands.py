@@ -16,6 +16,7 @@ _GROUPED = {
     m: re.compile(rf"[+-]?[1-9]\d{{0,2}}(?:{re.escape(o)}\d{{3}})+(?:{re.escape(m)}\d*)?", re.ASCII)
     for m, o in ((".", ","), (",", "."))
 }
+_DIFFER = 3  # numbers of either kind, by which columns show how they are written
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +29,10 @@ class Told:
 
 def told_thousands(columns: Iterable[Sequence[str]]) -> Told | None:
     """The decimal mark where one of both begins fractions that are no thousands, and the other parts thousands wherever
-    it stands: in groups of three digits only, in columns that write all that is below a thousand without it and
-    nothing above. None where one of this is lacking: numbers may be written in two ways. columns: cells of numbers."""
+    it stands: in groups of three digits only, in columns that write what is below a thousand without it and nothing
+    above, several numbers of either kind. None where one of this is lacking: numbers may be written in two ways.
+    columns: cells of numbers.
+    """
     cells = [[spelled(clean(c)) for c in column] for column in columns]
     for mark, other in ((",", "."), (".", ",")):
         begins = next((c for column in cells for c in column if _FRACTION[mark].fullmatch(c)), None)
@@ -39,7 +42,8 @@ def told_thousands(columns: Iterable[Sequence[str]]) -> Told | None:
             continue
         if any(_LONG.fullmatch(c) for column in parted for c in column):
             continue
-        if not any(_SHORT.fullmatch(c) for column in parted for c in column):
-            continue  # three digits behind the mark in each number: of a fixed format as well
+        # else three digits behind the mark may be a fixed format, and a few odd cells are no way to write numbers
+        if len(set(groups)) < _DIFFER or len({c for column in parted for c in column if _SHORT.fullmatch(c)}) < _DIFFER:
+            continue
         return Told(mark, f"'{other}' parts thousands ('{groups[0]}'), for '{mark}' begins fractions ('{begins}')")
     return None
