@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from thermodata.report.could_hide import could_be, could_hide
+from thermodata.report.left_over import left_over
 from thermodata.schema.diagnosis import AtRest, DetectionLimit, Diagnosis
 
 
@@ -109,3 +110,21 @@ def test_a_headline_names_what_no_size_would_have_shown() -> None:
     rests = AtRest(channel="n_C", effects=["table_bearing"], moves_in=["day2"])
     asked = found(*(one(name, None) for name in "abcd")).model_copy(update={"at_rest": [rests]})
     assert could_be(asked) == "what n_C moves (no open test does), a (T), b (T) or 2 more"
+
+
+@pytest.mark.parametrize(
+    ("fitted", "limits", "told"),
+    [
+        (1.75, (one("bearing", None, 0.02, behind="gearbox"),), True),
+        (1.75, (one("bearing", 9.5, 0.02, behind="gearbox"),), True),  # more than all that was measured
+        (1.75, (one("bearing", 8.5, 0.02, behind="gearbox"),), False),
+        (1.75, (one("bearing", None),), False),  # behind no effect, but slow noise
+        (0.35, (one("bearing", None, 0.02, behind="gearbox"),), False),  # its effects act as they are fitted
+    ],
+)
+def test_what_stands_behind_an_effect_that_acts_otherwise_than_fitted_may_be_missing(
+    fitted: float, limits: tuple[DetectionLimit, ...], told: bool
+) -> None:
+    text = left_over(found(*limits).model_copy(update={"fitted_rmse_um": fitted}))
+    asks = "bearing (T), which gearbox hides in these tests, may do that instead (thermodata confirm m bearing:T asks"
+    assert (asks in text) is told

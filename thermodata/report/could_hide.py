@@ -35,6 +35,18 @@ def could_be(found: Diagnosis) -> str:
     return " or ".join(filter(None, [", ".join(told[:-1]), *told[-1:]]))
 
 
+def may_act_instead(found: Diagnosis) -> str:
+    """'spindle_bearing (T_front), which spindle_gearbox hides in these tests, may do that instead (...)': of what could
+    have any size behind an effect of the model the one that the tests speak for most; '' where there is none."""
+    response = found.response_um or 0.0
+    of_each = _of_each(found.limits, response)
+    hidden = next((one for one in of_each if one.behind and _is_unbound(one, response)), None)
+    if hidden is None:
+        return ""
+    asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks the locked ones"
+    return f"{_name(hidden)}, which {hidden.behind} hides in these tests, may do that instead ({asks})"
+
+
 def _never_moved(found: Diagnosis) -> str:
     told = []
     for one in found.at_rest:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from thermodata.report.could_hide import may_act_instead
 from thermodata.report.words import duration, number, percent
 
 if TYPE_CHECKING:
@@ -45,9 +46,11 @@ def otherwise(found: Diagnosis) -> str:
     left, fitted = found.rmse_um, found.fitted_rmse_um
     if left is None or fitted is None or fitted < OTHERWISE * left or fitted <= NOISY * (found.noise_um or 0.0):
         return ""
+    instead = may_act_instead(found)
     return (
         f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
         f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
+        f"{f'; or {instead}' if instead else ''}"
     )
 
 
