@@ -63,7 +63,7 @@ BESIDE = {
     "unread.py": ("unread_parts", "candidates"),
     "windows.py": ("steps",),
     "weak.py": ("what_is_shown",),
-    "why.py": ("the_answer",),
+    "why.py": ("the_answer", "the_heat_of_a_motor"),
 }
 BRUTE_FORCE = ("tests/diagnosis/test_evidence_by_brute_force.py",)
 CHECKS = ("tests/modelling/test_rules_of_checks.py",)
@@ -403,7 +403,31 @@ MUTANTS = [
         "opened.py", "return replace(anew, judged=judged, likely=())", "return found", "the lock says nothing of 'none'"
     ),
     diagnosis("opened.py", "standing = causes(asked)", "standing = tuple(asked)", "one cause is claimed in two modes"),
-    diagnosis("opened.py", "if not j.twin})", "})", "a twin that went is told for what was claimed"),
+    diagnosis(
+        "opened.py",
+        "for j in asked if j.in_place_of is None})",
+        "for j in asked})",
+        "a twin that went is told for what was claimed",
+    ),
+    diagnosis("opened.py", "<= FORETELLS * _left(own)", "<= _left(own)", "chance tells twins apart"),
+    diagnosis("opened.py", "!= own_channels and may_be(s)", "!= {} and may_be(s)", "an equation is told from another"),
+    diagnosis(
+        "opened.py",
+        "if is_its_name(best.scored, j.scored)), best)",
+        "if False), best)",
+        "a lag is claimed for its name",
+    ),
+    diagnosis("opened.py", "if _key(own) in untried and own.refines is None:", "if False:", "no twin is told apart"),
+    diagnosis(
+        "unread.py", "return (*_motors(names, channels), *(", "return (*(", "a motor's losses are the cut's alone"
+    ),
+    diagnosis(
+        "unread.py",
+        'if not reads(channels, place := f"{one}.{MOTOR}"))',
+        'if (place := f"{one}.{MOTOR}"))',
+        "a motor that a sensor reads may be it",
+    ),
+    diagnosis("why.py", "if acts and test.kind in _NOTHING_IS_CUT)", "if acts)", "the cut acts where it is cut"),
     diagnosis("opened.py", "(_key(j) in unsound and silent)", "False", "locked tests that rest outweigh a rule"),
     diagnosis("judge.py", "if may_be_confirmed(j.scored)", "if True", "the lock is opened for everything"),
     diagnosis("judge.py", "alone = len(broken) == 1 and", "alone = broken and", "what breaks two rules is asked"),
@@ -519,7 +543,7 @@ MUTANTS = [
     ),
     diagnosis("preference.py", " or _clearly(best, own))", " or True)", "members are swapped by a hair"),
     diagnosis(
-        "preference.py", "better or _is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
+        "preference.py", "better or is_its_name(own, best) or", "better or", "a lag stands where its name is as likely"
     ),
     diagnosis("preference.py", "best.evidence >= NAMED_SHARE * own.evidence and", "", "a less likely name is taken"),
     diagnosis(
@@ -790,7 +814,7 @@ MUTANTS = [
     diagnosis("moves.py", ", left=0.0, right=0.0", "", "held ends pass for measured ones"),
     diagnosis("timings.py", "timing.chance <= CHANCE and", "", "what chance gives moves a clock"),
     diagnosis(
-        "by_commands.py", ", float(many ** (-2.0 * max(beyond, 0.0))))", ")", "a program that alternates hides a clock"
+        "by_commands.py", ", float(many ** (-2.0 * max(beyond, 0.0)))", "", "a program that alternates hides a clock"
     ),
     diagnosis("by_heat.py", "moved - where_it_is >= DECIDES", "False", "the displacement's own log is never late"),
     diagnosis("timings.py", "late &= from_hour_s <= ABOUT_S", "pass", "any long shift is taken for an hour"),
@@ -925,8 +949,8 @@ MUTANTS = [
     calibration("jump_checks.py", "answers[most] < 100.0,", "True,", "swapped cables pass"),
     calibration(
         "jump_checks.py",
-        "0.4 * spec.dwell <= dwell <= 2.5",
-        "0.0 * spec.dwell <= dwell <= 99",
+        "DWELL[0] * spec.dwell <= dwell <= DWELL[1] *",
+        "0.0 * spec.dwell <= dwell <= 99 *",
         "other steps pass as the moves",
     ),
     calibration("jump_checks.py", "smallest = min(", "smallest = max(", "noise against the largest move"),
