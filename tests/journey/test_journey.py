@@ -79,7 +79,7 @@ DIAGNOSIS = {
     "limits",
     "at_rest",
 }
-SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state"}
+SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {
     "rank",
     "id",
