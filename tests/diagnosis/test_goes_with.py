@@ -398,7 +398,7 @@ def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: b
     assert (found.heat is not None) is told
     where = found.heat.where if found.heat is not None else ""
     assert where.startswith("It may be no heat at all") is (doubt == "some")
-    assert ("of a body. If heat is missing, it is that of a body with a time constant of " in where) is (doubt == "some")
+    assert ("If heat is missing, it is that of a body with a time constant of " in where) is (doubt == "some")
 
 
 @pytest.mark.parametrize(
