@@ -396,7 +396,9 @@ def test_no_body_is_told_where_a_good_model_leaves_as_much(doubt: Doubt, told: b
     wave = lag(12.0 * np.repeat([0.0, 1.0, 0.0, 1.0, 1.0, 0.0], 80), 2400.0, STEP_S)
     found = characterise(problem(*[Parts(wave)] * 3, noise=0.1), [], doubt=doubt)
     assert (found.heat is not None) is told
-    assert (found.heat is not None and found.heat.where.startswith("It may be no heat at all")) is (doubt == "some")
+    where = found.heat.where if found.heat is not None else ""
+    assert where.startswith("It may be no heat at all") is (doubt == "some")
+    assert ("If heat is missing, it is that of a body with a time constant of " in where) is (doubt == "some")
 
 
 @pytest.mark.parametrize(

@@ -350,7 +350,14 @@ def test_the_displacement_decides_where_it_says_more_of_one_time_than_of_the_oth
 def test_where_the_displacement_says_nothing_neither_log_is_moved() -> None:
     [found] = late_logs(compared(without_a_word(logged({"log": 60})), CHANNELS, "dZ", STEP_S))
     assert found.source is None
-    assert "nothing tells which" in as_artefact(found, "c").why
+    assert as_artefact(found, "c").why.endswith(
+        "nothing tells which; check the time zone and the clocks. Declare what holds at both sources, clock: "
+        "{offset: ...}, 0 s for the one that is right"
+    )
+    in_one = replace(found, of=replace(found.of, campaign="c", test="day1"))
+    assert as_artefact(in_one, "c").why.endswith(
+        ". Declare what holds at the test, clocks: {nc: ..., log: ...}, 0 s for one that was right"
+    )
 
 
 def test_the_choice_is_made_with_the_log_moved(spec: Model) -> None:

@@ -52,11 +52,11 @@ def test_what_is_said_names_both() -> None:
     assert "the open test 'b'" in said.why
 
 
-def cut(name: str, from_row: int, to_row: int, file: str = "day") -> TestData:
+def cut(name: str, from_row: int, to_row: int, file: str = "day", signal: str = "p") -> TestData:
     """Rows of one recording, whose values are those of its rows."""
     values = np.random.default_rng(0).normal(size=500)[from_row:to_row]
     at_ns = {file: (from_row * 60 * 10**9, (to_row - 1) * 60 * 10**9)}
-    where = Recorded(from_row * 60 * 10**9, 60 * 10**9, at_ns)
+    where = Recorded(from_row * 60 * 10**9, 60 * 10**9, at_ns, signal)
     return replace(a_test(name, len(values), values={"dZ": values}), recorded={"dZ": where})
 
 
@@ -73,7 +73,9 @@ def test_what_two_open_tests_share_counts_in_the_first_one_only() -> None:
     assert (found.test.test, found.other.test, found.whole) == ("b", "a", False)
 
 
-@pytest.mark.parametrize("second", [cut("b", 100, 200), cut("b", 60, 200, "another day")])
+@pytest.mark.parametrize(
+    "second", [cut("b", 100, 200), cut("b", 60, 200, "another day"), cut("b", 60, 200, signal="q")]
+)
 def test_windows_that_meet_and_other_recordings_count_in_full(second: TestData) -> None:
     counted, found = once(cut("a", 0, 100), second)
     assert found == []

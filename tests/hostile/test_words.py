@@ -12,6 +12,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.report.fit_text import before_after_text, made_worse
+from thermodata.report.words import in_units
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.result import FitResult, Score
 from thermodata.store.ingest.unanswered import unanswered
@@ -169,6 +170,17 @@ def test_locked_tests_that_a_claim_makes_worse_come_before_the_errors_that_it_ma
     text = before_after_text(result)
     assert text.startswith("the locked tests get worse with what the diagnosis claims: 1.84 -> 5.01 um, 2.7 ") is told
     assert ("locked" in text) is told
+
+
+def test_of_several_responses_no_figure_stands_in_the_unit_of_another() -> None:
+    """Which of them was diagnosed, and in which unit, no result of a fit says."""
+    result = FitResult(
+        model="m", name="m", parent=None, campaigns=["c"], response=["dZ", "T_nut"], parameters={}, checks=[],
+        scores=[score("verification", 0.3)], before=[score("verification", 3.0)],
+        locked_rmse_um_before=0.2, locked_rmse_um_after=0.4,
+    )  # fmt: skip
+    text = in_units(before_after_text(result), {"dZ": "um", "T_nut": "K"})
+    assert text.startswith("the locked tests get worse with what the diagnosis claims: 2.0 times as much. ")
 
 
 def test_a_response_that_gets_worse_is_said_in_its_own_unit_beside_one_that_gets_better() -> None:

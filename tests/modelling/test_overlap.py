@@ -142,3 +142,16 @@ def test_of(tests: tuple[TestData, ...], name: str) -> TestData:
 
 
 test_of.__test__ = False  # type: ignore[attr-defined]
+
+
+def test_two_machines_in_one_log_are_two_measurements(tmp_path: Path) -> None:
+    """One logger may serve both: what stands in another column of its file was not measured twice."""
+    from thermodata.view.shared_samples import shared_samples
+
+    store = lab(tmp_path, [cut("a", "calibration", None)])
+    text = (tmp_path / "campaign.yaml").read_text().replace("id: c\n", "id: d\n", 1)
+    (tmp_path / "campaign.yaml").write_text(text.replace("signal: p", "signal: T"))
+    ingest(store, tmp_path / "campaign.yaml")
+    one, other = load_dataset(store, ["c", "d"], 60.0).tests
+    assert shared_samples(one, other, "dZ") is None
+    assert shared_samples(one, other, "T_a") is not None

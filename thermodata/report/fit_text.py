@@ -223,8 +223,10 @@ def worse_on_locked(result: FitResult) -> str:
     before, after = result.locked_rmse_um_before, result.locked_rmse_um_after
     if before is None or after is None or after <= before * _RISES:
         return ""
+    # of several responses nothing here says which it is of, and in which unit
+    figures = f"{number(before)} -> {number(after)} um, " if len(result.responses) == 1 else ""
     return (
-        f"the locked tests get worse with what the diagnosis claims: {number(before)} -> {number(after)} um, "
+        f"the locked tests get worse with what the diagnosis claims: {figures}"
         f"{number(after / before, 2)} times as much. The errors below are of tests that it was fitted to or chosen by, "
         "so ask the locked ones (thermodata confirm tells each) before this version is used"
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -14,12 +14,14 @@ Key = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """A stream of a test. zero_ns: t_s == 0 as the file counts time; parts: what was read (one version of a file) ->
-    the times between which its samples are the test's [ns]; step_ns: from one to the next."""
+    """A channel of a test. zero_ns: t_s == 0 as the file counts time; parts: what was read (one version of a file) ->
+    the times between which its samples are the test's [ns]; step_ns: from one to the next. signal: its name there, for
+    one logger may serve two machines; None where it has none."""
 
     zero_ns: int
     step_ns: int
     parts: Mapping[str, tuple[int, int]]
+    signal: str | None = None
 
 
 _STREAMS = """
@@ -36,7 +38,7 @@ from raw join test t using (campaign, test) join source s using (campaign, test,
      left join tidy using (campaign, test, source, stream)"""
 
 
-_CHANNELS = "select campaign, test, channel, source, stream from channel where list_contains(?, campaign)"
+_CHANNELS = "select campaign, test, channel, source, stream, signal from channel where list_contains(?, campaign)"
 
 
 def recorded_channels(
@@ -51,9 +53,9 @@ def recorded_channels(
             if made is not None:
                 streams[campaign, test, source, stream] = made
     found: dict[Key, dict[str, Recorded]] = {}
-    for campaign, test, channel, source, stream in con.execute(_CHANNELS, [list(campaigns)]).fetchall():
+    for campaign, test, channel, source, stream, signal in con.execute(_CHANNELS, [list(campaigns)]).fetchall():
         if (made := streams.get((campaign, test, source, stream))) is not None:
-            found.setdefault((campaign, test), {})[channel] = made
+            found.setdefault((campaign, test), {})[channel] = replace(made, signal=signal)
     return found
 
 

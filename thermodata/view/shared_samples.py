@@ -15,9 +15,10 @@ def shared_samples(
 
 
 def shared_spans(one: TestData, other: TestData, channel: str, theirs: str | None = None) -> list[tuple[float, float]]:
-    """The same for each recording that they share: a test may be read from several files."""
+    """The same for each recording that they share: a test may be read from several files. Another signal of a file is
+    another measurement."""
     mine, its = one.recorded.get(channel), other.recorded.get(theirs or channel)
-    if mine is None or its is None:
+    if mine is None or its is None or mine.signal != its.signal:
         return []
     spans = []
     for name in mine.parts.keys() & its.parts.keys():

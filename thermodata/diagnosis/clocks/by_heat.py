@@ -104,7 +104,11 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
         which += " in these tests" if part else ""
     by = "as they do in the other tests" if first[1] else "in tests left out"
     tests = "" if not first[1] else "these tests" if part else "the test"
-    declare = f"declare what holds, clocks: {{{of.by}: ..., {of.warmed}: ...}}, 0 s for one that was right"
+    declare = (
+        f"Declare what holds at {tests}, clocks: {{{of.by}: ..., {of.warmed}: ...}}, 0 s for one that was right"
+        if tests
+        else "Declare what holds at both sources, clock: {offset: ...}, 0 s for the one that is right"
+    )
     if late.source is not None:
         declare = what_to_declare(late.source, late.shift_s, tests)
     return Artefact(

@@ -16,7 +16,7 @@ SMALL_S, LARGE_S = 900.0, 5400.0
 
 _DOUBTED = (
     "It may be no heat at all, for models of machines that lack nothing leave as much, and any course can be drawn as "
-    "that of a body. If heat is missing"
+    "that of a body. If heat is missing, it is that of"
 )
 
 
@@ -34,7 +34,7 @@ def where(
     first: what ranks first, and is plausible. warm: the key of the test at whose warm start the model
     fails most. doubt: whether any heat is missing."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
-    said = [*([_DOUBTED] if doubt != "none" else []), _capital(_body(heat)), told]
+    said = [_capital(_body(heat)) if doubt == "none" else f"{_DOUBTED} {_body(heat)}", told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
     if is_warm:
         said.append(_began_warm(strongest))
