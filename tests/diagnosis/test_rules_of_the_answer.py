@@ -493,6 +493,17 @@ class TestAnswer:
         standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=60.0))))
         assert "not claimed: causes like it were right in 62% of cases only" in standing.candidates[1].why
 
+    def test_what_lets_no_error_fall_stands_by_its_probability(
+        self, monkeypatch: pytest.MonkeyPatch, spec: Model
+    ) -> None:
+        def rising(one: Scored, evidence: float) -> Scored:
+            sse = 1.1**2 * one.rows
+            return replace(one, evidence=evidence, sse_after=sse, own_after=sse)
+
+        ranked = (rising(FIRST, 5.0), rising(TWIN, 20.0), rising(OTHER, 60.0))
+        found = self.answered(monkeypatch, spec, nothing("unknown"), ranked=ranked)
+        assert [c.effect for c in found.candidates] == ["other", "twin", "first"]
+
     def test_others_stand_in_the_order_of_the_errors_that_are_told_of_them(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
     ) -> None:

@@ -43,7 +43,7 @@ def may_act_instead(found: Diagnosis) -> str:
     hidden = next((one for one in of_each if one.behind and _is_unbound(one, response)), None)
     if hidden is None:
         return ""
-    asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks the locked ones"
+    asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks locked ones, where there are some"
     return f"{_name(hidden)}, which {hidden.behind} hides in these tests, may do that instead ({asks})"
 
 

@@ -45,7 +45,8 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
         for s in found:
             if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
                 others.append((s, None))
-    others.sort(key=lambda item: -explained(_beside_the_model(item[0], investigation)[0]))
+    # what lets no error fall gives nothing, and stands by what is known of it otherwise
+    others.sort(key=lambda item: (-explained(_beside_the_model(item[0], investigation)[0]), -probability(item[0])))
     head = likeliest(others, investigation.measure, investigation.problem.unit)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
