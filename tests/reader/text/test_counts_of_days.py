@@ -70,6 +70,7 @@ def test_a_draft_asks_for_the_unit_of_rows_that_are_too_quick(tmp_path: Path) ->
     [
         2026.0 + np.arange(60),  # years
         2026.5 + np.arange(60) * 0.05,  # 18 days from row to row
+        1995.0 + np.arange(60) * 0.01,  # seconds at 100 Hz, of a log that is cut out of a longer one
         np.linspace(2026.9, 2026.1, 60),  # falls
         2461101.0 + np.arange(60),  # whole numbers
         61101.25 + DAYS,  # of days, but of Excel's as well

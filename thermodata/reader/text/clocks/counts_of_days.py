@@ -13,6 +13,7 @@ from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
+_LOGGED_YEARS = 1.5e-4  # from row to row: an hour and a bit, as four digits behind the point have it
 _QUICK_S = 5e-6  # from row to row: what measures heat is slower by far
 
 
@@ -29,9 +30,13 @@ def counted_by(name: str, values: Array) -> str | None:
         return "jd"
     if _MJD_NAME.search(name) and _are_days(values, 40_000, 90_000):
         return "mjd"
-    # within some days from row to row; whole years only, or few of them, are anything
-    years = _are_days(values, 1990, 2100) and float(np.ptp(values)) < 10 and float(np.diff(values).max()) < 0.02
-    return "decimal_year" if years and bool((np.diff(values) > 0).all()) and float(np.median(values % 1)) else None
+    if not _are_days(values, 1990, 2100) or float(np.ptp(values)) >= 10:
+        return None
+    # within some days from row to row, mostly an hour: seconds beyond 1990 have steps of hundredths; whole years only,
+    # or few of them, are anything
+    steps = np.diff(values)
+    years = bool((steps > 0).all()) and float(steps.max()) < 0.02 and float(np.median(steps)) <= _LOGGED_YEARS
+    return "decimal_year" if years and float(np.median(values % 1)) else None
 
 
 def count_question(name: str, values: Array, where: str, column: int | None = None) -> QuestionError | None:
