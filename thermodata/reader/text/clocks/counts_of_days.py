@@ -67,21 +67,30 @@ def when(number: float, unit: str) -> str:
     return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
 
 
-def refuse_beyond(name: str, values: Array, unit: str, where: str) -> None:
-    """FormatError where most numbers are longer than any time in their unit, as days counted from a date are."""
+def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: bool = True) -> None:
+    """FormatError where most numbers are longer than any time in their unit, as days counted from a date are. Where
+    the file says that unit and no declaration does (`declared`), a QuestionError once their size tells what they are.
+    """
     seconds = SECONDS.get(unit)
     finite = values[np.isfinite(values)]
     if seconds is None or not finite.size or float(np.median(np.abs(finite))) * seconds < REACH_S:
         return
     epoch = counted_by(name, finite) or found_epoch(finite)
     told = f": as {epoch} it is {when(finite[0], epoch)}" if epoch else ""
-    raise FormatError(
-        f"'{name}' can be no time in {unit}",
-        where=where,
-        expected=f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
-        got=f"{finite[0]:.14g}",
-        hint=f"declare table: {{time: {{unit: {epoch or '...'}}}}}{told}; counted from a date are {', '.join(EPOCHS)}",
-    )
+    what = f"'{name}' can be no time in {unit}"
+    said = {
+        "where": where,
+        "expected": f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
+        "got": f"{finite[0]:.14g}",
+        "hint": f"declare table: {{time: {{unit: {epoch or '...'}}}}}{told}; counted from a date are "
+        f"{', '.join(EPOCHS)}",
+    }
+    if epoch is None or declared:
+        raise FormatError(what, **said)
+    answer = {"time": {"unit": epoch}}
+    then = f"{finite[0]:.14g} is {when(finite[0], epoch)} then, and none in {unit}"
+    ask = f"unit of the time: is '{name}' in {epoch}? {then}"
+    raise QuestionError(what, ask=ask, declare=answer, meanwhile=answer, times=[name], **said)
 
 
 def quick_note(name: str, values: Array, unit: str) -> str | None:
