@@ -199,6 +199,15 @@ def test_rows_in_units_that_convert_are_given_in_the_first_of_them(tmp_path: Pat
     assert any("'T' is given in degF, also where its rows say degC" in n for n in data.recording.notes)
 
 
+@pytest.mark.parametrize("word", ["n/a", "-", "NaN"])
+def test_a_word_for_nothing_is_no_second_unit(tmp_path: Path, word: str) -> None:
+    rows = [f"{stamp(5 * k)},T,{k / 8},{word if k % 7 == 0 else 'degC'}" for k in range(N)]
+    data = read(tmp_path, "Timestamp,Channel,Value,Unit", [*rows, f"{stamp(5 * N)},dZ,1.5,um"])
+    assert {s.name: s.unit for s in data.recording.signals} == {"T": "degC", "dZ": "um"}
+    np.testing.assert_allclose(values(data)["T"][:N], [k / 8 for k in range(N)])
+    assert not data.losses
+
+
 def test_rows_in_units_that_do_not_convert_are_refused_or_lost(tmp_path: Path) -> None:
     rows = [f"{stamp(5 * k)},{t},{k / 8},um" for k in range(N) for t in ("dX", "dZ")]
     with pytest.raises(FormatError, match="'dZ' has several units"):

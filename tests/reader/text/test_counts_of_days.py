@@ -70,6 +70,7 @@ def test_a_draft_asks_for_the_unit_of_rows_that_are_too_quick(tmp_path: Path) ->
     [
         2026.0 + np.arange(60),  # years
         2026.5 + np.arange(60) * 0.05,  # 18 days from row to row
+        1995.0 + np.arange(60) * 0.01,  # seconds at 100 Hz, of a log that is cut out of a longer one
         np.linspace(2026.9, 2026.1, 60),  # falls
         2461101.0 + np.arange(60),  # whole numbers
         61101.25 + DAYS,  # of days, but of Excel's as well
@@ -95,6 +96,18 @@ def test_days_beyond_any_time_are_refused_with_what_they_may_be(tmp_path: Path) 
     assert "unit: jd" in str(told.value.hint)
     assert "2026-03-02 07:00:00" in str(told.value.hint)
     assert _read(tmp_path, "age", 1000 + DAYS, {"column": 1, "unit": "d"})[0].clock == "relative"
+
+
+def test_a_unit_of_the_header_that_can_not_be_is_asked_for_and_claimed(tmp_path: Path) -> None:
+    """Unix milliseconds below 'time [s]': a reader claims the file, and a draft asks."""
+    with pytest.raises(QuestionError, match="can be no time in s") as asked:
+        _read(tmp_path, "time [s]", 1772438400000.0 + 1000 * np.arange(60))
+    assert asked.value.declare == {"time": {"unit": "unix_ms"}}
+    draft_files(tmp_path)
+    assert "1772438400000 is 2026-03-02 08:00:00 then" in (tmp_path / "campaign.yaml").read_text()
+    with pytest.raises(FormatError) as told:
+        _read(tmp_path, "time [s]", 1e25 + 1e21 * np.arange(60))
+    assert not isinstance(told.value, QuestionError)
 
 
 def test_rows_that_are_too_quick_are_told(tmp_path: Path) -> None:

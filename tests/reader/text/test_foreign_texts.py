@@ -20,6 +20,7 @@ DIADEM = "DIAEXTENDED  {@:ENGLISH\n#BEGINGLOBALHEADER\n1,WINDOWS 32Bit\n101,Spin
 )
 
 SKETCH = "Booting... v1.3\nsensors found: 3\n" + "".join(f"t={10 * i} ms, T1=21.{i} C, dZ=-{i} um\n" for i in range(9))
+GERMAN = "".join(f"t={10 * i}; T1=21,{i}0; dZ=-{i},25\n" for i in range(9))
 SYSLOG = "".join(f"Dec 31 20:0{i}:00 labpi thermo[412]: bearing=22.0{i} bed=20.48\n" for i in range(9))
 LOGGING = "".join(f"2026-03-02 08:00:0{i},123 INFO T1: 21.9{i} T2: -3\n" for i in range(9))
 BROKER = "".join(f'lab/bed/temp {{"ts": 177243840{i}, "v": 21.9{i}, "unit": "degC"}}\n' for i in range(9))
@@ -33,6 +34,7 @@ BROKER = "".join(f'lab/bed/temp {{"ts": 177243840{i}, "v": 21.9{i}, "unit": "deg
         (PRINT, "DPRNT", "commas"),
         (DIADEM, "DIAdem", "TDMS"),
         (SKETCH, "name each of their values", "line of names"),
+        (GERMAN, "name each of their values", "line of names"),
         (SYSLOG, "name each of their values", "line of names"),
         (LOGGING, "name each of their values", "line of names"),
         (BROKER, "messages of a broker", "row a message"),
@@ -79,6 +81,9 @@ def test_a_line_of_quotes_has_one_way_to_be_read() -> None:
         "".join(f"2026-03-02T08:0{i}:00,T08:0{i},2{i}.5\n" for i in range(9)),  # times
         "".join(f"2026-03-02 08:0{i}:00\tmode=3\t2{i}.5\n" for i in range(9)),  # one name alone is a cell
         "".join(f"a{i}=1 b{i}=2\n" for i in range(9)),  # settings
+        # a table, one of whose columns is a block of the program
+        "time;T1;block\n" + "".join(f"2026-03-02 08:0{i}:00;2{i}.5;G1 X=10{i} F=200\n" for i in range(9)),
+        "".join(f"{i},R1=5 R2={i},2{i}.5\n" for i in range(9)),
         'time;note\n08:00;{"a": 1}\n08:01;\n',
     ],
 )

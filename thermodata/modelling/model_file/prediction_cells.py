@@ -35,7 +35,8 @@ class Numbers:
 
     def value(self, text: str) -> float | None:
         """By the policy that all texts are read by; None for what is no number, a truth value among them."""
-        return None if to_bool(text) is not None else to_float(text, self.decimal)
+        value = to_float(text, self.decimal)
+        return None if value in (0.0, 1.0) and to_bool(text) is not None else value
 
     def expected(self) -> str:
         if self.seen is None:
@@ -51,14 +52,16 @@ def read_cells(path: Path) -> Cells:
     at, header = next(records, (1, []))
     rows = []
     for line, cells in records:
-        _refuse_wider(cells, header, f"{path}:{line}")
+        if len(cells) > len(header):
+            _refuse_wider(cells, header, f"{path}:{line}")
         rows.append((line, cells))
     return Cells(tuple(header), at, tuple(rows))
 
 
 def numbers_of(cells: Iterable[tuple[int, str]]) -> Numbers:
     """cells: (line, text) of all numbers of a file. The first that has a fraction says which mark all have."""
-    return next((Numbers(mark, line) for line, text in cells if (mark := decimal_mark([text]))), Numbers())
+    some = ((line, text) for line, text in cells if not text.isdigit())
+    return next((Numbers(mark, line) for line, text in some if (mark := decimal_mark([text]))), Numbers())
 
 
 def _text(path: Path) -> str:
@@ -103,12 +106,12 @@ def _records(text: str, path: Path) -> Iterator[tuple[int, list[str]]]:
             ) from None
         if cells is None:
             return
-        if any(cell.strip() for cell in cells) and not (told and line == 1):
+        if any(map(str.strip, cells)) and not (told and line == 1):
             yield line, cells
 
 
 def _refuse_wider(cells: Sequence[str], header: Sequence[str], where: str) -> None:
-    if any(cell.strip() for cell in cells[len(header) :]):
+    if any(map(str.strip, cells[len(header) :])):
         raise SpecError(
             "the row has more cells than the header",
             where=where,

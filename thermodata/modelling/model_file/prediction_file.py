@@ -61,13 +61,15 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
     except OSError as error:
         raise SpecError("the prediction file cannot be read", where=str(path), got=str(error)) from None
     header = _header(cells.header, unit, path, cells.at)
-    used = [(line, _named(row, header, f"{path}:{line}")) for line, row in cells.rows]
+    file = str(path)  # a path is made to text anew each time it is told
+    used = [(line, _named(row, header, f"{file}:{line}")) for line, row in cells.rows]
     numbers = numbers_of((line, row[key]) for line, row in used for key in _NUMBERS)
     tests: dict[str, Rows] = {}
     only: str | None = None
     for line, row in used:
-        where = f"{path}:{line}"
-        t, y = (_number(row[key], header.column[key], numbers, where, empty=key == "predicted") for key in _NUMBERS)
+        where = f"{file}:{line}"
+        t = _number(row["t_s"], header.column["t_s"], numbers, where)
+        y = _number(row["predicted"], header.column["predicted"], numbers, where, empty=True)
         campaign = row.get("campaign", "")
         if "response" in row:
             only = row["response"] if only is None else only
@@ -82,8 +84,9 @@ def read_rows(path: Path, channels: Mapping[str, str] | None, unit: str | None) 
 
 def _named(cells: Sequence[str], header: _Header, where: str) -> dict[str, str]:
     """Column -> its cell, of the columns that are read. SpecError for a row that ends before one of them."""
-    lacking = [header.column[key] for key, i in header.at.items() if i >= len(cells)]
-    if lacking:
+    if len(cells) < header.width and (
+        lacking := [header.column[key] for key, i in header.at.items() if i >= len(cells)]
+    ):
         raise SpecError(
             "the row has fewer cells than the header",
             where=where,

@@ -13,6 +13,7 @@ from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
+_LOGGED_YEARS = 1.5e-4  # from row to row: an hour and a bit, as four digits behind the point have it
 _QUICK_S = 5e-6  # from row to row: what measures heat is slower by far
 
 
@@ -29,9 +30,13 @@ def counted_by(name: str, values: Array) -> str | None:
         return "jd"
     if _MJD_NAME.search(name) and _are_days(values, 40_000, 90_000):
         return "mjd"
-    # within some days from row to row; whole years only, or few of them, are anything
-    years = _are_days(values, 1990, 2100) and float(np.ptp(values)) < 10 and float(np.diff(values).max()) < 0.02
-    return "decimal_year" if years and bool((np.diff(values) > 0).all()) and float(np.median(values % 1)) else None
+    if not _are_days(values, 1990, 2100) or float(np.ptp(values)) >= 10:
+        return None
+    # within some days from row to row, mostly an hour: seconds beyond 1990 have steps of hundredths; whole years only,
+    # or few of them, are anything
+    steps = np.diff(values)
+    years = bool((steps > 0).all()) and float(steps.max()) < 0.02 and float(np.median(steps)) <= _LOGGED_YEARS
+    return "decimal_year" if years and float(np.median(values % 1)) else None
 
 
 def count_question(name: str, values: Array, where: str, column: int | None = None) -> QuestionError | None:
@@ -62,21 +67,30 @@ def when(number: float, unit: str) -> str:
     return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
 
 
-def refuse_beyond(name: str, values: Array, unit: str, where: str) -> None:
-    """FormatError where most numbers are longer than any time in their unit, as days counted from a date are."""
+def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: bool = True) -> None:
+    """FormatError where most numbers are longer than any time in their unit, as days counted from a date are. Where
+    the file says that unit and no declaration does (`declared`), a QuestionError once their size tells what they are.
+    """
     seconds = SECONDS.get(unit)
     finite = values[np.isfinite(values)]
     if seconds is None or not finite.size or float(np.median(np.abs(finite))) * seconds < REACH_S:
         return
     epoch = counted_by(name, finite) or found_epoch(finite)
     told = f": as {epoch} it is {when(finite[0], epoch)}" if epoch else ""
-    raise FormatError(
-        f"'{name}' can be no time in {unit}",
-        where=where,
-        expected=f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
-        got=f"{finite[0]:.14g}",
-        hint=f"declare table: {{time: {{unit: {epoch or '...'}}}}}{told}; counted from a date are {', '.join(EPOCHS)}",
-    )
+    what = f"'{name}' can be no time in {unit}"
+    said = {
+        "where": where,
+        "expected": f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
+        "got": f"{finite[0]:.14g}",
+        "hint": f"declare table: {{time: {{unit: {epoch or '...'}}}}}{told}; counted from a date are "
+        f"{', '.join(EPOCHS)}",
+    }
+    if epoch is None or declared:
+        raise FormatError(what, **said)
+    answer = {"time": {"unit": epoch}}
+    then = f"{finite[0]:.14g} is {when(finite[0], epoch)} then, and none in {unit}"
+    ask = f"unit of the time: is '{name}' in {epoch}? {then}"
+    raise QuestionError(what, ask=ask, declare=answer, meanwhile=answer, times=[name], **said)
 
 
 def quick_note(name: str, values: Array, unit: str) -> str | None:

@@ -135,7 +135,7 @@ def time_of(
         )
         text = epoch
     known, values = check_unit(str(text), where), np.array([v for c in cells if (v := number_of(c)) is not None])
-    refuse_beyond(name, values, known, where)
+    refuse_beyond(name, values, known, where, declared=unit is not None)
     quick = quick_note(name, values, known)
     return columns, known, None, [*notes, *([quick] if quick else [])]
 

@@ -13,6 +13,8 @@ _WORD, _VALUE = r"(?:[^\s,=\\]|\\.)+", r"(?:\"[^\"]*\"|[^\s,\"][^\s,]*)"
 _LINE_PROTOCOL = re.compile(rf"{_WORD}(?:,{_WORD}={_WORD})* {_WORD}={_VALUE}(?:,{_WORD}={_VALUE})*(?: -?\d+)?")
 # no part of a time: 'T08:00' behind a date is none
 _PAIR = re.compile(r"(?<![\w.:/-])([^\W\d][\w.]{0,30})\s?[=:]\s?[+-]?\d+(?:\.\d+)?(?![\d:/])")
+_DECIMAL_COMMA = re.compile(r"([=:]\s?[+-]?\d+),\d+(?![\d.])")  # 'T1=21,97': no cell of its own begins there
+_CELL_OF_NUMBERS = re.compile(r"[;\t,|]\s*\"?[+-]?\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?\"?\s*(?=[;\t,|]|$)")
 _MESSAGE = re.compile(r"[^\s{}\"]+(?: [^\s{}\"]+)? +\{\".*\}")
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
 _FEWEST = 2
@@ -53,11 +55,17 @@ def _is_header_of_diadem(lines: Sequence[str]) -> bool:
 
 
 def _names_each_value(lines: Sequence[str]) -> bool:
-    """Whether nearly all lines, but for some at the start, hold the same names, each with its number: 'T1=21.97 C'."""
-    told = [tuple(_PAIR.findall(line)) for line in lines]
+    """Whether nearly all lines, but for some at the start, hold the same names, each with its number: 'T1=21.97 C'; and
+    no cell of numbers alone beside them, as a table has whose last column is a block of the program or a message."""
+    told = [() if _has_cell_of_numbers(line) else tuple(_PAIR.findall(line)) for line in lines]
     names = max(set(told), key=told.count)
     begins = next(i for i, each in enumerate(told) if each == names)
     return len(names) > 1 and len(lines) - begins > _FEWEST and told.count(names) >= _NEARLY_ALL * (len(told) - begins)
+
+
+def _has_cell_of_numbers(line: str) -> bool:
+    """Whether a number stands for itself in a line, behind its first cell, which is the time."""
+    return _CELL_OF_NUMBERS.search(_DECIMAL_COMMA.sub(r"\1", line)) is not None
 
 
 def _is_messages_of_json(lines: Sequence[str]) -> bool:

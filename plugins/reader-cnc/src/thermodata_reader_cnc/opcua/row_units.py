@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cells.delimiter import fields
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.number import is_empty, to_float
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.quantity import linear_conversion
 from thermodata_reader_cnc.opcua.long_layout import Layout
@@ -23,7 +23,7 @@ def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str
         return units, []
     for line in lines:
         cells = [clean(c) for c in fields(line, layout.delimiter)]
-        if len(cells) != layout.width or not cells[layout.unit]:
+        if len(cells) != layout.width or is_empty(cells[layout.unit]):
             continue
         tag = layout.named({k: [c] for k, c in enumerate(cells)}, 1)[0]
         unit = cells[layout.unit]
@@ -57,7 +57,7 @@ def conversion(written: str, unit: str) -> tuple[float, float] | None:
 def in_unit_of(tag: str, value: str, written: str, units: Mapping[str, str]) -> tuple[str, str | None]:
     """(the value of a row in the unit of its tag, what is wrong with it or None); words stay as they are."""
     number = to_float(value) if written and units.get(tag, written) != written else None
-    if number is None:
+    if number is None or is_empty(written):
         return value, None
     if (found := conversion(written, units[tag])) is None:
         return value, f"in '{written}', which does not convert to {units[tag]}"
