@@ -269,10 +269,15 @@ def test_profiles_are_shown_beside_the_quadratic_intervals(data: Callable[..., A
     assert "RMS left" in said
 
 
-def test_a_report_of_a_version_tells_what_it_changed(
-    data: Callable[..., Any], ask: Say, campaign: Path, tmp_path: Path
-) -> None:
-    base = data("fit", campaign / "baseline.yaml")
+def test_a_report_of_a_version_tells_what_it_changed(say: Say, tmp_path: Path) -> None:
+    """In a store of its own: in another one somebody may have asked what the model misses."""
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+
+    def data(*words: object) -> Any:
+        return json.loads(say("--store", store, *words, "--json").out)
+
+    base = data("fit", tmp_path / "c" / "baseline.yaml")
     better = data("add", base["model"], "feed_screw:T_nut_Z")
     found = data("report", better["model"], "-o", tmp_path / "r.html")
     page = (tmp_path / "r.html").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import on_common
-from thermodata.modelling.versions.unsound import MADE_WITHOUT
+from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.schema.diagnosis import ClockMoved, PutRight
 from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
-
-MADE_WITHOUT = "made without"  # a test: begins the note of each that is left out
 
 
 def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, list[str]]:
