@@ -102,6 +102,12 @@ def test_a_response_by_a_name_alone_is_answered_with_the_right_form(response: st
     assert model(meant.removeprefix("response: "))
 
 
+@pytest.mark.parametrize("response", ["[dZ, 5]", "[dZ, null]", "[dZ, [dX]]", "5"])
+def test_what_is_no_response_at_all_is_refused_beside_a_name_too(response: str) -> None:
+    with pytest.raises(SpecError, match="no mapping"):
+        model(response)
+
+
 @pytest.mark.parametrize("name", ["T", "t", "Test", "T_S"])
 def test_a_reserved_name_is_refused_in_any_case_and_the_answer_says_so(name: str) -> None:
     with pytest.raises(SpecError, match=f"no name for a channel: '{name}'") as told:

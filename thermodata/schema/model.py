@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainSerializer, field_validator, model_validator
@@ -175,7 +176,8 @@ class Model(Strict):
     @classmethod
     def _by_mappings(cls, value: Any) -> Any:
         listed = value if isinstance(value, list) else [value]
-        if any(isinstance(one, str) for one in listed):
+        known = all(isinstance(one, str | Mapping) for one in listed)  # of anything else the next check says what it is
+        if known and any(isinstance(one, str) for one in listed):
             whole = [{"channel": one} if isinstance(one, str) else one for one in listed]
             meant = ", ".join("{" + ", ".join(f"{k}: {v}" for k, v in dict(one).items()) + "}" for one in whole)
             raise WrongValueError(
