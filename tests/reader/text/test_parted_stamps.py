@@ -33,7 +33,14 @@ def test_a_time_whose_milliseconds_have_no_name_is_asked_and_read(tmp_path: Path
     assert names == ["T_bearing", "T_bed", "dZ"]
 
 
-@pytest.mark.parametrize("cell", ["{k:02d}", "21.{k:03d}", "1{k:04d}"])
+def test_whole_seconds_have_milliseconds_too(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{k:02d},000,2{k % 9}.9,20.4" for k in range(60)]
+    with pytest.raises(QuestionError, match="milliseconds"):
+        _read(tmp_path, "time,T_bearing,T_bed", rows, Source())
+
+
+# the last: a speed of 900 rpm, which stands
+@pytest.mark.parametrize("cell", ["{k:02d}", "21.{k:03d}", "1{k:04d}", "900"])
 def test_another_cell_without_a_name_is_refused(tmp_path: Path, cell: str) -> None:
     rows = [f"2026-03-02 08:00:{k:02d},{cell.format(k=k)},2{k % 9}.9,20.4" for k in range(60)]
     with pytest.raises(FormatError, match="fewer cells") as told:

@@ -97,6 +97,8 @@ def _milliseconds(names: Sequence[str], rows: Sequence[Sequence[Cell]], columns:
     if run is None or not 0 < place < columns:
         return 0
     pairs = [(texts_of(r)[place - 1], texts_of(r)[place]) for r in rows if len(r) > place]
+    if len(parts := {part for _, part in pairs}) == 1 and parts != {"000"}:
+        return 0  # a speed that stands: milliseconds that never change are those of whole seconds
     good = [is_stamp(time) and _WHOLE.search(time) and _THREE.fullmatch(part) for time, part in pairs]
     return place if good and sum(map(bool, good)) >= ENOUGH * len(good) else 0
 
