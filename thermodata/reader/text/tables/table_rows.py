@@ -8,24 +8,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Source
-from thermodata.reader.text.cells.arrow import values
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import to_float, why_none
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
-from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.quality_columns import bad_rows, values_of
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
+from thermodata.reader.text.tables.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table, TimedGroup
-from thermodata.reader.text.times.date_parts import column_times
-from thermodata.reader.text.times.days import Days, have_days
-from thermodata.reader.text.times.local_clock import DayCount, LocalClock
-from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.flag import Flag
 
@@ -53,7 +48,7 @@ class RowReader:
         self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
-        self.clocks = [_Clock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
+        self.clocks = [RowClock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
         # of rows that are of several sensors, each has values of its own
@@ -143,7 +138,7 @@ class RowReader:
     # ---- a group ---------------------------------------------------------------------------------
 
     def _group(
-        self, clock: _Clock, rows: Rows, told: list[_Complaint], data: bytes, line: int
+        self, clock: RowClock, rows: Rows, told: list[_Complaint], data: bytes, line: int
     ) -> Iterator[Block | Loss]:
         table, group = self.table, clock.timed.group
         t_ns = clock.times(rows)
@@ -192,7 +187,7 @@ class RowReader:
         return Block(timed.stream, t_ns, values, flags or None, lines + 1)
 
     def _without_time(
-        self, clock: _Clock, rows: Rows, good: Bool1D, columns: list[int], data: bytes, line: int
+        self, clock: RowClock, rows: Rows, good: Bool1D, columns: list[int], data: bytes, line: int
     ) -> Iterator[_Complaint]:
         """The rows that have no time: but for repeated headers, and rows beside a group that has ended."""
         lost = np.flatnonzero(~good)
@@ -210,93 +205,3 @@ class RowReader:
                 continue
             got = "; ".join(own[: len(clock.timed.group.time)])
             yield _Complaint(number, f"expected a time {clock.timed.said()}, got '{got[:80]}'", len(text))
-
-
-class _Clock:
-    """The times of a group's rows, chunk after chunk."""
-
-    def __init__(self, timed: TimedGroup, timezone: str | None, begin: Begin | None = None) -> None:
-        self.timed, self.begin, self.timezone = timed, begin, timezone
-        epoch = EPOCHS.get(timed.group.epoch or "")
-        local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
-        local = local or (begin is not None and begin.of_day)
-        self.epoch = epoch
-        self.clock = LocalClock(timezone if local else None)
-        self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
-        self.joined_days = Days()
-        self.counted = 0
-        self._first: int | None = None
-
-    def times(self, rows: Rows, peek: bool = False) -> Int1D:
-        """Shape (n,), NAT where a row has none. peek: only which rows have one; the clock does not go on."""
-        ns = self._counted(rows, peek) if self.timed.group.counted else self._written(rows, peek)
-        if peek:
-            return ns
-        if self.timed.of_day:
-            ns = self._of_day(ns)
-            if self.begin is None:
-                return ns
-        if self.begin is not None and not self.begin.of_day:
-            return self.begin.utc(ns, self.timezone)
-        good = ns != NAT
-        if good.all():
-            return self.clock.utc(ns)
-        result = np.full(ns.size, NAT, np.int64)
-        result[good] = self.clock.utc(ns[good])
-        return result
-
-    def _of_day(self, ns: Int1D) -> Int1D:
-        """Times of day or durations, shape (n,), counted from the first row; from their zero, and from the date above
-        the rows, where the file says when it began."""
-        good = ns != NAT
-        if self._first is None and good.any():
-            self._first = int(ns[good][0])
-        since = self.days.relative(ns)
-        if self.begin is None:
-            return since
-        zero = (self._first or 0) + (self.begin.ns if self.begin.of_day else 0)
-        return np.where(since == NAT, NAT, since + np.int64(zero))
-
-    def _joined(self, rows: Rows, peek: bool) -> Int1D:
-        """Dates and times of day, shape (n,): of rows without a date too, where the table has such."""
-        import pyarrow.compute as pc
-
-        forms, (date, *others) = self.timed.formats, self.timed.group.time
-        clock_ns = column_times([rows.times[i] for i in others], forms[1:])
-        cells = rows.times[date]
-        empty = np.zeros(rows.n, bool)
-        if self.timed.once:
-            empty = values(pc.equal(pc.utf8_trim_whitespace(cells.fill_null("")), ""), "bool")
-        days = replace(self.joined_days) if peek else self.joined_days
-        return days.join(column_times([cells], forms[:1]), clock_ns, empty)
-
-    def _counted(self, rows: Rows, peek: bool) -> Int1D:
-        """Times of rows that are counted. A line that is lost took its time too, a repeated header took none."""
-        numbers = [
-            i for i in self.timed.group.columns if i in rows.columns and rows.columns[i].values.dtype.kind != "O"
-        ]
-        odd = np.zeros(rows.n, np.int64)
-        for i in numbers:
-            odd[[row for row, _ in rows.columns[i].odd]] += 1
-        words = odd == len(numbers) if numbers else np.zeros(rows.n, bool)
-        lost = np.array([b.line for b in rows.bad], np.int64)
-        taken = np.cumsum(~words) - 1 + np.searchsorted(lost, rows.line)
-        ns: Int1D = np.rint((self.counted + taken) * ((self.timed.group.seconds or 1.0) * 1e9)).astype(np.int64)
-        if not peek:
-            self.counted += int((~words).sum()) + lost.size
-        return np.where(words, NAT, ns)
-
-    def _written(self, rows: Rows, peek: bool) -> Int1D:
-        group = self.timed.group
-        if have_days(self.timed.formats):
-            return self._joined(rows, peek)
-        if not self.timed.formats:
-            cells = rows.columns[group.time[0]]
-            if self.epoch is None:
-                return to_ns(cells.values, group.seconds or 1.0)
-            ns = self.epoch.ns(cells.values)
-            if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
-                ns[cells.empty] = NAT
-                ns[[row for row, _ in cells.odd]] = NAT
-            return ns
-        return column_times([rows.times[i] for i in group.time], self.timed.formats)
