@@ -124,6 +124,10 @@ class StoreError(ThermodataError):
     exit_code = 4
 
 
+class NoRoomError(StoreError):
+    """There is no room to write: a full disk, a used-up quota, a file that may be no longer."""
+
+
 def nearest(word: str, choices: Sequence[str]) -> str | None:
     """The choice most like `word`, or None where none is near."""
     found = get_close_matches(word.lower(), [c.lower() for c in choices], n=1, cutoff=0.6)

@@ -107,7 +107,7 @@ def test_a_catalogue_that_cannot_grow_is_said(store: Store, campaign: Path) -> N
     campaign.write_text(campaign.read_text().replace("{speed: 9000 rpm}", long))
     done = limited("ingest", store.path, campaign, size // 2)
     assert done.returncode != 0
-    assert "StoreError" in done.stderr
+    assert "NoRoomError" in done.stderr
     assert "longer than it may be" in done.stderr
     assert whole.check(store.path)["sample"] == 0
     assert ingest(Store(store.path), campaign).changed
@@ -116,7 +116,7 @@ def test_a_catalogue_that_cannot_grow_is_said(store: Store, campaign: Path) -> N
 def test_a_snapshot_on_a_full_disk_is_no_file(filled: Store, tmp_path: Path) -> None:
     out = tmp_path / "all.duckdb"
     done = limited("snapshot", filled.path, out, 100_000)
-    assert "StoreError" in done.stderr
+    assert "NoRoomError" in done.stderr
     assert "longer than it may be" in done.stderr
     assert not out.exists()
     assert not list(tmp_path.glob(".all*"))

@@ -316,7 +316,7 @@ def test_workers_that_cannot_be_started_leave_the_reading_to_the_ingest(
 def test_a_full_disk_in_a_worker_is_an_error_with_what_is_needed(
     store: Store, lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, two_workers: None
 ) -> None:
-    plugin(tmp_path, monkeypatch, "from thermodata.errors import StoreError; raise StoreError('the disk is full')")
+    plugin(tmp_path, monkeypatch, "from thermodata.errors import NoRoomError; raise NoRoomError('the disk is full')")
     with pytest.raises(StoreError, match="the disk is full") as error:
         ingest(store, lab)
     assert error.value.expected == "about 1 MB for raw/t2_a.csv"

@@ -11,7 +11,7 @@ import secrets
 from collections.abc import Iterator
 from pathlib import Path
 
-from thermodata.errors import StoreError, ThermodataError
+from thermodata.errors import NoRoomError, StoreError, ThermodataError
 from thermodata.store.base.no_room import no_room
 
 TEMPORARY = re.compile(r"^\..*\.tmp(\.wal)?$")  # DuckDB puts a .wal beside a database in the making
@@ -47,13 +47,22 @@ def write_error(path: Path, error: Exception, needed: str | None = None) -> Stor
             got=text,
             hint="give yourself the right to write there, or copy the store's folder" if locked else None,
         )
-    return StoreError(
+    return NoRoomError(
         way.what,
         where=str(path),
         expected=needed or "room for the file",
         got=way.got(path, text),
         hint=f"{way.todo_in_store}, and run it again: the store is as it was before",
     )
+
+
+def with_room_for(error: StoreError, path: str, size_bytes: int) -> StoreError:
+    """The same error; where there is no room, with how much a log of so many bytes takes in a store."""
+    if not isinstance(error, NoRoomError):
+        return error
+    # raw Parquet takes about as much as the log, and the tidy layer as much again
+    needed = f"about {max(1, 2 * size_bytes // 1_000_000)} MB for {path}"
+    return NoRoomError(error.what, where=error.where, expected=needed, got=error.got, hint=error.hint)
 
 
 @contextlib.contextmanager
@@ -78,7 +87,7 @@ def not_written(target: Path, error: OSError) -> ThermodataError:
     """What is said where a file outside of the store can't be written: it is not there, or as it was before."""
     way = no_room(error)
     if way is not None:
-        return StoreError(
+        return NoRoomError(
             way.what,
             where=str(target.absolute()),
             expected="room for the file",

@@ -10,8 +10,7 @@ from pathlib import Path
 from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
 from thermodata.schema.campaign import JumpCalibration, SourceSpec, Test
-from thermodata.store.base.files import is_whole, write_error
-from thermodata.store.base.no_room import WAYS
+from thermodata.store.base.files import is_whole, with_room_for, write_error
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.inventory import Inventory
@@ -68,7 +67,7 @@ class RawIngest:
         self.files.watch.say(f"reading {workers} files at a time")
         for task, found in read_side_by_side(self._tasks(), workers, self.files.watch.samples):
             if isinstance(found, StoreError):
-                raise _with_room(found, task.path, task.file)
+                raise with_room_for(found, task.path, task.file.bytes)
             if isinstance(found, list | ThermodataError | OSError):
                 self._streams[task.key] = found
                 self.read += isinstance(found, list)
@@ -252,7 +251,7 @@ class RawIngest:
                     self._streams[key] = self._read_settled(path, file, reader, declaration)
                     self.read += 1
                 except StoreError as error:
-                    raise _with_room(error, path, file) from error
+                    raise with_room_for(error, path, file.bytes) from error
                 except (ThermodataError, OSError) as error:
                     self._streams[key] = error
         streams = self._streams[key]
@@ -290,12 +289,3 @@ class RawIngest:
 
 def _renamed(raw: RawStream, path: str) -> RawStream:
     return replace(raw, source_path=path)
-
-
-def _with_room(error: StoreError, path: str, file: SourceFile) -> StoreError:
-    """The same error; where there is no room, with how much room the file takes."""
-    if error.what not in {way.what for way in WAYS}:
-        return error
-    # raw Parquet takes about as much as the log, and the tidy layer as much again
-    needed = f"about {max(1, 2 * file.bytes // 1_000_000)} MB for {path}"
-    return StoreError(error.what, where=error.where, expected=needed, got=error.got, hint=error.hint)
