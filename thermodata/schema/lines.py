@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -139,13 +140,11 @@ def _too_deep(text: str, loader: Any) -> int:
     recursion and doesn't count it: deep nesting would end the process. Its events come one by one. What is no YAML is
     not deep: who composes it says why."""
     depth = 0
-    try:
+    with suppress(yaml.YAMLError):
         for event in yaml.parse(text, Loader=loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
             if depth > MAX_DEPTH:
                 return 1 + (event.start_mark.line if event.start_mark else 0)
-    except yaml.YAMLError:
-        pass
     return 0
 
 

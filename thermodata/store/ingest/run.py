@@ -279,9 +279,9 @@ def _summed(counts: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return dict(sorted(total.items()))
 
 
-__all__ = ["IngestSummary", "checked", "ingest", "store_for"]
-
-
 def _told(row: dict[str, Any], name: str) -> dict[str, Any]:
     """A calibration as the answer of an ingest has it."""
     return {**row, "name": name, "checks": with_limits(row["checks"])}
+
+
+__all__ = ["IngestSummary", "checked", "ingest", "store_for"]

@@ -14,6 +14,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from queue import SimpleQueue
@@ -129,9 +130,8 @@ def _read(task: Task, tell: Callable[[Samples], None]) -> list[RawStream] | None
 def main() -> None:
     """Reads tasks from stdin until it ends."""
     try:
-        _work()
-    except _Ended:
-        pass
+        with suppress(_Ended):
+            _work()
     finally:
         drop_unfinished()
         # without the interpreter's own end, which waits in vain for the thread that listens
