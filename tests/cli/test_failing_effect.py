@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -10,9 +11,11 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.failing import without_failing
+from thermodata.diagnosis.run import kept_diagnosis
 from thermodata.effect import registry
 from thermodata.errors import EffectError
 from thermodata.plugin import Drivers, Effect, Float2D, Gain, Need
+from thermodata.store import Store
 
 from .conftest import MODEL, Said
 
@@ -102,3 +105,26 @@ def test_what_fails_without_the_library_too_is_an_error(plugin: Failing) -> None
 
     with pytest.raises(EffectError):
         without_failing(library, always)
+
+
+def test_an_answer_is_given_anew_where_the_code_of_an_effect_has_changed(
+    say: Say, store: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "plug"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "own.py").write_text("class Own:\n    pass\n")
+    (package / "helper.py").write_text("GAIN = 1.0\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    own = importlib.import_module("plug.own").Own
+    found = registry.all_effects()
+    monkeypatch.setattr(registry, "all_effects", lambda: {**found, "own": own()})
+    registry.code.cache_clear()
+    try:
+        assert say("--store", store, "diagnose", "baseline").code == 0
+        assert kept_diagnosis(Store(store), "baseline") is not None
+        (package / "helper.py").write_text("GAIN = 2.0\n")
+        registry.code.cache_clear()
+        assert kept_diagnosis(Store(store), "baseline") is None
+    finally:
+        registry.code.cache_clear()

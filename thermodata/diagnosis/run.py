@@ -24,6 +24,7 @@ from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
+from thermodata.effect.registry import code as code_of_effects
 from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
@@ -42,10 +43,11 @@ RULES_VERSION = 67
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
-    """What an answer is made from: the model, its data as they are now, the library of effects, the rules, and what is
-    known of the locked tests already."""
+    """What an answer is made from: the model, its data as they are now, the library of effects and its code, the rules,
+    and what is known of the locked tests already."""
     library = {name: repr((e.needs, e.params, e.gains)) for name, e in effects().items()}
-    made_from = [model.identity, model.data.data_version, sorted(library.items()), RULES_VERSION, __version__, left]
+    rules = [RULES_VERSION, __version__, code_of_effects()]
+    made_from = [model.identity, model.data.data_version, sorted(library.items()), *rules, left]
     return hashlib.sha256(json.dumps(made_from).encode()).hexdigest()
 
 

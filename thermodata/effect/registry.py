@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
+import inspect
 import warnings
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 
 from thermodata.errors import FAILED, PluginError, UsageError, unknown_name
 from thermodata.plugin import Effect
@@ -51,6 +54,28 @@ def origin(effect: Effect) -> str:
         if entry.name == effect.name:
             return f"{entry.dist.name} {entry.dist.version} ({entry.value})" if entry.dist is not None else entry.value
     return f"{type(effect).__module__}:{type(effect).__qualname__}"
+
+
+@lru_cache(maxsize=1)
+def code() -> str:
+    """A hash of the files that the effects are written in: an answer stands for the equations that it was made with."""
+    files = {file for found in all_effects().values() for file in _files(type(found))}
+    digests = sorted(hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
+    return hashlib.sha256("".join(digests).encode()).hexdigest()
+
+
+def _files(made: type) -> set[Path]:
+    """All of its package, for an equation may stand beside its class. None of a class that was made at run time."""
+    try:
+        file = Path(inspect.getfile(made))
+    except (TypeError, OSError):
+        return set()
+    module = file.parent if file.name == "__init__.py" else file
+    depth = made.__module__.count(".")
+    within = module.parents[depth - 1] if depth else module
+    if within.is_dir():
+        return set(within.rglob("*.py"))
+    return {within} if within.is_file() else set()
 
 
 @lru_cache(maxsize=1)
