@@ -118,7 +118,7 @@ def test_it_is_said_that_the_source_is_on_while_the_state_is_off() -> None:
     made = clamped(2, 18, "pump")
     strong, weak = strong_and_weak_tests(made)
     said = where(made, companions(made, "dZ"), strong, weak)
-    assert "On while pump is off (90% of that time, else 10%)" in said
+    assert "On while pump is off (90 % of that time, else 10 %)" in said
 
 
 def test_what_never_rests_or_never_runs_says_nothing() -> None:
@@ -238,7 +238,7 @@ def test_where_a_sensor_would_see_it_first_is_said_with_what_it_is_not() -> None
     text = said(WITH_SPINDLE, NOT_COLUMN)
     assert text.startswith("A body with a time constant of 40 min (20 min to 60 min)")
     assert "moves the response to plus when it is heated" in text
-    assert "On while n runs (96% of that time, else 4%)" in text
+    assert "On while n runs (96 % of that time, else 4 %)" in text
     assert "strongest in t0 (mixed); absent in t1 (mixed)" in text
     assert "first near spindle rather than near column" in text
     assert "can't say" not in text
@@ -256,7 +256,7 @@ def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_no
 ) -> None:
     turret = First(candidate("turret", channels=("Q",)), 0.31, frozenset({a_test(acts_in, 4).key}))
     text = said(NOT_COLUMN, first=turret)
-    assert ("turret:Q is the likeliest of what is logged (31%) and acts in t0: Q is to be looked at" in text) is logged
+    assert ("turret:Q is the likeliest of what is logged (31 %) and acts in t0: Q is to be looked at" in text) is logged
     assert ("note what runs in t0 and is not logged" in text) is not logged
     assert "can't say where it is; least like it is what is logged near column" in text
 

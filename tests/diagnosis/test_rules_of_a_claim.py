@@ -348,12 +348,12 @@ def test_only_what_was_scored_on_left_out_tests_may_be_a_twin() -> None:
 
 
 @pytest.mark.parametrize(
-    ("after", "said"), [(0.9, "falls by 10% only"), (1.0, "does not fall"), (1.2, "does not fall")]
+    ("after", "said"), [(0.9, "falls by 10 % only"), (1.0, "does not fall"), (1.2, "does not fall")]
 )
 def test_an_error_that_rises_does_not_fall_by_nothing(after: float, said: str) -> None:
     (reason,) = failed_rules(scored(after=after, evidence=DULL), measure(), "um")[:1]
     assert f"the error {said}" in reason
-    assert "0% only" not in reason.replace("10% only", "")
+    assert "0 % only" not in reason.replace("10 % only", "")
 
 
 @pytest.mark.parametrize(("in_parts", "said"), [(False, "tests"), (True, "parts")])
@@ -365,13 +365,13 @@ def test_parts_of_few_tests_are_called_parts(in_parts: bool, said: str) -> None:
 
 def test_what_it_explains_is_told_as_the_share_that_the_rule_asks() -> None:
     little = scored(before=0.3, after=0.1, evidence=DULL)
-    assert "of the response's 4 um (limit 10%)" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
-    assert "it explains 0.28 um where it acts, 7.1% of" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
+    assert "of the response's 4 um (limit 10 %)" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
+    assert "it explains 0.28 um where it acts, 7.1 % of" in " ".join(failed_rules(little, measure(spread=4.0), "um"))
 
 
 @pytest.mark.parametrize(
     ("value", "limit", "text"),
-    [(0.149, 0.15, "14.9%"), (0.14, 0.15, "14%"), (0.1496, 0.15, "14.96%"), (0.6496, 0.65, "64.96%")],
+    [(0.149, 0.15, "14.9 %"), (0.14, 0.15, "14 %"), (0.1496, 0.15, "14.96 %"), (0.6496, 0.65, "64.96 %")],
 )
 def test_what_misses_a_limit_never_reads_as_the_limit(value: float, limit: float, text: str) -> None:
     assert apart(value, limit) == text

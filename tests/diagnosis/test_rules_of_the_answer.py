@@ -351,7 +351,7 @@ class TestAnswer:
                 (1.0, 1.2),
                 frozenset({("c", "y")}),
                 "on the locked tests from 1.00 to 1.20 um from their first samples on, and where it acts from 0.50 to "
-                "1.00 um with a free offset a test: added as it stands the error rises by 100% (0.50 -> 1.00 um), and "
+                "1.00 um with a free offset a test: added as it stands the error rises by 100 % (0.50 -> 1.00 um), and "
                 "they bear it out only where the effects of the model may act otherwise than by their fitted lags",
             ),
             (
@@ -491,7 +491,7 @@ class TestAnswer:
         as_ranked = self.answered(monkeypatch, spec, nothing("unknown"))
         assert [c.effect for c in as_ranked.candidates] == ["first", "twin", "other"]
         standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=60.0))))
-        assert "not claimed: causes like it were right in 62% of cases only" in standing.candidates[1].why
+        assert "not claimed: causes like it were right in 62 % of cases only" in standing.candidates[1].why
 
     def test_what_lets_no_error_fall_stands_by_its_probability(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model
@@ -545,7 +545,7 @@ class TestAnswer:
             "(10 of 10 tests) the error falls (1.00 -> 0.30 um), its size from the other tests and the known effects "
             "fitted to all, and it makes 10 of 10" in first.why
         )
-        assert "its gain differs between tests by 10%" in first.why
+        assert "its gain differs between tests by 10 %" in first.why
         assert "chance does as well in at most 0.5 % of responses in which nothing is missing" in first.why
         assert second.why.endswith("not claimed: first:T_a explains it, or more")
         assert "not claimed: chance does as well in" in last.why

@@ -256,7 +256,8 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     found = verdict(blunt)
     assert (found.verdict, found.claims, names(found.judged)) == ("unknown", (), ["blunt"])
     assert (
-        "the best, blunt:T_a, fails because causes like it were right in 60% of cases only (limit 65%)" in found.reason
+        "the best, blunt:T_a, fails because causes like it were right in 60 % of cases only (limit 65 %)"
+        in found.reason
     )
     beside = verdict(blunt, scored("mode"), refined=["mode"])
     assert (beside.verdict, names(beside.refinements)) == ("unknown", ["mode"]), (
@@ -268,8 +269,8 @@ def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     ("before", "expected", "words"),
     [
         (0.199, "none", "is at the floor of 0.2 um"),
-        (0.201, "none", "is 10% of the response, as lags leave of a machine that lacks nothing (limit 25%)"),
-        (0.499, "none", "is 25% of the response"),
+        (0.201, "none", "is 10 % of the response, as lags leave of a machine that lacks nothing (limit 25 %)"),
+        (0.499, "none", "is 25 % of the response"),
         (0.501, "unknown", "0.5 um remain on left-out tests"),
     ],
 )
@@ -280,7 +281,9 @@ def test_an_error_at_the_floor_or_of_a_good_model_is_left_alone(before: float, e
     assert words in found.reason
 
 
-@pytest.mark.parametrize(("after", "expected", "words"), [(0.79, "refine", "is 40% of the"), (0.81, "unknown", "1 um")])
+@pytest.mark.parametrize(
+    ("after", "expected", "words"), [(0.79, "refine", "is 40 % of the"), (0.81, "unknown", "1 um")]
+)
 def test_nothing_is_missing_where_what_refines_the_model_leaves_little(after: float, expected: str, words: str) -> None:
     """Of a response of 2, with what refines it: else a cause is missing too."""
     found = verdict(scored("mode", after=after), scored("rear", after=0.9), refined=["mode", "rear"])

@@ -388,8 +388,8 @@ def test_a_claim_that_rests_in_the_locked_tests_asks_for_one_that_moves_it(names
     ("evidence", "said"),
     [
         (14.0, None),  # 29 %: less is not plausible
-        (18.0, "causes like it were right in 34% of cases only (limit 65%)"),
-        (69.0, "causes like it were right in 64.8% of cases only (limit 65%)"),
+        (18.0, "causes like it were right in 34 % of cases only (limit 65 %)"),
+        (69.0, "causes like it were right in 64.8 % of cases only (limit 65 %)"),
         (390.0, "alone it keeps the rules of a claim, but not beside what else was chosen"),
     ],
 )

@@ -15,6 +15,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.counted import in_percent
 from thermodata.schema.places import heat_at
 
 P_LIMIT = 0.01
@@ -97,17 +98,19 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             "least",
             scored.better >= better,
             f"it makes {round(scored.better * count)} of the {count} {tests} in which it acts more probable (limit "
-            f"{better:.0%})",
+            f"{in_percent(better)})",
         ),
         Rule(
             "gain",
-            f"how much its gain differs between {tests}; not asked where the error falls by {FORETOLD:.0%}, or the "
+            f"how much its gain differs between {tests}; not asked where the error falls by "
+            f"{in_percent(FORETOLD)}, or the "
             f"evidence is {STRONG:g} a sample",
             scored.spread,
             SPREAD_LIMIT,
             "most",
             strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit {SPREAD_LIMIT:.0%}): a "
+            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit "
+            f"{in_percent(SPREAD_LIMIT)}): a "
             "cause acts alike everywhere",
         ),
         Rule(
@@ -122,13 +125,13 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
         Rule(
             "worth",
             f"what it explains where it acts{unasked.format(STRONG)}, or it is as probable as a claim asks and "
-            f"does {WORTH_SIZE:.0%} of the response by a gain that is alike in all {tests}",
+            f"does {in_percent(WORTH_SIZE)} of the response by a gain that is alike in all {tests}",
             told,
             worth,
             "least",
             strong or told >= worth or (sure and _does_much(scored, measure)),
             f"it explains {told:.2g} {unit} where it acts, {_share(told, measure.spread)} of the response's "
-            f"{measure.spread:.2g} {unit} (limit {WORTH_SHARE:.0%})",
+            f"{measure.spread:.2g} {unit} (limit {in_percent(WORTH_SHARE)})",
             unit,
         ),
         *_of_a_difference(scored),
@@ -148,7 +151,7 @@ def _of_a_difference(scored: Scored) -> list[Rule]:
 
 
 def _share(part: float, whole: float) -> str:
-    return f"{part / whole:.1%}" if whole > 0 else "none"
+    return in_percent(part / whole, 1) if whole > 0 else "none"
 
 
 def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
@@ -161,16 +164,16 @@ def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
     count = int(scored.acts.sum())
     where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
     if scored.drop <= 0:
-        return f"{where} does not fall, its size from the others (limit: a fall of {fall:.0%})"
+        return f"{where} does not fall, its size from the others (limit: a fall of {in_percent(fall)})"
     if scored.drop < HARDLY:
-        return f"{where} hardly falls, its size from the others (limit: a fall of {fall:.0%})"
-    return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {fall:.0%})"
+        return f"{where} hardly falls, its size from the others (limit: a fall of {in_percent(fall)})"
+    return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {in_percent(fall)})"
 
 
 def apart(value: float, limit: float) -> str:
     """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
-    texts = [f"{value:.{digits}%}" for digits in range(3)]
-    return next((t for digits, t in enumerate(texts) if t != f"{limit:.{digits}%}"), texts[0])
+    texts = [in_percent(value, digits) for digits in range(3)]
+    return next((t for digits, t in enumerate(texts) if t != in_percent(limit, digits)), texts[0])
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:
@@ -192,13 +195,14 @@ def surely(scored: Scored) -> Rule:
         limit,
         "least",
         sure >= limit,
-        f"causes like it were right in {apart(sure, limit)} of cases only (limit {limit:.0%}): {_in_short(scored)}",
+        f"causes like it were right in {apart(sure, limit)} of cases only (limit {in_percent(limit)}): "
+        f"{_in_short(scored)}",
     )
 
 
 def _in_short(scored: Scored) -> str:
     """What its probability hangs on."""
-    by = f" by {scored.drop:.0%}" if scored.drop >= HARDLY else ""
+    by = f" by {in_percent(scored.drop)}" if scored.drop >= HARDLY else ""
     falls = f"where it acts the error {way(scored.error_before, scored.error_after)}{by}"
     beaten = scored.beaten and scored.candidate.around
     more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
@@ -217,7 +221,7 @@ def _in_short(scored: Scored) -> str:
 
 
 def on_locked(looked: Looked) -> str:
-    """'on the locked tests, with a free offset a test, the error falls by 60% (1.00 -> 0.40 um)', or in each of two
+    """'on the locked tests, with a free offset a test, the error falls by 60 % (1.00 -> 0.40 um)', or in each of two
     ways: this is not the error as tests are scored, from their first samples on."""
     first, added = looked.foretold, looked.added
     acts = "" if first.tests is None else " in which it acts"
@@ -231,18 +235,20 @@ def on_locked(looked: Looked) -> str:
 
 
 def in_words(of: Foretold, unit: str) -> str:
-    """'falls by 60% (1.00 -> 0.40 um)', 'hardly changes (...)', 'rises by 20% (...)'."""
+    """'falls by 60 % (1.00 -> 0.40 um)', 'hardly changes (...)', 'rises by 20 % (...)'."""
     if of.falls:
-        said = f"falls by {of.fall:.0%}"
+        said = f"falls by {in_percent(of.fall)}"
     else:
-        said = f"rises by {of.after / of.before - 1:.0%}" if of.after > 1.005 * of.before > 0 else "hardly changes"
+        rises = of.after > 1.005 * of.before > 0
+        said = f"rises by {in_percent(of.after / of.before - 1)}" if rises else "hardly changes"
     return f"{said} ({from_to(of.before, of.after, unit)})"
 
 
 def also_missing(scored: Scored) -> str:
     """'dX misses it as well (97 %)', for each other axis; what is improbable there speaks for nothing."""
     return " and ".join(
-        f"{channel} {'misses it as well' if p > 0.5 else 'hardly misses it'} ({p:.0%})" for channel, p in scored.also_on
+        f"{channel} {'misses it as well' if p > 0.5 else 'hardly misses it'} ({in_percent(p)})"
+        for channel, p in scored.also_on
     )
 
 

@@ -18,6 +18,7 @@ from thermodata.diagnosis.clocks.sides import Key, Part, either, in_order, in_wo
 from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.places import holds
+from thermodata.schema.counted import in_percent
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 from thermodata.view.dataset import ChannelInfo, TestData
 
@@ -118,9 +119,10 @@ def as_artefact(late: Late, campaign: str) -> Artefact:
         at_s=None,
         size_um=None,
         why=f"{of.telling} temperatures of source '{of.warmed}' follow the commands of source '{of.by}' best with "
-        f"these moved by {of.shift_s / 60:+.0f} min (give or take {known_to:.0f}){in_words(part)}: {of.share:.0%} of "
-        f"their squared rises are foretold {by}, unmoved {max(of.unmoved, 0.0):.0%}. So {which}; check the time zone "
-        f"and the clocks. {declare}",
+        f"these moved by {of.shift_s / 60:+.0f} min (give or take {known_to:.0f}){in_words(part)}: "
+        f"{in_percent(of.share)} of "
+        f"their squared rises are foretold {by}, unmoved {in_percent(max(of.unmoved, 0.0))}. So {which}; check the "
+        f"time zone and the clocks. {declare}",
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.clocks.sides import Key, Part, in_words, part_of
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.schema.counted import in_percent
 from thermodata.schema.diagnosis import Artefact, ClockMoved
 
 MOST_S = 1800.0  # shifts that are asked, either way,
@@ -149,7 +150,8 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
         at_s=None,
         size_um=None,
         why=f"with the clock of source '{timing.source}' moved by {minutes:+.0f} min (give or take {known_to:.0f})"
-        f"{in_words(timing.part)} its commands foretell {timing.share:.0%} of the squared jumps of the displacement "
-        f"{of}, unmoved {max(timing.unmoved, 0.0):.0%}. The choice is made with it moved; check the time zone and the "
-        f"clocks. {what_to_declare(timing.source, timing.all_s + timing.shift_s, tests)}",
+        f"{in_words(timing.part)} its commands foretell {in_percent(timing.share)} of the squared jumps of the "
+        f"displacement "
+        f"{of}, unmoved {in_percent(max(timing.unmoved, 0.0))}. The choice is made with it moved; check the time "
+        f"zone and the clocks. {what_to_declare(timing.source, timing.all_s + timing.shift_s, tests)}",
     )

@@ -17,6 +17,7 @@ from thermodata.diagnosis.question.known import rms
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.errors import UsageError
 from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.schema.counted import in_percent
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
@@ -57,7 +58,7 @@ def contradicted(
     unit = difference_unit(response.unit)
     reason = (
         f"the locked tests, opened when its last effect was claimed, were left with {left:.2g} {unit} of "
-        f"{spread:.2g} {unit} (limit {HALVES:.0%}), though the open ones show nothing more"
+        f"{spread:.2g} {unit} (limit {in_percent(HALVES)}), though the open ones show nothing more"
     )
     return Judgement("unknown", (), judgement.refinements, judgement.judged, reason)
 

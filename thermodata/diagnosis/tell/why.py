@@ -18,6 +18,7 @@ from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.counted import in_percent
 from thermodata.view.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
@@ -66,7 +67,7 @@ def why(
         # unlike the errors on left-out tests, for which the known effects are left out as well
         f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
         f"fitted to all, and it makes {improves} of {count} more probable; "
-        f"its gain differs between {tests} by {s.spread:.0%}"
+        f"its gain differs between {tests} by {in_percent(s.spread)}"
     )
     if alone is not None and others:
         before, after = (float(np.sqrt(np.mean(sse / alone.rows))) for sse in (alone.sse_before, alone.sse_after))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
 from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
+from thermodata.schema.counted import in_percent
 from thermodata.view.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
@@ -93,7 +94,8 @@ def _when(found: Sequence[Companion], strong: Sequence[str], weak: Sequence[str]
 
 def _runs(one: Companion) -> str:
     then, other = (one.on_without, one.on_with) if one.is_inverse else (one.on_with, one.on_without)
-    return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({then:.0%} of that time, else {other:.0%})"
+    often = f"{in_percent(then or 0.0)} of that time, else {in_percent(other or 0.0)}"
+    return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({often})"
 
 
 def _place(found: Sequence[Companion], look_at: str, suspect: Suspect | None) -> list[str]:
@@ -142,7 +144,7 @@ def _to_look_at(strongest: TestData, name: str, first: First | None, is_warm: bo
     one = first.cause
     names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
     return (
-        f"; {one.id} is the likeliest of what is logged ({first.probability:.0%}) and acts in {name}: "
+        f"; {one.id} is the likeliest of what is logged ({in_percent(first.probability)}) and acts in {name}: "
         f"{names} {verb} to be looked at before anything that is not logged"
     )
 
@@ -150,7 +152,7 @@ def _to_look_at(strongest: TestData, name: str, first: First | None, is_warm: bo
 def _direction(heat: MissingHeat) -> list[str]:
     if not heat.sign or heat.agreed >= SURE:
         return []
-    return [f"Only {heat.agreed:.0%} of the draws of the tests agree on the direction: more tests are needed"]
+    return [f"Only {in_percent(heat.agreed)} of the draws of the tests agree on the direction: more tests are needed"]
 
 
 def _test(test: TestData, heat: MissingHeat) -> str:

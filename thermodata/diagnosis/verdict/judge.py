@@ -15,6 +15,7 @@ from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.counted import in_percent
 
 # rules of size and likeness, that few open tests break for a cause now and then; locked tests may outweigh one of them
 OUTWEIGHED = ("fall", "gain", "others", "worth")
@@ -94,7 +95,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     if left <= measure.floor and not halved and not plain:
         why = (
             f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
-            f"{measure.floor:.2g} {problem.unit} (noise, and {FLOOR_SHARE:.0%} of the response)"
+            f"{measure.floor:.2g} {problem.unit} (noise, and {in_percent(FLOOR_SHARE)} of the response)"
         )
         return Judgement("none", (), (), judged, why, likely=_likely(own, ()))
     more_than_noise = left if left > measure.noises else 0.0
@@ -147,9 +148,10 @@ def _nearly(
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
     """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
     return (
-        f"the error on left-out tests, {rest:.2g} {unit}, is {rest / measure.spread:.0%} of the response, as lags "
-        f"leave of a machine that lacks nothing (limit {limit / measure.spread:.0%}), and nothing logged may be named "
-        "for it"
+        f"the error on left-out tests, {rest:.2g} {unit}, is {in_percent(rest / measure.spread)} of the response, "
+        f"as lags "
+        f"leave of a machine that lacks nothing (limit {in_percent(limit / measure.spread)}), and nothing logged "
+        "may be named for it"
     )
 
 

@@ -12,6 +12,7 @@ from thermodata.diagnosis.claims.rules import PLAUSIBLE, apart, failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.counted import in_percent
 
 Doubt = Literal["none", "some", "all"]
 """Whether any heat is missing: more is left than of machines that lack nothing, as much, or as a good model leaves."""
@@ -64,7 +65,7 @@ def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: s
     sure, limit = probability(head), limit_of(head)
     stopped = (
         f"it keeps the rules of a claim, but causes like it were right in {apart(sure, limit)} of cases only (limit "
-        f"{limit:.0%})"
+        f"{in_percent(limit)})"
         if sure < limit
         else "alone it keeps the rules of a claim, but not beside what else was chosen"
     )

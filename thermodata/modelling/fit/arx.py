@@ -17,6 +17,7 @@ from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.terms.identified import Identified
 from thermodata.plugin import Bool1D, Effect, Float1D
+from thermodata.schema.counted import in_percent
 from thermodata.view.dataset import TestData
 
 FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample
@@ -122,7 +123,7 @@ def _refuse_windows(where: str, test: TestData, mask: Bool1D, good: Bool1D) -> N
     raise UsageError(
         "ARX needs the response sample after sample, and it was measured in windows",
         where=f"{where}, test {test.campaign}/{test.test}",
-        expected=f"at least {FEWEST_IN_A_ROW:.0%} of the samples with the ones before them",
-        got=f"{share:.0%}: {len(windows)} windows of about {measured:g} s with pauses of about {pause:g} s",
+        expected=f"at least {in_percent(FEWEST_IN_A_ROW)} of the samples with the ones before them",
+        got=f"{in_percent(share)}: {len(windows)} windows of about {measured:g} s with pauses of about {pause:g} s",
         hint="method: oe or varpro, which run freely between the windows",
     )

@@ -16,6 +16,7 @@ from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.usable import usable_tests
+from thermodata.schema.counted import in_percent
 from thermodata.schema.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
@@ -108,7 +109,7 @@ def _row(response: FittedResponse, term: FittedTerm, other: FittedTerm, ratio: f
         threshold=MOVED,
         passed=False,
         advice=f"{drivers} moved as well in {names}, where {term.id} was identified by itself: {other.id} did "
-        f"{ratio:.0%} of what {term.id} did; {then}",
+        f"{in_percent(ratio)} of what {term.id} did; {then}",
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from thermodata.schema.counted import in_percent
+
 MANY = 0.2  # of the samples: fewer are single rows that were written twice
 
 
@@ -16,7 +18,7 @@ def said_of_repeats(test: str, source: str, meta: Mapping[str, Any], rows: int) 
     period_s = meta.get("to_s", 0.0) / max(1, rows - 1)
     about = f", which is about {period_s:.2g} s by their number" if period_s > 0 else ""
     return [
-        f"{test}, {source}: {repeated / samples:.0%} of the samples stand at the time of the row before, and count "
-        "nowhere: times in whole minutes or seconds? Where rows are evenly spaced, in the source: "
+        f"{test}, {source}: {in_percent(repeated / samples)} of the samples stand at the time of the row before, "
+        "and count nowhere: times in whole minutes or seconds? Where rows are evenly spaced, in the source: "
         f"table: {{time: {{period: ...}}}}{about}, and in the test when it began, such as start: 2026-03-02 08:00"
     ]
