@@ -259,6 +259,10 @@ def test_eight_tests_are_enough_to_look_for_a_sensor(tests: int, said: str) -> N
     assert ("coolant on" in advice) == (tests == 8)
 
 
+def test_tests_that_are_too_short_are_told_to_be_longer() -> None:
+    assert to_find(0, [], CHANNELS).startswith("no test took part, for none has 10 samples at the model's step: longer")
+
+
 @pytest.mark.parametrize(("tests", "told"), [(3, True), (4, False), (7, False), (8, False)])
 def test_what_more_tests_gave_elsewhere_is_told_of_few_tests_only(tests: int, told: bool) -> None:
     advice = to_find(tests, [], CHANNELS)

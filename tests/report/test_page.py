@@ -108,6 +108,16 @@ def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: 
     assert limits[0].label == "noise of 30 s means ±0.70\u00a0µm"
 
 
+@pytest.mark.parametrize(("minutes", "told"), [(60, False), (61, True)])
+def test_what_is_slow_is_told_of_tests_that_are_long_enough_to_have_it(
+    data: ReportData, minutes: int, told: bool
+) -> None:
+    one = data.tests[0]
+    rows = round(60 * minutes / one.step_s)
+    short = dataclasses.replace(data, tests=[dataclasses.replace(one, residual=one.residual[:rows])])
+    assert ("of it, in means of 30 min" in {what for what, _, _ in what_is_left(short)}) is told
+
+
 def test_the_heat_map_keeps_the_scale_of_the_first_version(data: ReportData, blind: ReportData) -> None:
     figures = dict(_FIGURE.findall(render(dataclasses.replace(data, first=blind.tests))))
     first, now = json.loads(figures["first"]), json.loads(figures["overview"])

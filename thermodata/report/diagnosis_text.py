@@ -117,7 +117,7 @@ def _asked(found: Diagnosis) -> str:
 
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
-    left = f"error on left-out tests {number(found.rmse_um)} um"
+    left = "" if found.rmse_um is None else f"error on left-out tests {number(found.rmse_um)} um"
     locked = "" if found.locked_rmse_um is None else f"on locked tests {number(found.locked_rmse_um)} um"
     figures = [left, locked, noise_words(found), explainable(found)]
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]

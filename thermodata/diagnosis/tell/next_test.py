@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import reads
 from thermodata.diagnosis.claims.probability import elsewhere
+from thermodata.diagnosis.question.problem import MIN_ROWS
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import counted
 from thermodata.schema.diagnosis import WeakSpot
@@ -165,6 +166,11 @@ def to_find(
 ) -> str:
     """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
     first: the candidate that ranks first, whose channels are logged and are no advice to log."""
+    if tests == 0:
+        return (
+            f"no test took part, for none has {MIN_ROWS} samples at the model's step: longer tests, or a shorter step in "
+            "the model"
+        )
     if tests < ENOUGH_TESTS:
         add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
         if tests > FEW_TESTS:
