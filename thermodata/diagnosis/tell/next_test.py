@@ -168,8 +168,8 @@ def to_find(
     first: the candidate that ranks first, whose channels are logged and are no advice to log."""
     if tests == 0:
         return (
-            f"no test took part, for none has {MIN_ROWS} samples at the model's step: longer tests, or a shorter step in "
-            "the model"
+            f"no test took part, for none has {MIN_ROWS} samples at the model's step: longer tests, or a shorter step "
+            "in the model"
         )
     if tests < ENOUGH_TESTS:
         add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
