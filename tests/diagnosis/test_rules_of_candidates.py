@@ -132,15 +132,21 @@ def test_a_lag_is_placeless_where_no_temperature_has_a_place(at: str | None, pla
 
 
 def test_a_lag_of_a_body_that_makes_no_heat_is_passive() -> None:
-    """Castings, what stands beside the machine, and what nobody declared where it sits, while something else has a
+    """Castings, a scale, what stands beside the machine, and what nobody declared where it sits, while something has a
     place."""
     at = {"T_bed": "bed.feet", "T_head": "headstock", "T_nut": "axis.x.nut", "T_rib": "rear_wall", "T_free": None}
-    at |= {"T_box": "cabinet", "T_cnc": "cnc", "T_amplifier": "axis.x.drive", "T_rail": "crossrail.left"}
+    at |= {
+        "T_box": "cabinet",
+        "T_cnc": "cnc",
+        "T_amplifier": "axis.x.drive",
+        "T_rail": "crossrail.left",
+        "T_scale": "axis.y.scale",
+    }
     channels = {n: ChannelInfo(n, "temperature", "degC", at=place) for n, place in at.items()}
     channels |= {"n": ChannelInfo("n", "rotational_speed", "rpm")}
     library = {e.name: e for e in (LAG, replace(NUT, name="anywhere", needs=(Need("u", "temperature"),)))}
     found = {c.id for c in candidates(library, channels, (), "dZ") if c.passive}
-    assert found == {f"lag:T_{n}" for n in ("bed", "head", "free", "box", "cnc", "rail")}, (
+    assert found == {f"lag:T_{n}" for n in ("bed", "head", "free", "box", "cnc", "rail", "scale")}, (
         "no speed, no name, no place of which nothing is known"
     )
     nowhere = {n: replace(c, at=None) for n, c in channels.items()}

@@ -445,6 +445,21 @@ def test_locked_tests_are_looked_at_in_two_ways(
     assert found.bears_out is (log_odds >= 0)
 
 
+@pytest.mark.parametrize(("after", "floor", "refuted"), [(1.99, 0.0, False), (2.01, 0.0, True), (2.01, 2.1, False)])
+def test_what_makes_all_locked_tests_twice_as_bad_is_refuted(after: float, floor: float, refuted: bool) -> None:
+    """It acts in none of them, so that neither way says anything."""
+    silent = Foretold(0.0, 0.0, 0.0, tests=frozenset())
+    assert Looked(silent, None, floor, together=Foretold(1.0, after, 1.0)).refuted is refuted
+
+
+def test_what_is_refused_for_all_locked_tests_is_told_with_their_error() -> None:
+    spoilt = Looked(Foretold(0.0, 0.0, 0.0), None, 0.0, together=Foretold(1.0, 9.0, 1.0))
+    asked = Asked(lambda one, whole: spoilt if "a" in whole else looked(FALLS))
+    found = asked.kept(judged("a", "b"))
+    assert (names_of(found.claims), names_of(found.refused)) == ("b", "a")
+    assert "1.00 -> 9.00 um" in Asked(lambda one, whole: spoilt).kept(judged("a")).reason
+
+
 def test_a_fall_by_a_quarter_in_both_ways_says_neither() -> None:
     found = [looked(f, f).bears_out for f in (Foretold(1.0, 0.74, 1.0), Foretold(1.0, 0.76, 1.0))]
     assert found == [True, False]

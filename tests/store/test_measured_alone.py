@@ -92,3 +92,22 @@ def test_a_probe_that_stands_still_between_a_few_moments_is_held(store: Store, t
         dz[10 * EVERY : (10 + moments) * EVERY] = dz[10 * EVERY]
         counts, _ = ingested(store, tmp_path / f"lab{moments}", dz)
         assert counts[10 * EVERY : (10 + moments) * EVERY].any() is np.bool_(not held)
+
+
+@pytest.mark.parametrize(("struck", "found"), [(0.0, []), (2000.0, [1640])])
+def test_a_short_measurement_is_no_spike_of_the_probe_in_the_air(
+    store: Store, tmp_path: Path, struck: float, found: list[int]
+) -> None:
+    """Three samples are measured twice in an hour, the probe is far away between them; then all are, one is struck."""
+    rows = np.arange(N)
+    measured = (rows % 360 < 3) | (rows >= 400)
+    dz = 40 * (1 - np.exp(-rows / 900)) + np.random.default_rng(0).normal(0, 0.1, N)
+    dz[~measured] = 900.0 + np.random.default_rng(1).normal(0, 0.01, int((~measured).sum()))
+    dz[1640] += struck
+    path = write_campaign(tmp_path / "lab", CAMPAIGN.replace("MEASURING", MASKED), logs=False)
+    t = START_NS + rows.astype(np.int64) * 10 * 10**9
+    write_log(path.parent / "raw/a.npz", {"main": {"t_ns": t, "dZ": dz, "meas": measured.astype(np.float64)}})
+    ingest(store, path)
+    with store.reader() as con:
+        flags = [f for (f,) in con.execute("select flag from sample where channel = 'dZ' order by t").fetchall()]
+    assert np.flatnonzero(measured & ((np.array(flags) & int(Flag.SPIKE)) != 0)).tolist() == found

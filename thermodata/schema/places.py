@@ -151,6 +151,11 @@ def is_casting(place: str | None) -> bool:
     return place is not None and place.lower().partition(".")[0] in (*_CASTINGS, *_ALSO_CASTINGS)
 
 
+def is_scale(place: str | None) -> bool:
+    """Whether a dotted place is a linear scale: it makes no heat, and is as warm as what bears it."""
+    return place is not None and place.lower().startswith("axis.") and "scale" in place.lower().split(".")[2:]
+
+
 def is_beside(place: str | None) -> bool:
     """Whether a dotted place is of the machine, but on no body between tool and part: the cabinet, the control."""
     return place is not None and place.lower().partition(".")[0] in _BESIDE

@@ -27,7 +27,7 @@ from thermodata.modelling.inputs.lead import columns, with_lead
 from thermodata.modelling.versions.candidate import with_effect
 from thermodata.plugin import Effect, Float1D, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.places import is_around, is_beside, is_casting
+from thermodata.schema.places import is_around, is_beside, is_casting, is_scale
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
@@ -196,7 +196,7 @@ def candidates(
 
 def _follows(channel: ChannelInfo) -> bool:
     """Whether it is warm for what is warm elsewhere, for all that is known of its place."""
-    follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at)
+    follows = channel.at is None or is_casting(channel.at) or is_beside(channel.at) or is_scale(channel.at)
     return channel.quantity == "temperature" and follows
 
 

@@ -160,6 +160,15 @@ class Fits:
                 return _foretold([_shape(ours, theirs, t) for t in usable], tests)
         return None
 
+    def together(self, candidates: Sequence[CandidateEffect]) -> Foretold | None:
+        """What they all add to the model, by shape on all locked tests; None where none of them can be predicted."""
+        try:
+            ours, theirs = self.of(()), self.of(candidates)
+        except ThermodataError:  # no open test has all of their channels
+            return None
+        usable = [t for t in self.locked if ours.can_predict(t) and theirs.can_predict(t)]
+        return _foretold([_shape(ours, theirs, t) for t in usable], None)
+
     def of(self, candidates: Sequence[CandidateEffect]) -> FittedResponse:
         """Of the model with candidates; ThermodataError where no open test has all of their channels."""
         key = frozenset(c.id for c in candidates)

@@ -157,7 +157,9 @@ def _why(refused: Sequence[Judged], unit: str) -> str:
     """With the errors of the look in which it falls least."""
     names = [j.scored.candidate.id for j in refused]
     explain, them = ("explains", "it") if len(names) == 1 else ("explain", "them")
-    said = [f for j in refused if j.scored.looked is not None for f in j.scored.looked.saying]
+    looks = [j.scored.looked for j in refused if j.scored.looked is not None]
+    spoilt = [one.together for one in looks if one.spoils and one.together is not None]
+    said = spoilt or [f for one in looks for f in one.saying]
     least = min(said, key=lambda f: f.fall, default=None)
     there = (
         ""

@@ -89,7 +89,8 @@ def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked
             return None
         looked_for.setdefault(one.scored.candidate.id)
         added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
-        return Looked(foretold, added, found.measure.floor, unit)
+        together = fits.together([j.scored.candidate for j in some])
+        return Looked(foretold, added, found.measure.floor, unit, together)
 
     return kept_where_they_hold(
         judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit

@@ -1,5 +1,5 @@
-"""Readings that repeat because the logger repeats them between two moments that are measured: among the samples that
-`measuring` leaves, each is a reading of its own."""
+"""Readings that repeat because the logger repeats them between two moments that are measured, or that stand out from a
+probe in the air before and after a short one: among the samples that `measuring` leaves, each is a reading of its own."""
 
 from __future__ import annotations
 
@@ -13,26 +13,27 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 
 STANDS = 4  # stretches that are measured, and the same value in all of them and between: it stands still indeed
-REPEATS = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED)  # what a value is accused of for coming again
+# what a value is accused of for coming again, and for standing out from what is no measurement beside it
+DOUBTED = np.uint16(Flag.HELD | Flag.STUCK | Flag.SATURATED | Flag.SPIKE)
 
 
 def cleared(
     t_ns: Int1D, columns: Mapping[str, ColumnInput], flags: Mapping[str, Array], masks: Mapping[str, Bool1D]
 ) -> dict[str, Array]:
-    """flags, shape (n,) each, without those of REPEATS on measured samples that neither these alone, side by side, bear
+    """flags, shape (n,) each, without those of DOUBTED on measured samples that neither these alone, side by side, bear
     out, nor one value through STANDS stretches. columns: with the flags that they had before they were judged, which
     stay. masks: where a channel is measured, shape (n,); of channels that are measured at times only."""
     found = dict(flags)
     alike: dict[bytes, list[str]] = {}
     for name, mask in masks.items():
-        if bool(mask.all()) or not (_accused(columns[name], flags[name]) & REPEATS)[mask].any():
+        if bool(mask.all()) or not (_accused(columns[name], flags[name]) & DOUBTED)[mask].any():
             continue
         alike.setdefault(mask.tobytes(), []).append(name)
     for names in alike.values():
         mask = masks[names[0]]
         alone, _ = flag_stream(t_ns[mask], {n: _part(c, mask) for n, c in columns.items()})
         for name in names:
-            doubted = _accused(columns[name], flags[name])[mask] & REPEATS & ~alone[name]
+            doubted = _accused(columns[name], flags[name])[mask] & DOUBTED & ~alone[name]
             doubted[_stands(columns[name].values, mask)[mask]] = 0
             found[name] = flags[name].copy()
             found[name][mask] &= ~doubted

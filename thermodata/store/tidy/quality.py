@@ -20,7 +20,7 @@ from thermodata.store.tidy import windows
 from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated
 from thermodata.store.tidy.event import Event
-from thermodata.store.tidy.measured_alone import REPEATS, cleared
+from thermodata.store.tidy.measured_alone import DOUBTED, cleared
 from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures, said
 from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
 from thermodata.store.tidy.plan import SCHEDULE, Bound
@@ -231,7 +231,7 @@ class Flagged:
                 mask = self._mask(chunk, name, columns)
                 own = columns[name].flags
                 self._activity.setdefault(name, Activity()).add(chunk.t_ns, mask)
-                for flag in Flag(int(REPEATS)):
+                for flag in Flag(int(DOUBTED)):
                     times = self._repeats.setdefault((name, str(flag.name).lower()), Activity())
                     times.add(chunk.t_ns, mask & ((own & np.uint16(flag)) != 0))
                 columns[name].flags = own | np.where(mask, np.uint16(0), np.uint16(Flag.NOT_MEASURING))
