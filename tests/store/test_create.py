@@ -14,6 +14,8 @@ import pytest
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
 
+pytestmark = pytest.mark.usefixtures("stores_made_anew")
+
 
 @contextmanager
 def no_file_longer_than(most_bytes: int) -> Iterator[None]:
