@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -72,3 +72,29 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
         return folder
 
     return made
+
+
+@pytest.fixture(scope="session", autouse=True)
+def make_catalogue(once: Once) -> Iterator[Callable[[Path], None]]:
+    """What makes the catalogue of a new store. In this process a new store's is a copy of the one that it made once in
+    the run, but for tests of `stores_made_anew`; and nothing waits until the disk has what was written, which tells
+    only where the power fails. Processes that tests start do both as those of users do.
+    """
+    from thermodata.store.catalogue import create, store
+
+    right = create.create_catalogue
+
+    def copied(folder: Path) -> None:
+        shutil.copytree(once("empty-store", right), folder, dirs_exist_ok=True)
+        (folder / create.MARK).write_text(create.new_mark())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(store, "create_catalogue", copied)
+        patch.setattr(os, "fsync", lambda fd: None)
+        yield right
+
+
+@pytest.fixture
+def stores_made_anew(make_catalogue: Callable[[Path], None], monkeypatch: pytest.MonkeyPatch) -> None:
+    """New stores are made as a user's are: for tests of what happens meanwhile."""
+    monkeypatch.setattr("thermodata.store.catalogue.store.create_catalogue", make_catalogue)

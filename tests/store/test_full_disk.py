@@ -96,6 +96,7 @@ def limited(op: str, store: Path, argument: object, most_bytes: int) -> subproce
         text=True,
         timeout=120,
         check=False,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},  # Python would cut that of an import, and keep it
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)),
     )
 

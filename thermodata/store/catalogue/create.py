@@ -33,13 +33,14 @@ def create_catalogue(folder: Path) -> None:
             f"attach {connection.literal(str(part))} as made "
             f"(storage_version {connection.literal(connection.STORAGE_VERSION)}); use made"
         )
+        con.execute("begin transaction")  # else each of 200 statements is one, and waits for the disk
         con.execute(TABLES)
         con.execute(
             "insert into store values (?, ?, ?, 0)",
             [FORMAT, f"thermodata {__version__}", datetime.now(UTC).replace(tzinfo=None)],
         )
         regenerate_views(con, folder)
-        con.execute("use memory")
+        con.execute("commit; use memory")
         connection.finish(con, "made")
         for layer in LAYERS:
             (folder / layer).mkdir(exist_ok=True)
