@@ -34,7 +34,7 @@ START_TAU_S = 7200.0
 
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
-SPACES = 2  # noises whose columns are kept: what is chosen is asked in two by turns
+SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
 
 @dataclass(frozen=True, slots=True)
