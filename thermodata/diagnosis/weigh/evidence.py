@@ -127,7 +127,7 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 def moments(known: Known, columns: Columns) -> Moments:
     own, with_known, with_response = [], [], []
     points, c = columns.blocks[0].shape[1:]
-    whites = known.space.all_of(columns, [b.reshape(len(b), points * c) for b in columns.blocks])
+    whites = _whites(known, columns)
     for white, both in zip(whites, known.both, strict=True):
         by_point = white.reshape(-1, points, c).transpose(1, 0, 2)
         own.append(by_point.transpose(0, 2, 1) @ by_point)
@@ -135,6 +135,11 @@ def moments(known: Known, columns: Columns) -> Moments:
         with_known.append(cross[..., :-1])
         with_response.append(cross[..., -1])
     return Moments(np.stack(own), np.stack(with_known), np.stack(with_response))
+
+
+def _whites(known: Known, columns: Columns) -> tuple[Float2D, ...]:
+    """A test each, shape (m, points * c)."""
+    return known.space.all_of(columns, [b.reshape(len(b), -1) for b in columns.blocks])
 
 
 def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
@@ -196,12 +201,10 @@ def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) ->
     cross = np.zeros((len(known.precision), count))
     right: FloatND = np.zeros((*columns.blocks[0].shape[1:], count))
     products = moments(known, columns)
-    for i, (block, values) in enumerate(zip(columns.blocks, series, strict=True)):
-        m, points, c = block.shape
+    for i, (white, values) in enumerate(zip(_whites(known, columns), series, strict=True)):
         cross += known.white[i].T @ values
-        if block.any():
-            white = known.space.of(i, block.reshape(m, points * c))
-            right += (white.T @ values).reshape(points, c, count)
+        if columns.blocks[i].any():
+            right += (white.T @ values).reshape(right.shape)
     left, _ = beyond_known(known, products, tests)
     right -= products.known.sum(axis=0) @ solved(factor, cross)
     deviation = SIZES[:, None] * columns.width
