@@ -24,7 +24,15 @@ from thermodata.diagnosis.question.known import Known, known, likeliest
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.on_locked import _with, foretell
 from thermodata.diagnosis.weigh.beside import beside
-from thermodata.diagnosis.weigh.evidence import Columns, columns, moments, of_each_series, weigh
+from thermodata.diagnosis.weigh.evidence import (
+    Columns,
+    columns,
+    each_left_out,
+    moments,
+    of_each_series,
+    others_of_each,
+    weigh,
+)
 from thermodata.diagnosis.weigh.in_noise_of_best import likeliest_beside
 from thermodata.diagnosis.weigh.invariance import spread_of_gain
 from thermodata.diagnosis.weigh.null import best_of_chance, p_value
@@ -418,10 +426,33 @@ def test_what_is_kept_of_a_noise_changes_nothing(room: int, monkeypatch: pytest.
         assert np.array_equal(getattr(first, name), getattr(again, name))
 
 
-def test_the_columns_of_two_noises_are_kept_and_no_more() -> None:
+def test_the_columns_of_three_noises_are_kept_and_no_more() -> None:
     one = replace(small(), kept={})
-    noises = [replace(NOISE, white=NOISE.white * k) for k in (1.0, 2.0, 3.0)]
+    noises = [replace(NOISE, white=NOISE.white * k) for k in (1.0, 2.0, 3.0, 4.0)]
     spaces = [known(one, n).space for n in noises]
-    assert known(one, noises[2]).space is spaces[2]
-    assert known(one, noises[1]).space is spaces[1]
+    for k in (3, 2, 1):
+        assert known(one, noises[k]).space is spaces[k]
     assert known(one, noises[0]).space is not spaces[0]
+
+
+def test_all_tests_left_out_at_once_say_what_each_left_out_says() -> None:
+    base, cols = known(small(), NOISE), made(small())
+    products = moments(base, cols)
+    found = each_left_out(base, cols, products)
+    assert len(found) == len(base.every)
+    for i, one in enumerate(found):
+        by_itself = weigh(base, cols, products, np.delete(base.every, i))
+        np.testing.assert_allclose(one.log_bf, by_itself.log_bf, rtol=1e-10, atol=1e-10)
+        np.testing.assert_allclose(one.mean, by_itself.mean, rtol=1e-9, atol=1e-12)
+
+
+def test_the_others_of_each_lose_no_digits_beside_one_that_is_large() -> None:
+    parts = np.array([1.0, 1e20, 2.0, 3.0])
+    assert others_of_each(parts).tolist() == [1e20, 6.0, 1e20, 1e20]
+
+
+def test_what_is_kept_of_the_known_effects_is_of_their_own_response() -> None:
+    base = known(small(), NOISE)
+    first = base.mean(base.every)
+    assert base.mean(base.every) is first
+    np.testing.assert_allclose(replace(base, cross=2 * base.cross).mean(base.every), 2 * first, rtol=1e-12)

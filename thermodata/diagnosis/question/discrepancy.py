@@ -18,6 +18,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.blas import dgemm
 from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
 
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
@@ -34,7 +35,7 @@ START_TAU_S = 7200.0
 
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
-SPACES = 2  # noises whose columns are kept: what is chosen is asked in two by turns
+SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +112,11 @@ class Whitened:
 
     def of(self, test: int, columns: Float2D) -> Float2D:
         """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
-        return self.projected(test, self._chains[test].halved(columns))
+        white, free = self._chains[test].halved(columns), self._offsets[test]
+        if not white.size:
+            return white
+        # in its place: it is a copy already
+        return np.asarray(dgemm(-1.0, free, free.T @ white, 1.0, white, overwrite_c=1), dtype=np.float64)
 
     def all_of(self, who: object, columns: Sequence[Float2D]) -> tuple[Float2D, ...]:
         """The columns of one asker, shape (m, k) a test, in units of the noise. who: lives as long as this."""

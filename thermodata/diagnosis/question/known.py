@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -33,7 +33,8 @@ FREE = 1.0  # or of what would make it as large as the response: an effect that 
 @dataclass(frozen=True, slots=True)
 class Known:
     """The known effects under a noise, test by test. both: columns and, last, the response, (m, k + 1). gram: shape
-    (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior."""
+    (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior. Factors and
+    means are asked beside each candidate, and kept, by tests."""
 
     problem: Problem
     space: Whitened
@@ -42,14 +43,22 @@ class Known:
     cross: Float2D
     energy: Float1D
     precision: Float1D
+    _factors: dict[bytes, Float2D] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _means: dict[bytes, Float1D] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def factor(self, tests: Int1D) -> Float2D:
         """Cholesky factor of the posterior precision, from some tests."""
-        return np.asarray(np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision)))
+        key = tests.tobytes()
+        if key not in self._factors:
+            self._factors[key] = np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
+        return self._factors[key]
 
     def mean(self, tests: Int1D) -> Float1D:
         """Coefficients that some tests and the prior give, shape (k,)."""
-        return np.asarray(solved(self.factor(tests), self.cross[tests].sum(axis=0)[:, None])[:, 0])
+        key = tests.tobytes()
+        if key not in self._means:
+            self._means[key] = solved(self.factor(tests), self.cross[tests].sum(axis=0)[:, None])[:, 0]
+        return self._means[key]
 
     @property
     def every(self) -> Int1D:

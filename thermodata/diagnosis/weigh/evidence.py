@@ -127,7 +127,7 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 def moments(known: Known, columns: Columns) -> Moments:
     own, with_known, with_response = [], [], []
     points, c = columns.blocks[0].shape[1:]
-    whites = known.space.all_of(columns, [b.reshape(len(b), points * c) for b in columns.blocks])
+    whites = _whites(known, columns)
     for white, both in zip(whites, known.both, strict=True):
         by_point = white.reshape(-1, points, c).transpose(1, 0, 2)
         own.append(by_point.transpose(0, 2, 1) @ by_point)
@@ -137,10 +137,37 @@ def moments(known: Known, columns: Columns) -> Moments:
     return Moments(np.stack(own), np.stack(with_known), np.stack(with_response))
 
 
+def _whites(known: Known, columns: Columns) -> tuple[Float2D, ...]:
+    """A test each, shape (m, points * c)."""
+    return known.space.all_of(columns, [b.reshape(len(b), -1) for b in columns.blocks])
+
+
 def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
     """What some tests say."""
-    left, right = beyond_known(known, moments, tests)
-    return _weigh(columns, left, right)
+    return Weighed(*_weigh(columns, *beyond_known(known, moments, tests)))
+
+
+def each_left_out(known: Known, columns: Columns, moments: Moments) -> list[Weighed]:
+    """What all tests but one say, for each of them in turn."""
+    every, cross = known.every, others_of_each(moments.known)
+    count, points, c, k = cross.shape
+    half = np.empty_like(cross)
+    right = others_of_each(moments.response)
+    for i in range(count):
+        others = np.delete(every, i)
+        half[i] = halved(known.factor(others), cross[i].reshape(points * c, k).T).T.reshape(points, c, k)
+        right[i] -= cross[i] @ known.mean(others)
+    left = others_of_each(moments.own) - half @ half.swapaxes(-1, -2)
+    return [Weighed(*one) for one in zip(*_weigh(columns, left, right), strict=True)]
+
+
+def others_of_each(parts: FloatND) -> FloatND:
+    """The sum of all parts but one, for each in turn, shape (tests, ...) as the parts: of those before and after it,
+    for a difference to the whole would lose digits."""
+    before, after = np.zeros_like(parts), np.zeros_like(parts)
+    np.cumsum(parts[:-1], axis=0, out=before[1:])
+    np.cumsum(parts[:0:-1], axis=0, out=after[-2::-1])
+    return before + after
 
 
 def beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
@@ -154,15 +181,16 @@ def beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND,
     return left, moments.response[tests].sum(axis=0) - cross @ theta
 
 
-def _weigh(columns: Columns, left: FloatND, right: FloatND) -> Weighed:
+def _weigh(columns: Columns, left: FloatND, right: FloatND) -> tuple[FloatND, FloatND]:
+    """log BF with the prior, shape (..., points, sizes), and coefficients, (..., points, sizes, c). left: M, shape
+    (..., points, c, c); right: b, (..., points, c)."""
     deviation = SIZES[:, None] * columns.width
-    scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
+    scaled = deviation[:, :, None] * left[..., None, :, :] * deviation[:, None, :]
     scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0
-    goal = deviation[None] * right[:, None]
+    goal = deviation * right[..., None, :]
     solution = np.linalg.solve(scaled, goal[..., None])[..., 0]
-    logdet = np.linalg.slogdet(scaled)[1]
-    log_bf = 0.5 * np.einsum("psc,psc->ps", goal, solution) - 0.5 * logdet
-    return Weighed(log_bf + columns.prior, deviation[None] * solution)
+    log_bf = 0.5 * np.einsum("...c,...c->...", goal, solution) - 0.5 * np.linalg.slogdet(scaled)[1]
+    return log_bf + columns.prior, deviation * solution
 
 
 def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) -> Float1D:
@@ -173,12 +201,10 @@ def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) ->
     cross = np.zeros((len(known.precision), count))
     right: FloatND = np.zeros((*columns.blocks[0].shape[1:], count))
     products = moments(known, columns)
-    for i, (block, values) in enumerate(zip(columns.blocks, series, strict=True)):
-        m, points, c = block.shape
+    for i, (white, values) in enumerate(zip(_whites(known, columns), series, strict=True)):
         cross += known.white[i].T @ values
-        if block.any():
-            white = known.space.of(i, block.reshape(m, points * c))
-            right += (white.T @ values).reshape(points, c, count)
+        if columns.blocks[i].any():
+            right += (white.T @ values).reshape(right.shape)
     left, _ = beyond_known(known, products, tests)
     right -= products.known.sum(axis=0) @ solved(factor, cross)
     deviation = SIZES[:, None] * columns.width

@@ -8,9 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import FloatND, Known, known, solved
+from thermodata.diagnosis.question.known import Known, known, solved
 from thermodata.diagnosis.question.problem import Block, Problem
-from thermodata.diagnosis.weigh.evidence import Columns, Moments, Weighed, moments, weigh
+from thermodata.diagnosis.weigh.evidence import (
+    Columns,
+    Moments,
+    Weighed,
+    each_left_out,
+    moments,
+    others_of_each,
+    weigh,
+)
 from thermodata.diagnosis.weigh.invariance import spread_of_gain
 from thermodata.diagnosis.weigh.scored import Scored, acting
 from thermodata.plugin import Float1D, Float2D
@@ -47,15 +55,18 @@ def score(problem: Problem, base: Known, one: Columns, products: Moments, w: Wei
     """With what the left-out tests say of it. base: the known effects; products: with them; w: what all tests say."""
     tests = base.every
     before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
-    of_all = base.mean(tests), base.factor(tests), products.known.sum(axis=0)
-    for i, block in enumerate(problem.blocks):
-        others = np.delete(tests, i)
-        seen = weigh(base, one, products, others)
+    of_all, toward = (base.mean(tests), base.factor(tests)), products.known.sum(axis=0)
+    toward_others = others_of_each(products.known)
+    for i, seen in enumerate(each_left_out(base, one, products)):
+        block, others, best = problem.blocks[i], np.delete(tests, i), seen.best
         gained[i] = w.total - seen.total
-        of_others = base.mean(others), base.factor(others), products.known[others].sum(axis=0)
-        before[i], after[i] = _errors(block, one.blocks[i], seen, *of_others)
-        own_before[i], own_after[i] = _errors(block, one.blocks[i], seen, *of_all)
-    contribution = [b[:, w.best[0]] @ w.coefficients for b in one.blocks]
+        held, sized = np.hstack([block.base, block.slack]), seen.mean[best]
+        does = one.blocks[i][:, best[0]] @ sized
+        of_others = base.mean(others), base.factor(others)
+        before[i], after[i] = _errors(block, held, does, *of_others, toward_others[i, best[0]].T @ sized)
+        own_before[i], own_after[i] = _errors(block, held, does, *of_all, toward[best[0]].T @ sized)
+    point, sized = w.best[0], w.coefficients
+    contribution = [b[:, point] @ sized for b in one.blocks]
     rows = np.array([len(c) for c in contribution])
     size = np.sqrt([np.mean(c**2) for c in contribution])
     return Scored(
@@ -81,21 +92,21 @@ def _evidence(base: Known, one: Columns) -> float:
 
 
 def _errors(
-    block: Block, columns: FloatND, seen: Weighed, theta: Float1D, factor: Float2D, toward: FloatND
+    block: Block, held: Float2D, does: Float1D, theta: Float1D, factor: Float2D, toward: Float1D
 ) -> tuple[float, float]:
-    """Squared error of a test without and with the candidate of the others. theta, factor, toward: of the tests that
-    the known effects are fitted to: their coefficients and posterior, and their products with the candidate."""
-    point, _ = seen.best
-    held = np.hstack([block.base, block.slack])
+    """Squared error of a test without and with the candidate of the others. held: the known effects' columns. does:
+    what the candidate does there. theta, factor, toward: of the tests that the known effects are fitted to: their
+    coefficients and posterior, and their products with the candidate."""
     without = block.response - held @ theta
-    pulled = solved(factor, (toward[point].T @ seen.coefficients)[:, None])[:, 0]
-    among = without + held @ pulled - columns[:, point] @ seen.coefficients
+    pulled = solved(factor, toward[:, None])[:, 0]
+    among = without + held @ pulled - does
     return float(without @ without), float(among @ among)
 
 
 def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
     """What it looks like, without the left-out tests."""
-    return replace(_unscored(one, w), shape=_shape(base, [b[:, w.best[0]] @ w.coefficients for b in one.blocks]))
+    point, sized = w.best[0], w.coefficients
+    return replace(_unscored(one, w), shape=_shape(base, [b[:, point] @ sized for b in one.blocks]))
 
 
 def _unscored(one: Columns, w: Weighed) -> Scored:
