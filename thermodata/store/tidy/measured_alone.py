@@ -1,5 +1,5 @@
 """Readings that repeat because the logger repeats them between two moments that are measured, or that stand out from a
-probe in the air before and after a short one: among the samples that `measuring` leaves, each is a reading of its own."""
+probe in the air on both sides of a short one: of what `measuring` leaves, each sample is a reading of its own."""
 
 from __future__ import annotations
 
