@@ -480,6 +480,20 @@ def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp
     assert "no locked test to confirm on" in told.err
 
 
+def test_a_locked_test_that_the_model_has_lost_is_told_with_what_it_lacks(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    log = tmp_path / "c" / "raw" / "day2.csv"
+    head, *lines = log.read_text().splitlines()
+    lost = next(i for i, name in enumerate(head.split(",")) if name.startswith("T_bearing"))
+    rows = [[*cells[:lost], "", *cells[lost + 1 :]] for cells in (line.split(",") for line in lines)]
+    log.write_text("\n".join([head, *map(",".join, rows)]) + "\n")
+    assert say("--store", store, "ingest", path).code in (0, 3)
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+    told = say("--store", store, "confirm", base, "feed_screw:T_nut_Z")
+    assert told.code == 2
+    assert "got: day2: no driver for spindle_bearing (T_bearing)\ntry: thermodata quality tells" in told.err
+
+
 def test_a_locked_test_that_a_model_is_fitted_to_is_said_and_counted_once(say: Say, tmp_path: Path) -> None:
     path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
     assert say("--store", store, "ingest", path).code == 0

@@ -303,7 +303,7 @@ def test_what_the_locked_tests_refused_is_pointed_to_and_nothing_is_to_be_logged
     sun = Suspect((candidate("sun", channels=("S",)),), "the open tests say so")
     silent = said(NOT_COLUMN, suspect=sun)
     assert told in silent
-    assert "What is logged near column does not go with it" in silent
+    assert "Least like it is what is logged near column" in silent
     assert "can't say" not in silent
     assert "not logged" not in silent
     near = said(WITH_SPINDLE, suspect=sun)

@@ -127,12 +127,17 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     ends = ends_of_logs(store, model)
     asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
     again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, of.name)}
-    locked = [t for t in model.fitted.tests(asked_of.data, "locked") if of.can_predict(t) and t.key not in again]
+    closed = model.fitted.tests(asked_of.data, "locked")
+    locked = [t for t in closed if of.can_predict(t) and t.key not in again]
     if not locked:
+        there = [f"{t.test}: {of.why_not(t) or 'a copy of an open test'}" for t in closed]
         raise UsageError(
             "no locked test to confirm on",
             expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
-            hint="give a test of the campaign the role locked, before anybody has looked at it",
+            got="; ".join(there) or "no test with role: locked",
+            hint="thermodata quality tells what was flagged in them"
+            if there
+            else "give a test of the campaign the role locked, before anybody has looked at it",
         )
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)

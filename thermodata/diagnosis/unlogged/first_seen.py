@@ -119,7 +119,7 @@ def _place(found: Sequence[Companion], look_at: str, suspect: Suspect | None) ->
             + look_at
         )
     elif far:
-        said.append(f"What is logged near {_or(far)} does not go with it")
+        said.append(f"Least like it is what is logged near {_or(far)}")
     if followed:
         said.append(
             f"{', '.join(followed[:NAMED])} {'is' if len(followed) == 1 else 'are'} logged and already "
