@@ -111,6 +111,28 @@ def test_numbers_are_never_folded_and_columns_without_room_stand_below() -> None
     assert max(map(len, text.splitlines())) <= 30
 
 
+@pytest.mark.parametrize("version", [1, "first"])
+def test_every_part_of_a_table_begins_with_what_tells_its_rows_apart(version: object) -> None:
+    rows = [
+        {"name": name, "version": v, "about": f"{name}-{v}-is-of-one-word", "left": f"left-of-{name}-{v}"}
+        for name in ("baseline", "linear")
+        for v in (version, "second" if version == "first" else 2)
+    ]
+    parts = table(rows, [(key, key) for key in ("name", "version", "about", "left")], width=50).split("\n\n")
+    assert [part.split()[:3] for part in parts] == [["name", "version", "about"], ["name", "version", "left"]]
+    for part in parts:
+        assert [tuple(line.split()[:2]) for line in part.splitlines()[2:]] == [
+            (row["name"], str(row["version"])) for row in rows
+        ]
+
+
+def test_names_that_would_fill_the_screen_are_not_repeated() -> None:
+    rows = [{"a": a, "b": b * 24, "c": c * 12} for a, b, c in ("sxy", "szy", "oxw")]
+    first, second = table(rows, [(key, key) for key in "abc"], width=30).split("\n\n")
+    assert ("x" * 24 in first, "x" * 24 in second) == (True, False)
+    assert second.split()[:2] == ["a", "c"]
+
+
 def test_a_table_that_fits_is_left_alone() -> None:
     assert "campaign        test" in table(WIDE, HEADS, width=100)
 

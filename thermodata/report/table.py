@@ -34,7 +34,7 @@ def table(
 
     width: of the screen; `screen_width()` where None. Where the columns are wider, what all rows share is said once
     above them, and headings and texts are folded at their spaces, numbers never; columns that still have no room stand
-    in a table below, beside the row's name again.
+    in a table below, beside what tells the rows apart again.
     """
     columns = list(columns)
     lines = [[cell(row.get(key)) for key, _ in columns] for row in rows]
@@ -83,8 +83,8 @@ def _said_once(columns: Sequence[_Column], room: int) -> tuple[list[str], list[_
 
 
 def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
-    """The columns in as many tables as have room for them; those before the first number begin each."""
-    names = next((i for i, c in enumerate(columns) if c.right), 1) or 1
+    """The columns in as many tables as have room for them; those that name the rows begin each."""
+    names = _names(columns, room)
     if sum(c.least for c in columns) + 2 * (len(columns) - 1) <= room:
         return [list(columns)]
     head, parts = list(columns[:names]), list[list[_Column]]()
@@ -98,6 +98,19 @@ def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
         now.append(column)
         left += column.least + 2
     return [*parts, [*head, *now]]
+
+
+def _names(columns: Sequence[_Column], room: int) -> int:
+    """How many of the first columns name a row: those before the first number, and more until no two rows share them,
+    where that leaves half of the room to others."""
+    texts = next((i for i, c in enumerate(columns) if c.right), 1) or 1
+    rows = len(columns[0].cells) if columns else 0
+    for n in range(texts, len(columns)):
+        if sum(c.least + 2 for c in columns[:n]) > room / 2:
+            break
+        if len({tuple(c.cells[i] for c in columns[:n]) for i in range(rows)}) == rows:
+            return n
+    return texts
 
 
 def _drawn(columns: Sequence[_Column], room: int) -> str:
