@@ -70,9 +70,9 @@ def _lost_everywhere(
 def _reads(model: Model, channel: Mapping[str, Any]) -> bool:
     """Whether a model file names a channel, or models a displacement at its place."""
     for response in model.responses:
-        if response.axis is not None and response.axis == channel.get("axis"):
-            if response.at in (None, channel.get("at")):
-                return True
+        of_axis = response.axis is not None and response.axis == channel.get("axis")
+        if of_axis and response.at in (None, channel.get("at")):
+            return True
     said = json.dumps([r.channel for r in model.responses]) + "".join(e.model_dump_json() for e in model.effects)
     return re.search(rf"\b{channel['name']}\b", said) is not None
 

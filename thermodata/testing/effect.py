@@ -107,7 +107,7 @@ def it_names_places_that_can_be(effect: Effect) -> Iterator[str]:
             return
         for place in need.places:
             if not can_bind(place):
-                yield f"{need.role}: no channel can stand at {place!r}; a part is a word, '*' or '{{a}}': axis.{{a}}.nut"
+                yield f"{need.role}: no channel stands at {place!r}; a part is a word, '*' or '{{a}}': axis.{{a}}.nut"
 
 
 def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
