@@ -16,8 +16,10 @@ from thermodata.cli.common import plain
 from thermodata.cli.json_text import json_text
 from thermodata.cli.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
+from thermodata.report.fit_text import check_text
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
+from thermodata.schema.result import Check
 
 
 @pytest.mark.parametrize(
@@ -48,6 +50,22 @@ def test_durations_read_well(seconds: float | None, text: str) -> None:
 
 def test_a_change_is_a_share_of_what_was() -> None:
     assert (change(4.0, 1.0), change(1.0, 1.5), change(None, 1.0), change(0.0, 1.0)) == ("-75 %", "+50 %", "-", "-")
+
+
+@pytest.mark.parametrize(
+    ("value", "threshold", "text"),
+    [
+        (456.0, None, "not_determined:lag.tau = 456: time constant is not determined"),
+        (456.0, 60.0, "not_determined:lag.tau = 456 (limit 60.0): time constant is not determined"),
+        (None, None, "not_determined:lag.tau: time constant is not determined"),
+    ],
+)
+def test_the_number_of_a_check_is_no_part_of_its_sentence(
+    value: float | None, threshold: float | None, text: str
+) -> None:
+    advice = "time constant is not determined"
+    check = Check(name="not_determined:lag.tau", value=value, threshold=threshold, passed=False, advice=advice)
+    assert check_text(check) == text
 
 
 def test_a_page_typesets_units_and_minus() -> None:
