@@ -144,6 +144,12 @@ def test_every_part_of_a_table_begins_with_what_tells_its_rows_apart(version: ob
         ]
 
 
+def test_a_text_that_is_folded_keeps_its_blanks() -> None:
+    rows = [{"a": "lag:T_nut_of_Z", "b": "the hall: k F and more"}, {"a": "lag:T", "b": "b"}]
+    lines = table(rows, [("a", "a"), ("b", "b")], width=26).splitlines()
+    assert [line.split() for line in lines[2:4]] == [["lag:", "the", "hall:", "k"], ["T_nut_of_Z", "F", "and", "more"]]
+
+
 def test_names_that_would_fill_the_screen_are_not_repeated() -> None:
     rows = [{"a": a, "b": b * 24, "c": c * 12} for a, b, c in ("sxy", "szy", "oxw")]
     first, second = table(rows, [(key, key) for key in "abc"], width=30).split("\n\n")

@@ -11,6 +11,7 @@ from typing import Any
 from thermodata.report.words import number
 
 Column = tuple[str, str]  # (key of the row, heading)
+_WORD = r"[^\s:]+:(?=[A-Za-z])|\S+"
 
 
 def cell(value: Any) -> str:
@@ -152,18 +153,18 @@ def _fold(text: str, width: int) -> list[str]:
     if len(text) <= width:
         return [text]
     lines, line = list[str](), ""
-    for word in _words(text):
-        joined = f"{line}{word}" if line.endswith(":") else f"{line} {word}".strip()
-        if line and len(joined) > width:
-            lines.append(line)
+    for word in re.findall(rf"(?:{_WORD})\s*", text) or [text]:
+        joined = line + word
+        if line and len(joined.rstrip()) > width:
+            lines.append(line.rstrip())
             joined = word
         line = joined
-    return [*lines, line]
+    return [*lines, line.rstrip()]
 
 
 def _words(text: str) -> list[str]:
     """Where a text may be folded: at spaces, and between an effect and its channels."""
-    return re.findall(r"[^\s:]+:(?=[A-Za-z])|\S+", text) or [text]
+    return re.findall(_WORD, text) or [text]
 
 
 def _numbers(rows: Sequence[Mapping[str, Any]], key: str) -> bool:
