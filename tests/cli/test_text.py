@@ -16,8 +16,10 @@ from thermodata.cli.common import plain
 from thermodata.cli.json_text import json_text
 from thermodata.cli.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
+from thermodata.report.fit_text import check_text
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
+from thermodata.schema.result import Check
 
 
 @pytest.mark.parametrize(
@@ -48,6 +50,22 @@ def test_durations_read_well(seconds: float | None, text: str) -> None:
 
 def test_a_change_is_a_share_of_what_was() -> None:
     assert (change(4.0, 1.0), change(1.0, 1.5), change(None, 1.0), change(0.0, 1.0)) == ("-75 %", "+50 %", "-", "-")
+
+
+@pytest.mark.parametrize(
+    ("value", "threshold", "text"),
+    [
+        (456.0, None, "not_determined:lag.tau = 456: time constant is not determined"),
+        (456.0, 60.0, "not_determined:lag.tau = 456 (limit 60.0): time constant is not determined"),
+        (None, None, "not_determined:lag.tau: time constant is not determined"),
+    ],
+)
+def test_the_number_of_a_check_is_no_part_of_its_sentence(
+    value: float | None, threshold: float | None, text: str
+) -> None:
+    advice = "time constant is not determined"
+    check = Check(name="not_determined:lag.tau", value=value, threshold=threshold, passed=False, advice=advice)
+    assert check_text(check) == text
 
 
 def test_a_page_typesets_units_and_minus() -> None:
@@ -109,6 +127,34 @@ def test_numbers_are_never_folded_and_columns_without_room_stand_below() -> None
     assert [line.split()[-1] for line in first.splitlines() if line[:2] == "sp"] == ["90.1", "-3.25"]
     assert [line.split()[-1] for line in second.splitlines() if line[:2] == "sp"] == ["5.00", "12.5"]
     assert max(map(len, text.splitlines())) <= 30
+
+
+@pytest.mark.parametrize("version", [1, "first"])
+def test_every_part_of_a_table_begins_with_what_tells_its_rows_apart(version: object) -> None:
+    rows = [
+        {"name": name, "version": v, "about": f"{name}-{v}-is-of-one-word", "left": f"left-of-{name}-{v}"}
+        for name in ("baseline", "linear")
+        for v in (version, "second" if version == "first" else 2)
+    ]
+    parts = table(rows, [(key, key) for key in ("name", "version", "about", "left")], width=50).split("\n\n")
+    assert [part.split()[:3] for part in parts] == [["name", "version", "about"], ["name", "version", "left"]]
+    for part in parts:
+        assert [tuple(line.split()[:2]) for line in part.splitlines()[2:]] == [
+            (row["name"], str(row["version"])) for row in rows
+        ]
+
+
+def test_a_text_that_is_folded_keeps_its_blanks() -> None:
+    rows = [{"a": "lag:T_nut_of_Z", "b": "the hall: k F and more"}, {"a": "lag:T", "b": "b"}]
+    lines = table(rows, [("a", "a"), ("b", "b")], width=26).splitlines()
+    assert [line.split() for line in lines[2:4]] == [["lag:", "the", "hall:", "k"], ["T_nut_of_Z", "F", "and", "more"]]
+
+
+def test_names_that_would_fill_the_screen_are_not_repeated() -> None:
+    rows = [{"a": a, "b": b * 24, "c": c * 12} for a, b, c in ("sxy", "szy", "oxw")]
+    first, second = table(rows, [(key, key) for key in "abc"], width=30).split("\n\n")
+    assert ("x" * 24 in first, "x" * 24 in second) == (True, False)
+    assert second.split()[:2] == ["a", "c"]
 
 
 def test_a_table_that_fits_is_left_alone() -> None:

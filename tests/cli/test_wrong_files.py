@@ -32,6 +32,7 @@ def test_calibrations_of_several_campaigns_say_whose_they_are(
     other.write_text((campaign / "campaign.yaml").read_text().replace("id: small", "id: other"))
     assert say("--store", store, "ingest", other).code in (0, 3)
     said = say("--store", store, "calibrations").out
+    assert " not measured" in said  # a gain of a data sheet: no jump test has seen it
     assert "campaign" in said
     assert "other" in said
     assert "small" in said

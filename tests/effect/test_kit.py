@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect import all_effects
+from thermodata.effect.places import can_bind
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.testing import effect as kit
@@ -61,6 +62,14 @@ class TwiceTheName(Good):
 
 class NoSuchQuantity(Good):
     needs = (Need("u", "warmth"),)
+
+
+class Nowhere(Good):
+    needs = (Need("u", "temperature", ("bed", "bedd..x")),)
+
+
+class PlacesOfOneText(Good):
+    needs = (Need("u", "temperature", "axis.{a}.nut"),)  # type: ignore[arg-type]
 
 
 class StartsOutside(Good):
@@ -207,6 +216,8 @@ def test_an_effect_need_not_be_linear_in_what_drives_it(sound: type[Good]) -> No
         (ToldByNothing, kit.what_it_states_beyond_the_contract_is_text),
         (TwiceTheName, kit.its_names_are_unique),
         (NoSuchQuantity, kit.it_needs_quantities_that_exist),
+        (Nowhere, kit.it_names_places_that_can_be),
+        (PlacesOfOneText, kit.it_names_places_that_can_be),
         (StartsOutside, kit.its_bounds_hold_its_start),
         (ReachesLess, kit.its_bounds_hold_its_start),
         (Flat, kit.it_gives_one_column_a_gain),
@@ -229,6 +240,16 @@ def test_each_rule_catches_its_broken_twin(broken: type[Good], rule: kit.Rule) -
     assert rule.__name__ in kit.faults(broken())
     with pytest.raises(PluginError, match=rule.__name__):
         kit.check_effect(broken())
+
+
+@pytest.mark.parametrize("place", ["bed", "Bed.Left-2", "axis.{a}.nut", "{s}spindle.bearing?", "hall.*", "table.d1500"])
+def test_a_place_that_can_be_is_no_fault(place: str) -> None:
+    assert can_bind(place)
+
+
+@pytest.mark.parametrize("place", ["", ".", "bed.", "bedd..x", "axis.{a", "axis.{}.nut", "bed?.left", "bed left"])
+def test_a_place_where_nothing_can_stand_is_told(place: str) -> None:
+    assert not can_bind(place)
 
 
 def test_an_effect_that_wants_two_samples_is_told_that_it_was_asked_with_one() -> None:

@@ -11,6 +11,7 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.errors import SpecError, UsageError
+from thermodata.export.control.of_model import Asked, program_of
 from thermodata.modelling import fit_model
 from thermodata.modelling.least_squares import coarse
 from thermodata.modelling.versions.result import model_id
@@ -130,6 +131,18 @@ def test_an_effect_identified_first_is_refined_with_the_others(world: Dataset, s
     held = fit_model(staged.model_copy(update={"phases": ["heating", "steady"]}), data)
     assert [t.held for t in held.responses[0].terms] == [False, False, True, False, False]
     assert held.parameters()["ambient_frame.gain"].value == alone["ambient_frame.gain"].value
+
+
+def test_a_program_names_every_test_that_its_parameters_come_from(world: Dataset, spec: Spec, changed: Change) -> None:
+    def named(model: Model, data: Dataset = world) -> str:
+        return dict(program_of("m", fit_model(model, data, uncertainty=False), data, Asked(60.0)).about)["fitted on"]
+
+    one = spec("spindle_bearing", calibrate_on=["t0", "t1"], verify_on=["t4"])
+    grown = one.model_copy(update={"in_sample": True})
+    assert (named(one), named(grown)) == ("t0, t1", "t0, t1, t4")
+    assert named(grown, changed(world, "t1", dZ=None)) == "t0, t4"
+    staged = spec("spindle_bearing", {"effect": "ambient_frame", "calibrate_on": ["t5"]}, calibrate_on=["t0"])
+    assert named(staged) == "t0, t5"
 
 
 def test_a_driver_that_moved_as_well_is_named_and_what_it_did_is_taken_out(world: Dataset, spec: Spec) -> None:

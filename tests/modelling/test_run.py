@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 import yaml
 
+from thermodata.cli.query import sql_command
 from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.add import add, chosen_id
@@ -139,6 +141,10 @@ def test_adding_the_missing_effect_makes_the_error_fall(store: Store, spec: Spec
         assert old is not None
         assert value < 0.5 * old
     assert {s.role for s in grown.scores} == {"calibration", "verification (in-sample)"}
+    with store.reader() as con:  # the question for errors of verification that the help shows has all versions
+        (asked,) = re.findall(r'thermodata sql "(from score [^"]*)"', sql_command.help or "")
+        found = con.execute(f"select model, count(*) from ({asked}) where phase = 'all' group by model").fetchall()
+    assert {(parent.model, 2), (grown.model, 2)} <= set(found)
     assert [m.model for m in model_chain(store, grown.model)] == [parent.model, grown.model]
     # the newest version goes by the name
     assert find_model(store, "short").model == grown.model

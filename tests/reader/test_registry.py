@@ -160,6 +160,13 @@ def test_a_sniff_that_fails_is_told_once_a_file(install, tmp_path: Path) -> None
     assert len(told) == 1
 
 
+@pytest.mark.filterwarnings("ignore:reader 'stumbling' failed")
+@pytest.mark.parametrize("start", [b"A", b"Z"])
+def test_why_not_of_a_reader_whose_sniff_fails_is_what_it_raised(install, tmp_path: Path, start: bytes) -> None:  # type: ignore[no-untyped-def]
+    install("one", "stumbling")
+    assert explain(write(tmp_path, start)).others["stumbling"] == "failed: IndexError: too short"
+
+
 def test_an_unknown_name_is_answered_with_the_installed_ones(install) -> None:  # type: ignore[no-untyped-def]
     install("one", "two")
     with pytest.raises(UsageError) as caught:

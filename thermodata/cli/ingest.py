@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
-
-if TYPE_CHECKING:
-    from thermodata.store import Store
 
 
 @command("ingest")
@@ -24,30 +21,16 @@ def ingest_command(session: Session, campaign: Path) -> int:
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
     from thermodata.cli.progress import progress_line
+    from thermodata.report.after_ingest import next_step
     from thermodata.store.ingest.run import ingest, store_for
 
     store = store_for(session.store_path, campaign)
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
-    if (step := _next_step(store, summary, campaign)) is not None:
+    if (step := next_step(store, summary, campaign)) is not None:
         session.say(step)
     return 3 if summary["losses"] else 0
-
-
-def _next_step(store: Store, summary: dict[str, Any], campaign: Path) -> str | None:
-    """What leads to a model, where the campaign has none; to samples, where it has none of these."""
-    if not summary["samples"]:
-        # where nothing was lost, it has no tests yet, as a note says
-        return f"next: mend what was lost, then thermodata ingest {campaign} again" if summary["losses"] else None
-    with store.reader() as con:
-        name = summary["campaign"]
-        if con.execute("select 1 from model where list_contains(campaigns, ?) limit 1", [name]).fetchone():
-            return None
-    model = campaign.with_name("model.yaml")
-    if model.exists():
-        return f"next: thermodata fit {model}"
-    return f"next: thermodata first-model {campaign} drafts {model}; thermodata fit {model}"
 
 
 def ingest_text(summary: dict[str, Any]) -> str:
@@ -88,7 +71,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         {
             **row,
             "calibration": row.get("calibration", row.get("name")),
-            "ok": all(c.get("passed", True) for c in row.get("checks") or []),
+            "ok": _checked(row),
         }
         for row in rows
     ]
@@ -117,6 +100,14 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         if not c.get("passed", True)
     ]
     return "\n".join([text, *failed])
+
+
+def _checked(row: dict[str, Any]) -> str:
+    """Whether the checks hold; of a gain that was declared, and no jump test measured, only what was declared was held
+    against itself."""
+    if not all(c.get("passed", True) for c in row.get("checks") or []):
+        return "no"
+    return "yes" if row["kind"] == "jump" else "not measured"
 
 
 def _number(value: Any) -> str:

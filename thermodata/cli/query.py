@@ -31,9 +31,10 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
 
     Without QUERY it is read from stdin. Times t are UTC; t_s are seconds from the test's start. Flagged samples are
     among the others: 'where valid(flag)' leaves out what does not count in means.
+    Verification scores of a version that 'add' made have the role 'verification (in-sample)'.
 
     \b
-      thermodata sql "from score where role = 'verification'"
+      thermodata sql "from score where role like 'verification%'"
       thermodata sql "select channel, avg(value) from temperature where valid(flag) group by 1"
       thermodata sql "from binned('gantry', 'day1', '60 s')" --csv > day1.csv
     """

@@ -168,7 +168,9 @@ def _text(seen: Seen) -> str:
         if len(p.system.poles):
             parts.append(_coefficients(p))
     if seen.at_bounds:
-        parts.append("\n".join(f"! {c.name}: {number(c.value)}. {c.advice}" for c in seen.at_bounds))
+        from thermodata.report.fit_text import check_text
+
+        parts.append("\n".join(f"! {check_text(c)}" for c in seen.at_bounds))
     if seen.not_shown:
         parts.append("not shown\n" + "\n".join(f"  {e}: {w}" for e, w in seen.not_shown))
     parts.append(_residual(seen))

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 
 _VARIABLE = re.compile(r"^\{(\w+)\}(\w*)$")
 _OR_WHOLE = "?"
+_PART = re.compile(r"\*|\{\w+\}\w*|\w[\w-]*")
 
 
 def match(pattern: str, place: str | None, known: Mapping[str, str] | None = None) -> dict[str, str] | None:
@@ -36,6 +37,11 @@ def match(pattern: str, place: str | None, known: Mapping[str, str] | None = Non
         elif want not in ("*", part):
             return None
     return found
+
+
+def can_bind(pattern: str) -> bool:
+    """Whether there can be a place that it holds: each part is a word, `*` or a variable, and none is empty."""
+    return all(_PART.fullmatch(part) for part in part_alone(pattern).split("."))
 
 
 def holds(place: str, other: str | None) -> bool:

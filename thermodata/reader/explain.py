@@ -11,7 +11,7 @@ from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.archives import packed, packed_by
 from thermodata.reader.guard import described
-from thermodata.reader.registry import all_claims, claims, failed_readers, head, readers
+from thermodata.reader.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
 from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
 from thermodata.reader.text.file.foreign_texts import foreign_text
@@ -75,6 +75,7 @@ def explain(path: Path) -> Explanation:
         for name, reason in all_claims(path).items()
         if name not in found
     }
+    others |= {name: f"failed: {error}" for name, error in failed_sniffs(path).items()}
     others |= {name: f"does not load: {error}" for name, error in failed_readers().items()}
     return Explanation(str(path), start.size_bytes, kind, found, others, _advice(start, found, others))
 

@@ -116,8 +116,19 @@ def head(path: Path) -> Head:
 
 def all_claims(path: Path | str) -> dict[str, str]:
     """Reader -> its reason for claiming the file, those that give way too."""
-    start = head(Path(path))
+    return _sniffed(Path(path))[0]
+
+
+def failed_sniffs(path: Path | str) -> dict[str, str]:
+    """Reader -> what it raised when it was shown the file."""
+    return _sniffed(Path(path))[1]
+
+
+def _sniffed(path: Path) -> tuple[dict[str, str], dict[str, str]]:
+    """Reasons for claiming the file, and what was raised instead of an answer."""
+    start = head(path)
     found: dict[str, str] = {}
+    failed: dict[str, str] = {}
     for name, each in readers().items():
         try:
             reason = each.sniff(start)
@@ -128,14 +139,15 @@ def all_claims(path: Path | str) -> dict[str, str]:
             _warn_of(name, installed()[name].value if name in installed() else "", bad[name])
             continue
         except FAILED as error:  # a sniff that stumbles over a foreign file claims nothing
-            said = f"reader '{name}' failed to sniff {start.name}: {type(error).__name__}: {error}"
+            failed[name] = f"{type(error).__name__}: {error}"
+            said = f"reader '{name}' failed to sniff {start.name}: {failed[name]}"
             if said not in _told:
                 _told.add(said)
                 warnings.warn(said, stacklevel=2)
             continue
         if reason is not None:
             found[name] = reason
-    return found
+    return found, failed
 
 
 def gives_way(name: str) -> bool:

@@ -38,14 +38,15 @@ def fit_text(result: FitResult, *, scores: bool = True) -> str:
         )
     failed = [c for c in result.checks if not c.passed]
     if failed:
-        parts.append(
-            "worth a look\n" + "\n".join(f"  ! {c.name}: {number(c.value)}{_limit(c)}. {c.advice}" for c in failed)
-        )
+        parts.append("worth a look\n" + "\n".join(f"  ! {check_text(c)}" for c in failed))
     return "\n\n".join(parts)
 
 
-def _limit(check: Check) -> str:
-    return "" if check.threshold is None else f" (limit {number(check.threshold)})"
+def check_text(check: Check) -> str:
+    """'at_bound:lag.tau = 600: ...': what was looked at with its number, and then a sentence of its own."""
+    value = "" if check.value is None else f" = {number(check.value)}"
+    limit = "" if check.threshold is None else f" (limit {number(check.threshold)})"
+    return f"{check.name}{value}{limit}: {check.advice}"
 
 
 def span(result: FitResult, name: str) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from thermodata.report.words import number
 
 Column = tuple[str, str]  # (key of the row, heading)
+_WORD = r"[^\s:]+:(?=[A-Za-z])|\S+"
 
 
 def cell(value: Any) -> str:
@@ -34,7 +35,7 @@ def table(
 
     width: of the screen; `screen_width()` where None. Where the columns are wider, what all rows share is said once
     above them, and headings and texts are folded at their spaces, numbers never; columns that still have no room stand
-    in a table below, beside the row's name again.
+    in a table below, beside what tells the rows apart again.
     """
     columns = list(columns)
     lines = [[cell(row.get(key)) for key, _ in columns] for row in rows]
@@ -83,8 +84,8 @@ def _said_once(columns: Sequence[_Column], room: int) -> tuple[list[str], list[_
 
 
 def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
-    """The columns in as many tables as have room for them; those before the first number begin each."""
-    names = next((i for i, c in enumerate(columns) if c.right), 1) or 1
+    """The columns in as many tables as have room for them; those that name the rows begin each."""
+    names = _names(columns, room)
     if sum(c.least for c in columns) + 2 * (len(columns) - 1) <= room:
         return [list(columns)]
     head, parts = list(columns[:names]), list[list[_Column]]()
@@ -98,6 +99,19 @@ def _parts(columns: Sequence[_Column], room: int) -> list[list[_Column]]:
         now.append(column)
         left += column.least + 2
     return [*parts, [*head, *now]]
+
+
+def _names(columns: Sequence[_Column], room: int) -> int:
+    """How many of the first columns name a row: those before the first number, and more until no two rows share them,
+    where that leaves half of the room to others."""
+    texts = next((i for i, c in enumerate(columns) if c.right), 1) or 1
+    rows = len(columns[0].cells) if columns else 0
+    for n in range(texts, len(columns)):
+        if sum(c.least + 2 for c in columns[:n]) > room / 2:
+            break
+        if len({tuple(c.cells[i] for c in columns[:n]) for i in range(rows)}) == rows:
+            return n
+    return texts
 
 
 def _drawn(columns: Sequence[_Column], room: int) -> str:
@@ -139,18 +153,18 @@ def _fold(text: str, width: int) -> list[str]:
     if len(text) <= width:
         return [text]
     lines, line = list[str](), ""
-    for word in _words(text):
-        joined = f"{line}{word}" if line.endswith(":") else f"{line} {word}".strip()
-        if line and len(joined) > width:
-            lines.append(line)
+    for word in re.findall(rf"(?:{_WORD})\s*", text) or [text]:
+        joined = line + word
+        if line and len(joined.rstrip()) > width:
+            lines.append(line.rstrip())
             joined = word
         line = joined
-    return [*lines, line]
+    return [*lines, line.rstrip()]
 
 
 def _words(text: str) -> list[str]:
     """Where a text may be folded: at spaces, and between an effect and its channels."""
-    return re.findall(r"[^\s:]+:(?=[A-Za-z])|\S+", text) or [text]
+    return re.findall(_WORD, text) or [text]
 
 
 def _numbers(rows: Sequence[Mapping[str, Any]], key: str) -> bool:

@@ -19,6 +19,7 @@ import numpy as np
 
 from thermodata.effect.law import with_parameters
 from thermodata.effect.law_run import evaluate
+from thermodata.effect.places import can_bind
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Effect, Float1D
 from thermodata.schema.quantity import QUANTITIES
@@ -97,6 +98,16 @@ def it_needs_quantities_that_exist(effect: Effect) -> Iterator[str]:
     for need in effect.needs:
         if need.quantity != "*" and need.quantity not in QUANTITIES:
             yield f"no quantity '{need.quantity}'"
+
+
+def it_names_places_that_can_be(effect: Effect) -> Iterator[str]:
+    for need in effect.needs:
+        if not isinstance(need.places, tuple) or not all(isinstance(place, str) for place in need.places):
+            yield f"{need.role}: places is {need.places!r}, and no tuple of texts"
+            return
+        for place in need.places:
+            if not can_bind(place):
+                yield f"{need.role}: no channel stands at {place!r}; a part is a word, '*' or '{{a}}': axis.{{a}}.nut"
 
 
 def its_bounds_hold_its_start(effect: Effect) -> Iterator[str]:
@@ -262,6 +273,7 @@ RULES: tuple[Rule, ...] = (
     what_it_states_beyond_the_contract_is_text,
     its_names_are_unique,
     it_needs_quantities_that_exist,
+    it_names_places_that_can_be,
     its_bounds_hold_its_start,
     it_gives_one_column_a_gain,
     it_is_finite_at_every_bound,

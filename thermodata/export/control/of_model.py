@@ -56,7 +56,7 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
         ("response", f"{response.name}{where} [{response.unit}]"),
         ("machine", ", ".join(dict.fromkeys(t.machine for t in data.tests if t.machine)) or "not named"),
         ("campaigns", ", ".join(fitted.spec.campaign_ids)),
-        ("fitted on", ", ".join(key[1] for key in sorted(response.calibrate))),
+        ("fitted on", ", ".join(key[1] for key in sorted(response.fitted_on))),
         ("data", data.data_version[:16] or "not named"),
         ("step of the fit", f"{data.step_s:g} s"),
         ("cycle", f"{asked.cycle_s:g} s"),

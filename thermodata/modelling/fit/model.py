@@ -15,6 +15,7 @@ from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
 from thermodata.modelling.inputs.counted_samples import refuse_unknown_phases
 from thermodata.modelling.inputs.overlap import overlaps
+from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
@@ -67,9 +68,26 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
             fit_response(response, usable, wanted, data, uncertainty=uncertainty)
             for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
         ]
-    responses = tuple(replace(response, calibrate=frozenset(roles.calibrate)) for response in fitted)
+    responses = tuple(
+        replace(response, calibrate=frozenset(roles.calibrate), fitted_on=_read(response.bound, own, data))
+        for response, own in zip(fitted, _shared(bound, open_tests), strict=True)
+    )
     again = overlaps(data, roles, keys, [response.bound.channel_of for response in responses])
     return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)), overlaps=again)
+
+
+def _shared(bound: Sequence[BoundResponse], open_tests: Sequence[list[TestData]]) -> list[list[TestData]]:
+    """The tests that each response has its parameters from: those of all, where they are fitted together."""
+    return [[t for tests in open_tests for t in tests]] * len(bound) if together(bound) else list(open_tests)
+
+
+def _read(bound: BoundResponse, tests: Sequence[TestData], data: Dataset) -> frozenset[Key]:
+    """These tests, and those that an effect which is identified first has of its own."""
+    first = [
+        usable_tests(replace(stage.bound, terms=tuple(bound.terms[i] for i in stage.members)), stage.tests)[0]
+        for stage in stages_of(bound, tests, data)
+    ]
+    return frozenset(t.key for part in (tests, *first) for t in part)
 
 
 def _fitter_of_models_inside(data: Dataset, base: Path | None) -> Callable[[Model], FittedModel]:

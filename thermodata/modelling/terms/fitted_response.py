@@ -121,7 +121,8 @@ class FittedTerm:
 
 @dataclass(frozen=True)
 class FittedResponse:
-    """One response of the model. All arrays have the test's shape (n,)."""
+    """One response of the model. All arrays have the test's shape (n,). calibrate: whose offset is free; fitted_on: the
+    tests that its parameters come from, which after `add` are verification tests too."""
 
     bound: BoundResponse
     terms: tuple[FittedTerm, ...]
@@ -130,6 +131,7 @@ class FittedResponse:
     checks: tuple[Check, ...] = ()
     noise: float | None = None  # rms of the calibration residual
     tried: tuple[Any, ...] = ()  # orders.Tried: what was chosen from, where the file left orders open
+    fitted_on: frozenset[Key] = frozenset()
 
     @property
     def name(self) -> str:

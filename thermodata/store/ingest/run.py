@@ -18,6 +18,7 @@ from thermodata.schema.load import load_campaign
 from thermodata.schema.locate import located, placed
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
+from thermodata.store.ingest.bare_conditions import conditions_without_unit
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
@@ -206,6 +207,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
                 same_content(files_of_tests, files.hashes())
                 + [str(odd) for odd in odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})]
                 + unanswered(campaign)
+                + conditions_without_unit(campaign, path)
                 + _left_out(path, files_of_tests)
                 + said
             )

@@ -116,6 +116,8 @@ _CAMPAIGN = "of the model; NULL where it has several: these stand in campaigns"
 _EACH = "all of the model: join test t on list_contains(campaigns, t.campaign)"
 _TEST = "NULL: it is of all open tests of the model together"
 SCORE_COMMENTS = {
+    "role": "of the test in this model; verification (in-sample) where it was fitted too, as by add: "
+    "role like 'verification%' takes both",
     "fit": "[%] free run, not clipped",
     "rmse_um": _OF_RESPONSE,
     "ptp_um": f"{_OF_RESPONSE}; peak to peak, measured",
