@@ -23,10 +23,10 @@ from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
-from thermodata.reader.interleaved import bare_header
+from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -119,11 +119,11 @@ def _counts_rows(one: OneSignal) -> bool:
 
 
 def _unit_of(one: OneSignal, found: Sequence[OneSignal]) -> OneSignal | None:
-    """The one signal of numbers beside a column of units, which has its unit from there."""
-    if one.signal.dtype != "str" or bare_header(one.signal.name) not in UNIT_WORDS:
-        return None
-    beside = [o for o in found if o.signal.stream == one.signal.stream and o.signal.dtype != "str"]
-    return beside[0] if len(beside) == 1 and beside[0].signal.unit else None
+    """The signal of numbers whose unit a column says, by its reader."""
+    of = one.signal.properties.get(UNIT_OF)
+    return next(
+        (o for o in found if of is not None and (o.signal.stream, o.signal.name) == (one.signal.stream, of)), None
+    )
 
 
 def _moved_probe(said: Guess, name: str) -> Guess:

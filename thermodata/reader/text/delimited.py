@@ -17,7 +17,7 @@ from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
-from thermodata.reader.text.names.unit_column import in_one_unit
+from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
 from thermodata.reader.text.rows.footer import footer_notes
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, values_of
 from thermodata.reader.text.tables.find_table import open_table
@@ -54,7 +54,10 @@ def signals(table: Table) -> tuple[Signal, ...]:
     if table.series is not None:
         return table.series.signals(found)
     told = table.unit
-    return found if told is None else tuple(replace(s, unit=told.unit) if s.name == told.of else s for s in found)
+    if told is None:
+        return found
+    said = {told.of: {"unit": told.unit}, told.column: {"properties": {UNIT_OF: told.of}}}
+    return tuple(replace(s, **said.get(s.name, {})) for s in found)
 
 
 def _said_of(table: Table, column: int, flagged: str | None) -> dict[str, str]:

@@ -18,7 +18,7 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.names.unit_column import machine_note, unit_column
+from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
@@ -174,6 +174,9 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
+    unit = unit_column(bare, cells_of) if len(groups) == 1 else None
+    if unit is not None and unit.others:  # what is converted is whole no more
+        kinds[layout.names.index(unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
@@ -199,7 +202,7 @@ def find_table(
         *units_noted,
         *shared(quality),
         standing_note,
-        machine_note(bare, cells_of),
+        unit.note() if unit else unit_column_note(bare, cells_of),
         doubt,
         open_zone,
     ]
@@ -219,7 +222,7 @@ def find_table(
         blanks=blanks,
         begin=begin,
         zone=zone,
-        unit=unit_column(bare, cells_of) if len(groups) == 1 else None,
+        unit=unit,
         stands=standing,
     )
 
