@@ -7,8 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.cell import is_number, is_stamp
+from thermodata.reader.text.names.group_heads import OF_TEXTS
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.reader.text.names.header_rows import OF_TEXTS, OF_UNITS
+from thermodata.reader.text.names.header_rows import OF_UNITS
 
 _OF_NAMES = re.compile(
     r"(?i)((signal|channel|kanal|sensor)[ _-]?)?"

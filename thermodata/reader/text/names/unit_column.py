@@ -70,8 +70,8 @@ def unit_column_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequen
         if len(found) > 1 and not letters:
             words, shown = ", ".join(list(found)[:_SHOWN]), "', '".join(numbers[:_SHOWN])
             return (
-                f"'{name}' says several units ({words}), which are not converted, for it may be of each of '{shown}', or "
-                "they are of several kinds: rows in different units count alike. Export each unit in a column of its own"
+                f"'{name}' says several units ({words}), which are not converted: it may be of each of '{shown}', or "
+                "they are of several kinds. Rows in different units count alike: export one unit a column"
             )
     return None
 
