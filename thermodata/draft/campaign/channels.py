@@ -17,7 +17,7 @@ from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called, guess
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
@@ -27,7 +27,7 @@ from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.unit_column import UNIT_OF
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
@@ -154,6 +154,12 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     said = replace(said, sure=False) if where else said
+    if STATE_OF in signal.properties:
+        asked = (
+            f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known here: "
+            "all rows count; leave those out by the test's measuring, or by a window"
+        )
+        return Guess("state", sure=False, basis=("name",), questions=(asked,)), note
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

@@ -19,7 +19,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
 from thermodata.reader.text.rows.footer import footer_notes
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF, values_of
+from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
@@ -36,7 +36,6 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
-    flagging = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
     stands = table.stands if table.series is None else frozenset[int]()
     found = tuple(
         Signal(
@@ -44,7 +43,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
             timed.stream,
             units[i],
             kind,
-            properties=_said_of(table, i, flagging.get(names[i])),
+            properties=_said_of(table, i),
             held=i in stands,
         )
         for timed in table.groups
@@ -60,10 +59,9 @@ def signals(table: Table) -> tuple[Signal, ...]:
     return tuple(replace(s, **said.get(s.name, {})) for s in found)
 
 
-def _said_of(table: Table, column: int, flagged: str | None) -> dict[str, str]:
-    """flagged: the column whose quality this one tells."""
-    said = table.layout.said_of(column)
-    return said if flagged is None else {**said, QUALITY_OF: flagged}
+def _said_of(table: Table, column: int) -> dict[str, str]:
+    of_values = said_of_values(table.layout.names[column], table.states, table.quality, table.row_quality)
+    return {**table.layout.said_of(column), **of_values}
 
 
 def describe(table: Table, source: Source) -> Recording:
