@@ -156,8 +156,8 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     said = replace(said, sure=False) if where else said
     if STATE_OF in signal.properties:
         asked = (
-            f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known here: "
-            "all rows count; leave those out by the test's measuring, or by a window"
+            f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "
+            "here: all rows count; leave those out by the test's measuring, or by a window"
         )
         return Guess("state", sure=False, basis=("name",), questions=(asked,)), note
     if len(units) > 1 and said.quantity:
