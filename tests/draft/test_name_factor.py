@@ -14,8 +14,15 @@ from thermodata.draft.signals.values import values_of
     [
         ("-dZ [um]", "the name says '-': is that in the values? their sign is kept as it stands in the file"),
         ("dX*(-1) [um]", "the name says '*(-1)': is that in the values? their sign is kept as it stands"),
-        ("dY x10 [um]", 'the name says \'x10\': is that in the values? then unit: "0.1 um" takes it out; "10 um"'),
-        ("T_front*10 [°C]", "the name says '*10': is that in the values? then unit: \"0.1 °C\" takes it out"),
+        (
+            "dY x10 [um]",
+            'x10\': is that in the values? then unit: "0.1 um", instead_of: um takes it out; "10^1 um"',
+        ),
+        (
+            "T_front*10 [°C]",
+            "'*10': is that in the values? then unit: \"0.1 °C\", instead_of: °C takes it out",
+        ),
+        ("dZ*0,5 [um]", "the name says '*0,5': is that in the values? values are read as they stand"),
         ("dZ [um]", ""),
         ("Weg X10 [um]", ""),  # the tenth probe of an axis
         ("d x1 [um]", ""),

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.reader.text import split_unit
+from thermodata.schema.unit_scale import with_power_of_ten
 
 _SIGN = re.compile(r"^(?P<said>[-−–])\s*(?=[^\W\d_])")
 _NUMBER = r"(?P<minus>[-−–]?)\s*(?P<number>\d+(?:[.,]\d+)?)"
@@ -24,11 +25,12 @@ def with_factor_asked(found: Guess, name: str) -> Guess:
     factor = float(number)
     turned = bool(said.get("minus")) or match.re is _SIGN
     asked = f"the name says '{match['said'].strip()}': is that in the values?"
-    if factor not in (0.0, 1.0):
-        unit = found.unit or "its unit"
-        asked += (
-            f' then unit: "{1 / factor:g} {unit}" takes it out; "{factor:g} {unit}" where it is still to be applied'
-        )
+    ways = [with_power_of_ten(f, found.unit or "?") for f in (1 / factor, factor)] if factor else [None, None]
+    if all(ways):
+        own = f", instead_of: {found.unit}" if found.unit else ""
+        asked += f' then unit: "{ways[0]}"{own} takes it out; "{ways[1]}" where values still need it'
+    elif factor != 1.0:
+        asked += " values are read as they stand"
     if turned:
         asked += " their sign is kept as it stands in the file"
     return replace(found, sure=False, questions=(*found.questions, asked))

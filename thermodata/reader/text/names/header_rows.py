@@ -191,8 +191,8 @@ def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
     return len(named) == width and all(named) and few < width and not any(said[few:])
 
 
-def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
-    """A note for lines between the names and the data that are part of neither, nor units."""
+def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
+    """The rows between the names and the data that are part of neither, nor units; from 0."""
     texts = [_texts(r, width)[:width] for r in rows]
     called = _labelled_units(texts)
     at = [i for i in range(len(texts)) if i != called]
@@ -202,8 +202,7 @@ def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list
     named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     times = [] if named is None else _times_among(texts[at[spanning[named]]])
-    odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
-    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
+    return [i for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
 
 
 def are_numbers(cells: Sequence[Cell]) -> bool:
