@@ -15,6 +15,7 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called, guess
+from thermodata.draft.signals.head_said import with_head
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
@@ -27,6 +28,7 @@ from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.unit_column import UNIT_OF
+from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
@@ -154,6 +156,8 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     said = replace(said, sure=False) if where else said
+    if HEAD in signal.properties:
+        said, note = with_head(said, signal, note)
     if STATE_OF in signal.properties:
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "
