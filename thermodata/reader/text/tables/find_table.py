@@ -172,9 +172,9 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
-    unit = unit_column(bare, cells_of) if len(groups) == 1 else None
-    if unit and unit.others:  # what is converted is whole no more
-        kinds[layout.names.index(unit.of)] = "float64"
+    told_unit = unit_column(bare, cells_of) if len(groups) == 1 else None
+    if told_unit and told_unit.others:  # what is converted is whole no more
+        kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
@@ -201,7 +201,7 @@ def find_table(
         *shared({**quality, **of_rows}),
         *state_notes(own_cells, codes),
         standing_note,
-        unit.note() if unit else unit_column_note(bare, cells_of),
+        told_unit.note() if told_unit else unit_column_note(bare, cells_of),
         doubt,
         open_zone,
     ]
@@ -221,7 +221,7 @@ def find_table(
         blanks=blanks,
         begin=begin,
         zone=zone,
-        unit=unit,
+        unit=told_unit,
         stands=standing,
         row_quality=of_rows,
         states=codes,
