@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.schema.quantity import is_unit, linear_conversion
-from thermodata.schema.unit_scale import scaled_unit
+from thermodata.schema.unit_scale import scaled_unit, with_power_of_ten
 
 
 @pytest.mark.parametrize(
@@ -37,3 +37,21 @@ def test_a_range_and_a_factor_of_unknown_sense_scale_nothing(written: str) -> No
 
 def test_a_factor_behind_a_unit_is_no_unit() -> None:
     assert not is_unit("°C*10")
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit"),
+    [
+        (0.1, "0.1 um"),
+        (0.01, "0.01 um"),
+        (10.0, "10^1 um"),
+        (1000.0, "10^3 um"),
+        (0.5, None),
+        (1.0, None),
+        (-1.0, None),
+    ],
+)
+def test_a_power_of_ten_is_written_into_a_unit(factor: float, unit: str | None) -> None:
+    assert with_power_of_ten(factor, "um") == unit
+    if unit is not None:
+        assert scaled_unit(unit) == (pytest.approx(factor), "um")

@@ -13,13 +13,13 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
 from thermodata.reader.text.rows.quality_columns import (
-    QUALITY_OF,
     Pairs,
-    bad_rows,
     may_be_quality,
-    quality_pairs,
+    qualities,
+    said_of_values,
     shared,
-    values_of,
+    state_notes,
+    with_bad_rows,
 )
 from thermodata.reader.zone import NAT
 
@@ -30,16 +30,18 @@ _NO_NUMBER = "NaN"  # a cell that says it, where others say nothing
 @dataclass(frozen=True, slots=True)
 class Related:
     """stands: columns whose values stand over the empty cells behind them; quality: value column -> (that of its
-    quality, whether the code 0 is good); notes: on both."""
+    quality, whether the code 0 is good); row_quality: as quality, of whole rows whose values have one of their own too;
+    states: column of codes that are not known -> the value beside it; notes: on all."""
 
     stands: frozenset[str] = frozenset()
     quality: Pairs = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    row_quality: Pairs = field(default_factory=dict)
+    states: Mapping[str, str] = field(default_factory=dict)
 
     def properties(self, name: str) -> dict[str, str]:
         """What is said of a column: the values that it tells the quality of."""
-        values = values_of(self.quality).get(name)
-        return {QUALITY_OF: ", ".join(values)} if values else {}
+        return said_of_values(name, self.states, self.quality, self.row_quality)
 
 
 def rows_looked_at(columns: int) -> int:
@@ -66,10 +68,7 @@ class Relating:
                 values[name], flag = standing.over(values[name], flags.get(name), written)
                 if flag is not None:
                     flags[name] = flag
-        for name, (own, zero) in self.related.quality.items():
-            if name in values and own in values and (bad := bad_rows(values[own], zero)).any():
-                flags[name] = flags.get(name, np.zeros(bad.size, np.uint16)) | bad
-        return values, flags
+        return values, with_bad_rows(flags, values, self.related.quality, self.related.row_quality)
 
 
 def related(
@@ -90,10 +89,14 @@ def related(
     head = {name: v[:rows] for name, v in values.items()}
     # of a column that is called no quality its name is all that counts
     called = {name: _cells(v, empty.get(name)) if may_be_quality(name) else [] for name, v in head.items()}
-    quality = quality_pairs(called, lambda zero, name: declared_zero(said, zero, name, where))
+
+    def zero_of(zero: bool | None, name: str) -> bool:
+        return declared_zero(said, zero, name, where)
+
+    quality, of_rows, codes = qualities(called, zero_of)
     note = None
     told = _declared(said.get(KEY), list(values), beyond, where)
-    own = {name for name, _ in quality.values()}
+    own = {name for name, _ in (*quality.values(), *of_rows.values())}
     if told is None:
         seen = t_ns[t_ns != NAT]
         told = frozenset()
@@ -102,7 +105,13 @@ def related(
         if told_by_cells and not backwards and any(_has_gaps(v, empty.get(name)) for name, v in head.items()):
             told, note = find_standing({name: _cells(v, empty.get(name)) for name, v in head.items()})
     told |= {own for value, (own, _) in quality.items() if value in told}
-    return Related(told, quality, tuple(n for n in (note, *shared(quality)) if n))
+    return Related(
+        told,
+        quality,
+        tuple(n for n in (note, *shared({**quality, **of_rows}), *state_notes(called, codes)) if n),
+        of_rows,
+        codes,
+    )
 
 
 def _declared(said: object, names: Sequence[str], beyond: Collection[str], where: str) -> frozenset[str] | None:

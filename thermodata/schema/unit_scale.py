@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 
@@ -39,3 +40,12 @@ def scaled_unit(text: str) -> tuple[float, str]:
     else:
         factor = float((found["fraction"] or found["thousands"]).replace(",", "."))
     return factor, found["unit"]
+
+
+def with_power_of_ten(factor: float, unit: str) -> str | None:
+    """The unit that a count is of where a unit's values have such a factor before them: (0.1, 'um') -> '0.1 um',
+    (10.0, 'um') -> '10^1 um'; None of another factor than a power of ten."""
+    power = round(math.log10(factor)) if factor > 0 else 0
+    if power == 0 or not math.isclose(factor, 10.0**power, rel_tol=1e-9):
+        return None
+    return f"10^{power} {unit}" if power > 0 else f"{10.0**power:.{-power}f} {unit}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from thermodata.errors import QuestionError
 from thermodata.reader.text.page.layout import find
 
 Row = list[str]
@@ -100,3 +101,36 @@ def test_names_below_units_that_say_the_time_are_names() -> None:
     head = "Time\tA\tB\ns\t°C\t°C\nZeit\tfront\trear\n"
     found = find(rows(head + numbers(30, 3)), {"time": {"unit": "s"}}, "here")
     assert found.names[-2:] == ("front", "rear")
+
+
+@pytest.mark.parametrize(
+    ("between", "proposed"),
+    [
+        (
+            "Faktor;1;1;0,5\nOffset;0;-1,5;0",
+            "else: an export that has them, or, of a displacement, a calibration of kind scale",
+        ),
+        ("Faktor;0,1;0,1;0,01", '; dZ: unit: "0.01 um", instead_of: um'),
+        ("Skalierung:;10;10;1", 'T_Bett: unit: "10^1 °C", instead_of: °C'),
+    ],
+)
+def test_factors_between_header_and_data_are_asked(between: str, proposed: str) -> None:
+    head = f"Zeit;T_Lager;T_Bett;dZ\n;°C;°C;um\n{between}\n"
+    body = "\n".join(f"12.03.2026 08:00:{k:02d};21,{k};20,{k};0,{k}" for k in range(40))
+    table = [line.split(";") for line in (head + body).split("\n")]
+    with pytest.raises(QuestionError) as refused:
+        find(table, None, "here", ";")
+    first = head.count("\n")
+    assert refused.value.declare == {"header_rows": first}
+    assert f"line 3 '{between.splitlines()[0].replace(';', ' ')}'" in refused.value.ask
+    assert refused.value.ask.endswith(proposed)
+    found = find(table, {"header_rows": first}, "here")
+    assert found.names == ("Zeit", "T_Lager", "T_Bett", "dZ")
+    assert found.units[1:] == ("°C", "°C", "um")
+
+
+def test_lines_between_that_change_nothing_are_quoted() -> None:
+    head = "Zeit;T_Lager;dZ\n;°C;um\nFaktor;1;1,0\n"
+    body = "\n".join(f"12.03.2026 08:00:{k:02d};21,{k};0,{k}" for k in range(40))
+    found = find([line.split(";") for line in (head + body).split("\n")], None, "here")
+    assert "line 3 between header and data is not read (1 such): 'Faktor 1 1,0'" in found.notes

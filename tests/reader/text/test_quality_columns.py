@@ -11,7 +11,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
-from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, worded
+from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, states, worded
 
 
 @pytest.mark.parametrize(
@@ -137,3 +137,51 @@ def test_a_quality_of_0_alone_is_asked_and_the_answer_has_the_last_word() -> Non
 )
 def test_columns_of_quality_are_known_by_their_names(name: str, told: bool) -> None:
     assert (tells_quality(name) is not None) is told
+
+
+@pytest.mark.parametrize(
+    ("columns", "pairs"),
+    [
+        ({"T1 [°C]": ["20"], "T1_Err": ["0", "0", "8"]}, {"T1 [°C]": ("T1_Err", True)}),
+        ({"T1": ["20"], "T1 Fault": ["FALSE", "FALSE", "TRUE"]}, {"T1": ("T1 Fault", True)}),
+        ({"T1": ["20"], "T1.error_code": ["OK", "OK", "break"]}, {"T1": ("T1.error_code", True)}),
+        ({"T1 [°C]": ["20"], "T1_Valid": ["1", "0"]}, {"T1 [°C]": ("T1_Valid", False)}),
+        ({"T1 [°C]": ["20"], "T1.Quality": ["192"]}, {"T1 [°C]": ("T1.Quality", False)}),
+        ({"T1": ["20"], "T1_Status": ["OK", "Bad"]}, {"T1": ("T1_Status", True)}),
+        ({"X": ["20"], "X_err": ["0", "0.3", "-0.2"]}, {}),  # of a path: a length
+        ({"X": ["20"], "X_err": [str(k) for k in range(40)]}, {}),
+        ({"X": ["20"], "X_err": ["3", "3", "2"]}, {}),  # 0 is not what it mostly says
+        ({"T1": ["20"], "T2_Err": ["0", "1"]}, {}),
+        ({"T1": ["20"], "T1_Status": ["0", "3"]}, {}),
+    ],
+)
+def test_columns_of_faults_are_of_the_channel_that_they_are_called_after(
+    columns: dict[str, list[str]], pairs: dict[str, tuple[str, bool]]
+) -> None:
+    assert quality_pairs(columns) == pairs
+
+
+def test_a_state_in_codes_that_are_not_known_is_told() -> None:
+    columns = {"T1 [K]": ["20"], "T1_Status": ["0", "128"], "T2": ["20"], "T2_Status": ["21.5", "22.5"]}
+    assert states(columns, {}) == {"T1_Status": "T1 [K]"}
+
+
+def test_faults_of_a_value_and_of_its_row_are_both_flagged(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{k:02};20.{k};{8 * (k == 3)};21.{k};{int(k != 5)}" for k in range(40)]
+    head = "time;T_front [°C];T_front_Err;T_rear [°C];Valid"
+    (tmp_path / "a.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
+    table = delimited.open_table(tmp_path / "a.csv", Source())
+    (block,) = [b for b in delimited.blocks(tmp_path / "a.csv", table, Source()) if isinstance(b, Block)]
+    flagged = {name: np.flatnonzero(flags).tolist() for name, flags in (block.flags or {}).items()}
+    assert flagged == {"T_front [°C]": [3, 5], "T_rear [°C]": [5]}
+    said = {s.name: s.properties.get("quality_of") for s in delimited.signals(table)}
+    assert said["T_front_Err"] == "T_front [°C]"
+    assert set((said["Valid"] or "").split(", ")) == {"T_front [°C]", "T_rear [°C]"}
+
+
+def test_unknown_codes_are_noted(tmp_path: Path) -> None:
+    rows = [f"2026-03-02 08:00:{k:02};20.{k};{128 * (k == 3)}" for k in range(40)]
+    (tmp_path / "a.csv").write_text("\n".join(["time;T1;T1_Status", *rows, ""]), encoding="utf-8")
+    table = delimited.open_table(tmp_path / "a.csv", Source())
+    assert any("'T1_Status' holds codes of 'T1' (0, 128) that are not known here" in note for note in table.notes)
+    assert {s.name: s.properties for s in delimited.signals(table)}["T1_Status"] == {"state_of": "T1"}

@@ -75,3 +75,32 @@ def test_the_letter_of_a_machine_is_no_unit(tmp_path: Path) -> None:
     (tmp_path / "b.csv").write_text("\n".join(["Date/Time,Unit,Temperature", *rows, ""]), encoding="utf-8")
     found = delimited.signals(with_series(delimited.open_table(tmp_path / "b.csv", Source()), Source()))
     assert {s.name: s.unit for s in found} == {"A/Temperature": None, "C/Temperature": None}
+
+
+def _values(path: Path, name: str, *rows: str) -> tuple[str | None, list[float], list[str]]:
+    """(unit, values, notes) of a column; rows: the header, and what stands behind the times."""
+    stamped = [f"2026-03-14 08:{k // 60:02d}:{k % 60:02d};{row}" for k, row in enumerate(rows[1:])]
+    path.write_text("\n".join([rows[0], *stamped, ""]), encoding="utf-8")
+    table = delimited.open_table(path, Source())
+    found = [b for b in delimited.blocks(path, table, Source()) if isinstance(b, Block)]
+    unit = next(s.unit for s in delimited.signals(table) if s.name == name)
+    return unit, np.concatenate([b.values[name] for b in found]).tolist(), list(table.notes)
+
+
+def test_rows_of_a_logger_that_changes_its_range_are_converted_to_one_unit(tmp_path: Path) -> None:
+    rows = [f"21.5;{900 + k};mA" for k in range(20)] + [f"21.5;{1 + k};A" for k in range(20)]
+    unit, values, notes = _values(tmp_path / "a.csv", "Strom", "Time;T_front [°C];Strom;Einheit", *rows)
+    assert unit == "mA"
+    assert values == pytest.approx([*range(900, 920), *(1000 * (1 + k) for k in range(20))])
+    assert "'Einheit' says the unit of 'Strom' row by row: 'A' is converted to 'mA'" in notes
+    rows = ["20.5;°C"] * 20 + ["68.9;°F"] * 20
+    assert _values(tmp_path / "b.csv", "T", "Time;T;unit", *rows)[1] == pytest.approx([20.5] * 40)
+
+
+def test_units_that_differ_and_are_not_taken_are_told(tmp_path: Path) -> None:
+    rows = ["21.5;900;mA"] * 20 + ["21.5;1.0;A"] * 20
+    notes = _values(tmp_path / "a.csv", "Strom", "Time;T_front;Strom;Einheit", *rows)[2]
+    assert any("'Einheit' says several units (mA, A), which are not converted" in note for note in notes)
+    rows = ["20.5;°C"] * 20 + ["3.5;bar"] * 20
+    notes = _values(tmp_path / "b.csv", "Wert", "Time;Wert;Einheit", *rows)[2]
+    assert any("'Einheit' says several units (°C, bar)" in note for note in notes)

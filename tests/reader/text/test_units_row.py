@@ -61,3 +61,18 @@ def creeping() -> Array:
     import numpy as np
 
     return np.linspace(13.0, 16.6, 360)
+
+
+def test_units_stand_above_what_the_user_called_the_channels() -> None:
+    read = _layout("DATUM:;ZEIT:;M00: °F;M01: V", ";;T Lager;P Motor Strom")
+    assert read == {"DATUM:": None, "ZEIT:": None, "T Lager": "°F", "P Motor Strom": "V"}
+    read = _layout("DATUM:;ZEIT:;M00: °C;M01: °F;M02: mm", ";;Lager;Lager;Weg")
+    assert list(read.items())[2:] == [("M00/Lager", "°C"), ("M01/Lager", "°F"), ("M02/Weg", "mm")]
+
+
+def test_names_that_repeat_are_told_apart_by_the_comments_below_their_units() -> None:
+    columns, units = "A(X);B(Y);C(Y);D(yEr±)", "min;°C;mm;um"
+    read = _layout(columns, "Time;Front bearing;TCP Z;TCP Z", units, ";Pt100;probe 1;error")
+    assert read == {"Time": "min", "Front bearing": "°C", "TCP Z/probe 1": "mm", "TCP Z/error": "um"}
+    read = _layout(columns, "Time;Front bearing;TCP Z;TCP X", units, ";Pt100;probe 1;error")
+    assert read == {"Time": "min", "Front bearing": "°C", "TCP Z": "mm", "TCP X": "um"}

@@ -15,19 +15,21 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called, guess
+from thermodata.draft.signals.head_said import with_head
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
-from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
-from thermodata.reader.interleaved import bare_header
+from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF
+from thermodata.reader.text.names.unit_column import UNIT_OF
+from thermodata.reader.text.preamble.units_said import HEAD
+from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
@@ -119,11 +121,11 @@ def _counts_rows(one: OneSignal) -> bool:
 
 
 def _unit_of(one: OneSignal, found: Sequence[OneSignal]) -> OneSignal | None:
-    """The one signal of numbers beside a column of units, which has its unit from there."""
-    if one.signal.dtype != "str" or bare_header(one.signal.name) not in UNIT_WORDS:
-        return None
-    beside = [o for o in found if o.signal.stream == one.signal.stream and o.signal.dtype != "str"]
-    return beside[0] if len(beside) == 1 and beside[0].signal.unit else None
+    """The signal of numbers whose unit a column says, by its reader."""
+    of = one.signal.properties.get(UNIT_OF)
+    return next(
+        (o for o in found if of is not None and (o.signal.stream, o.signal.name) == (one.signal.stream, of)), None
+    )
 
 
 def _moved_probe(said: Guess, name: str) -> Guess:
@@ -154,6 +156,14 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     said = replace(said, sure=False) if where else said
+    if HEAD in signal.properties:
+        said, note = with_head(said, signal, note)
+    if STATE_OF in signal.properties:
+        asked = (
+            f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "
+            "here: all rows count; leave those out by the test's measuring, or by a window"
+        )
+        return Guess("state", sure=False, basis=("name",), questions=(asked,)), note
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

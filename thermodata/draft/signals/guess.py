@@ -12,6 +12,7 @@ from functools import lru_cache
 
 from thermodata.draft.signals import units
 from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
+from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
@@ -158,6 +159,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if not unit and units.may_be_an_inlet(_last(name)):
         asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
         found = replace(found, sure=False, questions=(*found.questions, asked))
+    found = with_factor_asked(found, _last(name))
     if values is None:
         return found
     return implausible(found, text, values) if known else doubted(found, bare, values)

@@ -5,7 +5,7 @@ A control's export, a logger's CSV, a spreadsheet saved as text: `table` looks a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,9 +17,11 @@ from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
-from thermodata.reader.text.names.unit_column import in_one_unit
+from thermodata.reader.text.names.described import names_at
+from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
+from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.rows.footer import footer_notes
-from thermodata.reader.text.rows.quality_columns import QUALITY_OF, values_of
+from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
@@ -36,15 +38,15 @@ _CUT = "the last line has no end and may be cut"
 def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
-    flagging = {quality: ", ".join(values) for quality, values in values_of(table.quality).items()}
     stands = table.stands if table.series is None else frozenset[int]()
+    heads = _heads(table)
     found = tuple(
         Signal(
             names[i],
             timed.stream,
             units[i],
             kind,
-            properties=_said_of(table, i, flagging.get(names[i])),
+            properties=_said_of(table, i, heads),
             held=i in stands,
         )
         for timed in table.groups
@@ -54,13 +56,28 @@ def signals(table: Table) -> tuple[Signal, ...]:
     if table.series is not None:
         return table.series.signals(found)
     told = table.unit
-    return found if told is None else tuple(replace(s, unit=told.unit) if s.name == told.of else s for s in found)
+    if told is None:
+        return found
+
+    def with_unit(signal: Signal) -> Signal:
+        if signal.name == told.column:
+            return replace(signal, properties={**signal.properties, UNIT_OF: told.of})
+        return replace(signal, unit=told.unit) if signal.name == told.of else signal
+
+    return tuple(map(with_unit, found))
 
 
-def _said_of(table: Table, column: int, flagged: str | None) -> dict[str, str]:
-    """flagged: the column whose quality this one tells."""
-    said = table.layout.said_of(column)
-    return said if flagged is None else {**said, QUALITY_OF: flagged}
+def _said_of(table: Table, column: int, heads: Mapping[str, str]) -> dict[str, str]:
+    """heads: what lines above the names say of units."""
+    name = table.layout.names[column]
+    of_values = said_of_values(name, table.states, table.quality, table.row_quality)
+    return {**table.layout.said_of(column), **of_values, **({HEAD: heads[name]} if name in heads else {})}
+
+
+def _heads(table: Table) -> Mapping[str, str]:
+    lines = table.sample.head[: table.layout.first]
+    rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in lines]
+    return units_said(rows[: names_at(rows, table.layout.names)], table.layout.names)
 
 
 def describe(table: Table, source: Source) -> Recording:

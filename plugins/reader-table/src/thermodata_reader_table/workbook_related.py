@@ -22,7 +22,7 @@ def with_related(
     values = {name: v[good] for name, v in stream.values.items()}
     empty = {name: e[good] for name, e in stream.empty.items()}
     found = related(said, values, empty, stream.times.t_ns, where, told_by_cells=told_by_cells, beyond=beyond)
-    if not found.stands and not found.quality:
+    if not (found.stands or found.quality or found.states):
         return stream, found
     flags = {name: f[good] for name, f in stream.flags.items()}
     values, flags = Relating(found).over(values, flags, empty)

@@ -26,12 +26,13 @@ _NAMES = tuple(
         "(?:quality|qualit(?:ä|ae?)t)(?:code|name|text|flags?)?",
         "statuscode",
         "status",
-        "validity",
+        "valid(?:ity)?",
         "dataintegrity",
     )
 )
 _GOOD_WORDS = ("good", "uncertain", "ok", "gut", "valid", "true")
 _BAD_WORDS = ("bad", "schlecht", "invalid", "false")
+_NO_FAULT = ("false", "ok", "none", "no", "no error", "good", "-", "nein", "kein", "keine", "falsch")
 _INITIAL = 133  # the first value of Wonderware's answer, whose quality is 0 (good), 1 (bad), 16 (doubtful) or this
 _GOOD = frozenset({0, 1, _INITIAL, *range(192, 220), 248, 249, 252})  # somewhere
 _KNOWN = _GOOD | {*range(4, 33, 4), *range(64, 92, 4)}
@@ -122,3 +123,10 @@ def is_good(status: str, zero: bool) -> bool:
     if zero:
         return code != 1 and code >> 30 < 2
     return code == 1 or 64 <= code <= 255 or (code > 255 and code >> 30 < 2)
+
+
+@lru_cache(maxsize=4096)
+def is_no_fault(text: str) -> bool:
+    """Whether a cell of a column of faults says none: 0, or a word for it; nothing at all too."""
+    bare = text.strip().casefold()
+    return not bare or bare in _NO_FAULT or _code(bare) == 0

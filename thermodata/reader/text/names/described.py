@@ -7,8 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.cell import is_number, is_stamp
+from thermodata.reader.text.names.group_heads import OF_TEXTS
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.reader.text.names.header_rows import OF_TEXTS, OF_UNITS
+from thermodata.reader.text.names.header_rows import OF_UNITS
 
 _OF_NAMES = re.compile(
     r"(?i)((signal|channel|kanal|sensor)[ _-]?)?"
@@ -21,7 +22,7 @@ _FEWEST = 2  # columns that a row of comments, or a list without a header, speak
 def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[list[str], list[str | None]]:
     """(what is said of each column, '' where nothing is; its unit, None where none is said). rows: above the data, as
     texts."""
-    rows = rows[: _names_at(rows, names)]
+    rows = rows[: names_at(rows, names)]
     listed = _listed(rows, names)
     said, units = _of_list(rows, listed, names)
     heads = {min(at for at, _ in listed) - 1} if listed else set()
@@ -31,7 +32,7 @@ def descriptions(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[l
     return said, units
 
 
-def _names_at(rows: Sequence[Sequence[str]], names: Sequence[str]) -> int:
+def names_at(rows: Sequence[Sequence[str]], names: Sequence[str]) -> int:
     """The place of the row of names: what stands below it says where values come from, not what they are called."""
     lasts = [n.rsplit("/", 1)[-1] for n in names]
     for at, row in enumerate(rows):

@@ -5,9 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from thermodata.reader.text.cells.cell import TIME_WORD, Cell, is_number, is_stamp
+from thermodata.reader.text.cells.cell import Cell, is_number, is_stamp
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.names.group_heads import (
+    apart_by_comments,
+    heads_over,
+    is_label,
+    of_channels,
+    under,
+    units_of_heads,
+    with_units_below,
+)
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.reader.text.names.time_header import says_time
 from thermodata.reader.text.names.units_row import (
     STATISTIC,
     are_units,
@@ -18,10 +28,8 @@ from thermodata.reader.text.names.units_row import (
     units_below,
 )
 
-# what loggers write before a row that describes the columns, and below the names for what was done with the readings
+# what loggers write before a row of units
 OF_UNITS = re.compile(r"(?i)units?|einheit(en)?|jednotk[ay]|unité|unità|unidad|単位|单位")
-OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
-_FIRST_WORD = re.compile(r"^[^\W\d_]+")
 
 
 def names_and_units(
@@ -60,21 +68,23 @@ def _read(
             units = as_units(spanning.pop())
         elif _units_among(spanning[-2], spanning[-1]):
             units = known_units(spanning.pop())
+    said: Sequence[Sequence[str]] = ()
     if named is not None:
-        spanning = spanning[: named + 1]
+        spanning, said = spanning[: named + 1], texts[at_all[named] + 1 :]
     names = spanning[-1] if spanning else [""] * width
     place = next((i for i in range(len(texts) - 1, -1, -1) if texts[i] is names), None)
     at = place or 0
     if place is not None and len(texts) < len(rows) and units_row is not None and place >= units_row:
         place += 1
     if at:
-        names = _with_units_below(texts[at - 1], names)
+        names = with_units_below(texts[at - 1], names)
     over = [""] * width
+    names = apart_by_comments(names, [row[:width] for row in said if not of_units(row, ())])
     found = [split_unit(n)[1] for n in names]
     if at and any(texts[at - 1]):
-        of_heads = _units_of_heads(texts[at - 1], names)
-        over, names = _heads_over(texts[at - 1], names), _under(texts[at - 1], names)
-        names = _of_channels(texts[: at - 1], names)
+        of_heads = units_of_heads(texts[at - 1], names)
+        over, names = heads_over(texts[at - 1], names), under(texts[at - 1], names)
+        names = of_channels(texts[: at - 1], names)
         found = [own or split_unit(n)[1] or head for own, n, head in zip(found, names, of_heads, strict=True)]
     return names, [u or f for u, f in zip(units, found, strict=True)], over, place
 
@@ -130,14 +140,14 @@ def _comments_below_units(above: Sequence[str], row: Sequence[str], below: Seque
     """Whether units stand right below names: further rows, without a word for the time, say where these come from, or
     what the sensors are. above: what is merged with the row below it."""
     merged = [n or a for n, a in zip(row, above, strict=True)] if above else row
-    times = _times_among(merged)
+    times = _times_among(merged, again=of_units(below[0], ()))
     unnamed = not any(says_time(r[k]) for r in below[1:] for k in times)
     return bool(times) and not mostly_units(row) and of_units(below[0], times) and unnamed
 
 
-def _times_among(row: Sequence[str]) -> list[int]:
-    """Which cells of a row that names every column say time; none of another row."""
-    if not all(row) or len(set(row)) < len(row) or any(is_number(c) or is_stamp(c) for c in row):
+def _times_among(row: Sequence[str], again: bool = False) -> list[int]:
+    """Which cells of a row that names every column say time; none of another row. again: its names may repeat."""
+    if not all(row) or (len(set(row)) < len(row) and not again) or any(is_number(c) or is_stamp(c) for c in row):
         return []
     return [k for k, c in enumerate(row) if says_time(c)]
 
@@ -149,21 +159,7 @@ def _names_nothing(row: Sequence[str], times: Sequence[int]) -> bool:
     if all(map(STATISTIC.fullmatch, filled)) or len(set(filled)) == 1:
         return True
     said = [row[k] for k in times if row[k]]
-    return bool(said) and not _is_label(row[0]) and not any(map(says_time, said))
-
-
-def _is_label(cell: str) -> bool:
-    """Whether a first cell says what its row holds, as "Comment" and "Tag" do."""
-    return cell.endswith(":") or OF_TEXTS.fullmatch(cell.strip(" .")) is not None
-
-
-def says_time(cell: str) -> bool:
-    """Whether a cell is a word for time, or begins with one: 'Zeit  1 - Standard [s]', 'Date Time, GMT+01:00'."""
-    first = _FIRST_WORD.match(cell)
-    word = split_unit(cell)[0]
-    return TIME_WORD.match(word) is not None or (
-        first is not None and len(first[0]) > 1 and TIME_WORD.match(first[0]) is not None
-    )
+    return bool(said) and not is_label(row[0]) and not any(map(says_time, said))
 
 
 def _spanning(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
@@ -195,8 +191,8 @@ def _ends_early(row: Sequence[Cell], above: Sequence[Cell], width: int) -> bool:
     return len(named) == width and all(named) and few < width and not any(said[few:])
 
 
-def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list[str]:
-    """A note for lines between the names and the data that are part of neither, nor units."""
+def rows_between(rows: Sequence[Sequence[Cell]], width: int) -> list[int]:
+    """The rows between the names and the data that are part of neither, nor units; from 0."""
     texts = [_texts(r, width)[:width] for r in rows]
     called = _labelled_units(texts)
     at = [i for i in range(len(texts)) if i != called]
@@ -206,8 +202,7 @@ def lines_between(rows: Sequence[Sequence[Cell]], width: int, skip: int) -> list
     named = _named([texts[i] for i in at], spanning, width)
     below = at[spanning[-1 if named is None else named] + 1 :]
     times = [] if named is None else _times_among(texts[at[spanning[named]]])
-    odd = [i + skip + 1 for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
-    return [f"line {odd[0]} between header and data is not read ({len(odd)} such)"] if odd else []
+    return [i for i in below if any(texts[i]) and (named is None or not of_units(texts[i], times))]
 
 
 def are_numbers(cells: Sequence[Cell]) -> bool:
@@ -231,65 +226,3 @@ def _units_among(above: Sequence[str], row: Sequence[str]) -> bool:
         and len(units) * 3 >= len(said)
         and len(units) > sum(map(looks_like_unit, named))
     )
-
-
-def _heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
-    """The head of the group that each name stands in: several heads, each written once over the first of its columns,
-    and words, not numbers; a single one is a title of the sheet."""
-    heads = [c for c in above if c]
-    merged = len(heads) < len(names) and any(n and not a for a, n in zip(above, names, strict=True))
-    if len(heads) < 2 or not merged or any(is_number(c) or is_stamp(c) for c in heads) or mostly_units(above):
-        return [""] * len(names)
-    carried, group = [], ""
-    for k, cell in enumerate(above):
-        group = "" if k == 0 and _is_label(cell) else cell or group
-        carried.append(group if names[k] else "")
-    return carried
-
-
-def _units_of_heads(above: Sequence[str], names: Sequence[str]) -> list[str | None]:
-    """The unit that the head of its group says of each name, but for a time's: 'T_front (DEG F)' over 'Timestamp' and
-    'Value'."""
-    heads = _heads_over(above, names)
-    return [None if says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
-
-
-def _under(above: list[str], names: list[str]) -> list[str]:
-    """Names below a row of groups, which are written once, over the first of their columns (merged cells): the group
-    tells names apart that repeat, and is the name where there is none below it."""
-    filled = [n or a for a, n in zip(above, names, strict=True)]
-    below = [n for n in names if n]
-    if len(set(below)) == len(below):
-        return filled
-    carried, group = [], ""
-    for k, cell in enumerate(above):
-        label = k == 0 and _is_label(cell)  # which says what its row holds
-        group = "" if label else cell or group
-        carried.append(group)
-    apart = [f"{g}/{n}" if g and n and g != n else n or a for g, n, a in zip(carried, names, above, strict=True)]
-    return apart if sum(map(bool, above)) > 1 and len(set(apart)) >= len(set(filled)) else filled
-
-
-def _with_units_below(above: Sequence[str], names: Sequence[str]) -> list[str]:
-    """Names, where a cell of their row is a unit alone in brackets: that belongs to the name above it ('Sonda Z' over
-    '[mV]', beside 'column [°C]')."""
-    alone = [n[:1] + n[-1:] in ("[]", "()") and looks_like_unit(n[1:-1]) for n in names]
-    return [f"{a} {n}" if a and unit else n for a, n, unit in zip(above, names, alone, strict=True)]
-
-
-def _of_channels(rows: Sequence[Sequence[str]], names: list[str]) -> list[str]:
-    """Statistics that repeat (MIN, MAX, MIN, MAX), each with its channel, by the lowest row above them that tells them
-    apart: 'spindle/MIN'. Other names stay."""
-    again = [k for k, n in enumerate(names) if n and names.count(n) > 1]
-    if not all(STATISTIC.fullmatch(names[k]) for k in again):
-        return names
-    for row in reversed(rows):
-        # a channel begins over any value, also one whose own name does not repeat; over the time stands what the row,
-        # or the sheet, is called
-        channel = ""
-        said = [c if n and not says_time(n) else "" for c, n in zip(row, names, strict=False)]
-        channels = [channel := c or channel for c in said]
-        of = {k: f"{channels[k]}/{names[k]}" if channels[k] else "" for k in again}
-        if all(of.values()) and len(set(of.values())) == len(again):
-            return [of.get(k, n) for k, n in enumerate(names)]
-    return names

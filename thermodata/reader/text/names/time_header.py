@@ -11,6 +11,7 @@ from thermodata.reader.time_units import SECONDS, known_unit
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
 )
+_FIRST_WORD = re.compile(r"^[^\W\d_]+")
 _MARK = re.compile(r"^\s*[#%;]+\s*")  # of a comment that holds the header
 
 
@@ -34,3 +35,12 @@ def is_time_header(header: str, unit: str | None = None) -> bool:
     if unit is not None and unit_of_time(header, unit) is None:
         return False
     return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)
+
+
+def says_time(cell: str) -> bool:
+    """Whether a cell is a word for time, or begins with one: 'Zeit  1 - Standard [s]', 'Date Time, GMT+01:00'."""
+    first = _FIRST_WORD.match(cell)
+    word = split_unit(cell)[0]
+    return TIME_WORD.match(word) is not None or (
+        first is not None and len(first[0]) > 1 and TIME_WORD.match(first[0]) is not None
+    )

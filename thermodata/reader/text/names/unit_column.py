@@ -7,68 +7,115 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Block, Bool1D, Loss
+from thermodata.plugin import Block, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.unit_words import holds_units, may_be_a_machine
-from thermodata.schema.quantity import is_unit, normal_unit
+from thermodata.schema.quantity import converts, is_unit, linear_conversion, normal_unit
+
+UNIT_OF = "unit_of"  # property of a signal: the one whose unit it says
+_SHOWN = 4
 
 
 @dataclass(frozen=True, slots=True)
 class UnitColumn:
-    """column: that says it; of: the name of what it is of; unit: in all rows that were looked at."""
+    """column: that says it; of: the name of what it is of; unit: of the first row; others: that other rows have, as a
+    logger that chose its range, which are converted."""
 
     column: str
     of: str
     unit: str
+    others: tuple[str, ...] = ()
+
+    def note(self) -> str | None:
+        """What is told of rows in several units."""
+        if not self.others:
+            return None
+        shown = ", ".join(f"'{unit}'" for unit in self.others)
+        return f"'{self.column}' says the unit of '{self.of}' row by row: {shown} is converted to '{self.unit}'"
 
 
 def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> UnitColumn | None:
-    """None where no column is called a unit, its cells are none or several, or it may be of several columns. kinds: of
-    the columns beside the time whose headers say no unit; cells: their sampled cells."""
+    """None where no column is called a unit, its cells are none, or of several kinds, or it may be of several columns.
+    kinds: of the columns beside the time whose headers say no unit; cells: their sampled cells."""
     called = [n for n, kind in kinds.items() if kind == "str" and holds_units(n, map(clean, cells[n]))]
     numbers = [n for n, kind in kinds.items() if kind not in (None, "str", "bool")]
     if len(called) != 1 or len(numbers) != 1:
         return None
-    found = dict.fromkeys(word for cell in cells[called[0]] if (word := clean(cell)))
-    unit = next(iter(found)) if len({normal_unit(word) for word in found}) == 1 else None
-    if unit is None or not is_unit(unit) or may_be_a_machine(unit):
+    found = _units_in(cells[called[0]])
+    first = next(iter(found), None)
+    if first is None or not is_unit(first) or (len(found) == 1 and may_be_a_machine(first)):
         return None
-    return UnitColumn(called[0], numbers[0], unit)
+    others = tuple(found)[1:]
+    if not all(_converts(other, first) for other in others):
+        return None
+    return UnitColumn(called[0], numbers[0], first, others)
 
 
-def machine_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> str | None:
-    """A note on a column called a unit that holds one letter, which is not taken."""
-    if sum(kind not in (None, "str", "bool") for kind in kinds.values()) != 1:
-        return None
+def unit_column_note(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> str | None:
+    """A note on a column called a unit that is not taken: it holds one letter, or units that differ, and may be of
+    several columns or is of several kinds of values. kinds: of the columns whose headers say no unit."""
+    numbers = [n for n, kind in kinds.items() if kind not in (None, "str", "bool")]
     for name, kind in kinds.items():
-        found = {word for cell in cells[name] if (word := clean(cell))} if bare_header(name) in UNIT_WORDS else set()
-        if kind == "str" and len(found) == 1 and may_be_a_machine(word := next(iter(found))) and is_unit(word):
+        if kind != "str" or bare_header(name) not in UNIT_WORDS or not numbers:
+            continue
+        found = _units_in(cells[name])
+        if not all(map(is_unit, found)):
+            continue
+        letters = all(map(may_be_a_machine, found))
+        if len(found) == 1 and letters and len(numbers) == 1:
+            word = next(iter(found))
             return f"'{name}' says '{word}', which may be a machine as well as a unit: if it is one, declare it as unit"
+        if len(found) > 1 and not letters:
+            words, shown = ", ".join(list(found)[:_SHOWN]), "', '".join(numbers[:_SHOWN])
+            return (
+                f"'{name}' says several units ({words}), which are not converted: it may be of each of '{shown}', or "
+                "they are of several kinds. Rows in different units count alike: export one unit a column"
+            )
     return None
 
 
+def _units_in(cells: Sequence[str]) -> dict[str, str]:
+    """The words of sampled cells, one of each unit -> it as it is spelled here."""
+    found: dict[str, str] = {}
+    for word in dict.fromkeys(map(clean, cells)):
+        if word and (spelled := normal_unit(word)) not in found.values():
+            found[word] = spelled
+    return found
+
+
+def _converts(word: str, unit: str) -> bool:
+    """Whether values in the one are converted to the other: letters alone may be machines."""
+    return (len(word) > 1 or len(unit) > 1) and is_unit(word) and converts(word, unit)
+
+
 def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> Iterator[Block | Loss]:
-    """The blocks without the rows that say another unit, which are a loss."""
+    """The blocks in one unit; rows in one that does not convert to it are left out, and a loss."""
     others: dict[str, int] = {}
     for item in items:
         if isinstance(item, Loss) or said.column not in item.values:
             yield item
             continue
-        words = np.array(words_of(said.column, item.values[said.column]), object)
-        same = [word for word in set(words.tolist()) if not word or normal_unit(word) == normal_unit(said.unit)]
-        other: Bool1D = ~np.isin(words.astype(str), same)
-        if not other.any():
-            yield item
-            continue
-        for word in words[other].tolist():
-            others[word] = others.get(word, 0) + 1
-        rows = np.flatnonzero(~other)
-        if rows.size:
-            flags = {k: v[rows] for k, v in (item.flags or {}).items()}
-            values = {k: v[rows] for k, v in item.values.items()}
-            yield Block(item.stream, item.t_ns[rows], values, flags or None, None if item.at is None else item.at[rows])
+        words = np.array(words_of(said.column, item.values[said.column]), object).astype(str)
+        values, lost = item.values[said.of], np.zeros(words.size, bool)
+        for word in np.unique(words).tolist():
+            if not word or normal_unit(word) == normal_unit(said.unit):
+                continue
+            rows = words == word
+            if values.dtype.kind == "f" and _converts(word, said.unit):
+                factor, offset = linear_conversion(word, said.unit)
+                values = np.where(rows, values * factor + offset, values)
+                continue
+            others[word] = others.get(word, 0) + int(rows.sum())
+            lost |= rows
+        kept = np.flatnonzero(~lost)
+        if kept.size:
+            flags = {k: v[kept] for k, v in (item.flags or {}).items()}
+            of_rows = {k: v[kept] for k, v in {**item.values, said.of: values}.items()}
+            yield Block(
+                item.stream, item.t_ns[kept], of_rows, flags or None, None if item.at is None else item.at[kept]
+            )
     for word, count in others.items():
         reason = f"{count} rows in another unit than '{said.unit}', as '{said.column}' says: {word[:20]}"
         yield Loss(where, reason=reason)

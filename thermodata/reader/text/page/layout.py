@@ -15,9 +15,10 @@ from thermodata.reader.text.clocks.time_groups import Span, spans
 from thermodata.reader.text.names.declared_names import declared_names, unused_note
 from thermodata.reader.text.names.described import descriptions
 from thermodata.reader.text.names.header import split_unit, unique
-from thermodata.reader.text.names.header_rows import are_numbers, lines_between, names_and_units, texts_of
+from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
 from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.line_up import Fit, line_up
+from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import with_interval
@@ -134,7 +135,8 @@ def find(
     data = _whole_rows(below, width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    lost = lines_between(above, width, skip) if header is None else []
+    asked = between is not None
+    lost = lines_between(above, width, skip, names, units, where, asked) if header is None else []
     try:
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     except QuestionError as question:

@@ -12,8 +12,8 @@ from itertools import pairwise
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, number_of
 from thermodata.reader.text.clocks.names_of_time import cells_of_time, empty_at_the_end, filled, names_of_time, rises
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.names.header_rows import place_of_names, says_time, texts_of
-from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.names.header_rows import place_of_names, texts_of
+from thermodata.reader.text.names.time_header import is_time_header, says_time
 
 _MARK = re.compile(r"[#%;!*]{1,3}|//+|--+")  # of a comment, as a word of its own
 NUMBERED = "the header names one column fewer than there are: the first holds the numbers of the rows"

@@ -17,7 +17,8 @@ from thermodata.reader.text.clocks.names_of_time import (
     rises,
 )
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.names.header_rows import place_of_names, says_time, texts_of
+from thermodata.reader.text.names.header_rows import place_of_names, texts_of
+from thermodata.reader.text.names.time_header import says_time
 from thermodata.reader.text.times.time_cells import belongs_to_time
 
 _DAY_WORD = re.compile(

@@ -8,8 +8,8 @@ from thermodata.errors import FormatError
 from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.clocks.names_of_time import filled
 from thermodata.reader.text.names.header import looks_like_unit
-from thermodata.reader.text.names.header_rows import place_of_names, says_time, texts_of
-from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.names.header_rows import place_of_names, texts_of
+from thermodata.reader.text.names.time_header import is_time_header, says_time
 from thermodata.reader.text.names.units_row import mostly_units
 from thermodata.reader.time_units import known_unit
 

@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.interleaved import bare_header
+from thermodata.reader.text.cells.number import to_bool, to_float
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, tells_quality, zero_is_good
+from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, is_no_fault, tells_quality, zero_is_good
+from thermodata.reader.text.names.header import split_unit
 
 _WORD = (
     r"(?P<word>(?:tag|opc(?: ?[du]a)?)?[ _]?qualit(?:y|[äa]t)(?:[ _]?(?:code|details?|opc))?"
-    r"|status[ _]?code|opc[ _]?status|validity)"
+    r"|status[ _]?code|opc[ _]?status|valid(?:ity)?)"
 )
 _QUALITY = re.compile(rf"^(?P<base>.+?)[ ._:/-]*{_WORD}$", re.IGNORECASE)
 _BARE = re.compile(rf"^{_WORD}(?:#\d+)?$", re.IGNORECASE)  # a name that stands again has its number
+# what a logger writes beside a channel: its faults, of which 0 is none, or a state in codes of its own
+_BESIDE = re.compile(
+    r"^(?P<base>.+?)[ ._:/-]+(?:(?P<fault>err(?:or)?s?|fault|fehler|alarm|chyba)(?:[ _]?(?:code|flag|nr|no))?"
+    r"|(?P<state>status|state|zustand|stav|estado|état))$",
+    re.IGNORECASE,
+)
+_MOST_CODES = 16
 _CODE = re.compile(r"^[+-]?\d*$")
 _FRACTION = re.compile(r"^[+-]?\d*[.,]\d*[1-9]\d*$")  # no code: what is called the quality of oil, or of air
 _ROUND = re.compile(r"^quality ?\((?P<base>.+)\)$", re.IGNORECASE)
+_WHOLE = re.compile(r"^\+?\d+(?:[.,]0*)?$")
 _VALUE = re.compile(r"[ ._:/-]*(?:value|wert)$", re.IGNORECASE)
 QUALITY_OF = "quality_of"  # property of a signal: the ones that it flags
+STATE_OF = "state_of"  # and the one whose state it tells, in codes that are not known here
 _SHOWN = 4
 Pairs = Mapping[str, tuple[str, bool]]
 Told = Callable[[bool | None, str], bool | None]
@@ -38,10 +50,92 @@ def quality_pairs(
         match = _QUALITY.match(name) or _ROUND.match(name)
         if match is None or _BARE.match(name):
             continue
-        base = match["base"].casefold()
-        value = next((o for o in columns if o != name and _VALUE.sub("", o).casefold() == base), None)
+        value = _value(columns, name, match["base"])
         if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
             found[value] = name, (match.groupdict().get("word") or "quality").casefold()
+    pairs = _with_zeros(found, columns, told)
+    for value, name in _beside(columns).items():
+        if _BESIDE.match(name)["fault"] or are_qualities(map(clean, columns[name]), name):  # type: ignore[index]
+            pairs[value] = name, True
+    return pairs
+
+
+def qualities(
+    columns: Mapping[str, Sequence[str]], told: Told
+) -> tuple[dict[str, tuple[str, bool]], dict[str, tuple[str, bool]], dict[str, str]]:
+    """`quality_pairs`, `pairs_of_rows` and `states` of columns."""
+    pairs = quality_pairs(columns, told)
+    return pairs, pairs_of_rows(columns, pairs, told), states(columns, pairs)
+
+
+def pairs_of_rows(columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told) -> dict[str, tuple[str, bool]]:
+    """The same of values that have a quality of their own in `pairs`, and one of the whole row as well."""
+    of_rows = _with_zeros(_of_bare(columns), columns, told)
+    return {value: own for value, own in of_rows.items() if pairs[value] != own}
+
+
+def states(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> dict[str, str]:
+    """Column of a state in codes that are not known here -> the value that it stands beside."""
+    known = {own for own, _ in pairs.values()}
+    return {name: value for value, name in _beside(columns).items() if name not in known}
+
+
+def state_notes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str]) -> list[str]:
+    """A note on each such column. found: by `states`."""
+    return [
+        f"'{name}' holds codes of '{value}' ({', '.join(_codes(columns[name])[:_SHOWN])}) that are not known here: its "
+        "rows count whatever they say; leave those out by the test's measuring, with it as a channel of quantity state"
+        for name, value in found.items()
+    ]
+
+
+def tells_faults(name: str) -> bool:
+    """Whether a column says the faults of another: 0 is none, and all else one."""
+    match = _BESIDE.match(name)
+    return match is not None and match["fault"] is not None
+
+
+def _beside(columns: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    """Value column -> the one of its faults or states, which holds a few codes; where faults are, 0 mostly."""
+    found: dict[str, str] = {}
+    for name, cells in columns.items():
+        match = _BESIDE.match(name)
+        value = None if match is None else _value(columns, name, match["base"])
+        if match is None or value is None or not 0 < len(codes := _codes(cells)) <= _MOST_CODES:
+            continue
+        numbers = all(_WHOLE.match(code) for code in codes)
+        if match["fault"] and not (is_no_fault(codes[0]) and (numbers or not any(map(_is_a_reading, codes)))):
+            continue  # what is called an error of a path is a length
+        if numbers or (match["fault"] is None and are_qualities(codes, name)) or match["fault"]:
+            found[value] = name
+    return found
+
+
+def _codes(cells: Sequence[str]) -> list[str]:
+    """The different cells that hold something, the most frequent first."""
+    return [code for code, _ in Counter(filter(None, map(clean, cells))).most_common()]
+
+
+def _is_a_reading(text: str) -> bool:
+    """Whether a cell holds a fraction, or a number below 0."""
+    number = None if to_bool(text) is not None else to_float(text, "," if "," in text else ".")
+    return number is not None and not _WHOLE.match(text)
+
+
+def _value(columns: Mapping[str, Sequence[str]], name: str, base: str) -> str | None:
+    """The column of values that another one is called after, with its unit or without."""
+    called, own = base.casefold(), split_unit(base)[0].casefold()
+
+    def matches(other: str) -> bool:
+        bare = _VALUE.sub("", split_unit(other)[0]).casefold()
+        return other != name and (bare == own or _VALUE.sub("", other).casefold() == called)
+
+    return next(filter(matches, columns), None)
+
+
+def _with_zeros(
+    found: Mapping[str, tuple[str, str]], columns: Mapping[str, Sequence[str]], told: Told
+) -> dict[str, tuple[str, bool]]:
     zeros: dict[str, bool] = {}
     for _, word in found.values():
         if word not in zeros:
@@ -52,7 +146,7 @@ def quality_pairs(
 
 def may_be_quality(name: str) -> bool:
     """Whether a column is called a quality: the cells of others tell `quality_pairs` nothing."""
-    return any(pattern.match(name) for pattern in (_QUALITY, _ROUND, _BARE))
+    return any(pattern.match(name) for pattern in (_QUALITY, _ROUND, _BARE, _BESIDE))
 
 
 def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]:
@@ -63,7 +157,10 @@ def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]
     if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
         surest = min(words, key=lambda word: (tells_quality(bare_header(word)) or 0, word))
         bare = {name: word for name, word in bare.items() if word == surest}
-    order = [name for name in columns if name in bare or not (_BARE.match(name) or _QUALITY.match(name))]
+    beside = set(_beside(columns).values())
+    order = [
+        name for name in columns if name in bare or not (name in beside or _BARE.match(name) or _QUALITY.match(name))
+    ]
     if len(bare) > 1 and order[-1] in bare:
         order.reverse()
     own = next(iter(bare), None) if len(bare) == 1 else None
@@ -84,6 +181,12 @@ def values_of(pairs: Pairs) -> dict[str, list[str]]:
     return values
 
 
+def said_of_values(name: str, states: Mapping[str, str], *pairs: Pairs) -> dict[str, str]:
+    """The properties of a column: the values that it flags, or the one whose state it tells."""
+    values = [value for each in pairs for value, (own, _) in each.items() if own == name]
+    return {QUALITY_OF: ", ".join(values)} if values else {STATE_OF: states[name]} if name in states else {}
+
+
 def shared(pairs: Pairs) -> list[str]:
     """A note on each quality column that flags the values of several others."""
     return [
@@ -100,12 +203,26 @@ def worded(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> set[str]:
     return {name for name in told if any(not _CODE.match(clean(cell)) for cell in columns[name])}
 
 
-def bad_rows(values: Array, zero: bool) -> Array:
-    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good."""
+def bad_rows(values: Array, zero: bool, faults: bool = False) -> Array:
+    """The flag of each row of a quality column, shape (n,), uint16: 0 where its value is kept as good. faults: it says
+    these, and 0 is none."""
     if values.dtype.kind == "f":
         texts = np.where(np.isnan(values), "", np.char.mod("%d", np.nan_to_num(values)))
     else:
         texts = np.array(["" if v is None else str(v) for v in values.tolist()], str)
     words, which = np.unique(texts, return_inverse=True)
-    flags: Array = np.array([0 if is_good(str(word), zero) else BAD for word in words], np.uint16)[which]
+    flags: Array = np.array([0 if _keeps(str(word), zero, faults) else BAD for word in words], np.uint16)[which]
     return flags
+
+
+def _keeps(text: str, zero: bool, faults: bool) -> bool:
+    return is_no_fault(text) if faults else is_good(text, zero)
+
+
+def with_bad_rows(flags: Mapping[str, Array], values: Mapping[str, Array], *pairs: Pairs) -> dict[str, Array]:
+    """The flags of values, with those of the rows that their quality columns call bad; shape (n,) each."""
+    found = dict(flags)
+    for name, (own, zero) in (item for each in pairs for item in each.items()):
+        if name in values and own in values and (bad := bad_rows(values[own], zero, tells_faults(own))).any():
+            found[name] = found.get(name, np.zeros(bad.size, np.uint16)) | bad
+    return found

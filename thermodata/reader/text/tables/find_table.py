@@ -18,12 +18,12 @@ from thermodata.reader.text.cells.zone_words import stated_zone
 from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
-from thermodata.reader.text.names.unit_column import machine_note, unit_column
+from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.rows.grid import TIME
-from thermodata.reader.text.rows.quality_columns import quality_pairs, shared, worded
+from thermodata.reader.text.rows.quality_columns import qualities, shared, state_notes, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
@@ -138,12 +138,11 @@ def find_table(
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
     groups = tuple(_timed(g, layout, body, head, cells, looked, stream, where) for g in layout.groups)
-    lines = map(cells, head[: layout.first])
-    groups, zone, open_zone = zones_said(groups, layout.names, lines, source.timezone)
+    groups, zone, open_zone = zones_said(groups, layout.names, map(cells, head[: layout.first]), source.timezone)
     cells_of = sampled_cells(layout, groups, body)
     own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
-    quality = quality_pairs(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
-    forced = {*(source.options.get("text") or ()), *worded(cells_of, quality)}
+    quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
+    forced = {*(source.options.get("text") or ()), *worded(cells_of, quality), *worded(cells_of, of_rows)}
     times = {
         i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
     }
@@ -165,8 +164,7 @@ def find_table(
         refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
     units_noted = [unit_note(cells_of[name], name) for name in words]
     numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
-    declared = said.get("decimal")
-    if declared == UNKNOWN:
+    if (declared := said.get("decimal")) == UNKNOWN:
         raise unanswered("decimal", "'.' or ','", where)
     told = told_thousands(numbers) if declared is None else None
     decimal = declared or (told.decimal if told else find_decimal(numbers, delimiter, where))
@@ -174,6 +172,9 @@ def find_table(
         named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
+    told_unit = unit_column(bare, cells_of) if len(groups) == 1 else None
+    if told_unit and told_unit.others:  # what is converted is whole no more
+        kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
     begin, doubt = None, None
@@ -197,9 +198,10 @@ def find_table(
         *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
         told.note if told else None,
         *units_noted,
-        *shared(quality),
+        *shared({**quality, **of_rows}),
+        *state_notes(own_cells, codes),
         standing_note,
-        machine_note(bare, cells_of),
+        told_unit.note() if told_unit else unit_column_note(bare, cells_of),
         doubt,
         open_zone,
     ]
@@ -219,8 +221,10 @@ def find_table(
         blanks=blanks,
         begin=begin,
         zone=zone,
-        unit=unit_column(bare, cells_of) if len(groups) == 1 else None,
+        unit=told_unit,
         stands=standing,
+        row_quality=of_rows,
+        states=codes,
     )
 
 

@@ -5,7 +5,8 @@ How it is found: find_table.py.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from thermodata.reader.series import Series
@@ -75,7 +76,8 @@ class Table:
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
     hosts are taken apart; unit: the column that holds the one of its numbers; stands: columns whose empty cells say
-    that the value before them still stands."""
+    that the value before them still stands; row_quality: as quality, of whole rows whose values have one of their own
+    too; states: column of codes that are not known -> the value beside it."""
 
     name: str
     sample: Sample
@@ -95,6 +97,8 @@ class Table:
     series: Series | None = None
     unit: UnitColumn | None = None
     stands: frozenset[int] = frozenset()
+    row_quality: Pairs = field(default_factory=dict)
+    states: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def absolute(self) -> bool:

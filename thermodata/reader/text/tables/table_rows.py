@@ -16,7 +16,7 @@ from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
-from thermodata.reader.text.rows.quality_columns import bad_rows, values_of
+from thermodata.reader.text.rows.quality_columns import values_of, with_bad_rows
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
 from thermodata.reader.text.tables.row_clock import RowClock
@@ -181,9 +181,7 @@ class RowReader:
                 values[name], flag = self._standing[i].over(values[name], flag, written)
             if flag is not None and flag.any():
                 flags[name] = flag
-        for name, (quality, zero) in self.table.quality.items():
-            if name in values and quality in values and (bad := bad_rows(values[quality], zero)).any():
-                flags[name] = flags.get(name, np.zeros(bad.size, np.uint16)) | bad
+        flags = with_bad_rows(flags, values, self.table.quality, self.table.row_quality)
         return Block(timed.stream, t_ns, values, flags or None, lines + 1)
 
     def _without_time(
