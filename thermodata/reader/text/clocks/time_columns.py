@@ -128,9 +128,9 @@ def time_of(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
             "if that is wrong"
         )
-    elif unit is None and (epoch := epoch_in(str(text), cells)) is not None:
+    elif unit is None and (epoch := epoch_in(name, str(text), cells, where)) is not None:
         notes.append(
-            f"time column '{name}' counts {text} since 1970 by its size: {epoch}; "
+            f"time column '{name}' counts {text} from a date by its size: {epoch}; "
             "declare table: {time: {unit: ...}} if that is wrong"
         )
         text = epoch
