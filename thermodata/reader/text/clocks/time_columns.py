@@ -16,6 +16,7 @@ from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hou
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
 from thermodata.reader.text.clocks.odd_clocks import clock_question
+from thermodata.reader.text.clocks.start_and_end import interval_note
 from thermodata.reader.text.clocks.time_questions import (
     ZONED_ROWS,
     epoch_in,
@@ -113,7 +114,7 @@ def time_of(
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes = zone_notes(columns, names, data)
     if wanted is None:
-        notes += beside_note(columns[0], names, data)
+        notes += [*beside_note(columns[0], names, data), *interval_note(columns, names, data)]
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
         form = said_clock(name, units[columns[0]], cells)
