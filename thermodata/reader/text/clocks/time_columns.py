@@ -22,6 +22,7 @@ from thermodata.reader.text.clocks.time_questions import (
     epoch_in,
     joined_question,
     no_time,
+    of_day_question,
     size_of_clock,
     time_question,
     without_word,
@@ -31,7 +32,7 @@ from thermodata.reader.text.clocks.time_questions import (
 from thermodata.reader.text.clocks.zoned_beside import beside_note, zoned_beside
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.times.clock_numbers import columns_of_clock, fraction_question
+from thermodata.reader.text.times.clock_numbers import columns_of_clock
 from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.spans import are_spans
@@ -122,8 +123,8 @@ def time_of(
         return columns, None, form, notes
     text = with_step(unit or units[columns[0]] or unit_of_time(name))
     if text is None:
-        if (fraction := fraction_question(columns[0], names, data, where)) is not None:
-            raise fraction
+        if (of_day := of_day_question(columns[0], names, data, where)) is not None:
+            raise of_day
         text = size_of_clock(name, cells, where)
         notes.append(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
@@ -204,11 +205,12 @@ def find_time(
 def _fraction_beside(
     columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
 ) -> QuestionError | None:
-    """What to ask where a day alone was found, and a column that is called a time holds numbers below 1."""
+    """What to ask where a day alone was found, and a column that is called a time holds parts of a day, or
+    clocks in one number."""
     if len(columns) != 1 or not any(is_dated(r[columns[0]]) and not _tell_the_hour([r[columns[0]]]) for r in data):
         return None
     times = [i for i, name in enumerate(names) if i not in columns and is_time_header(name)]
-    return next((q for i in times if (q := fraction_question(i, names, data, where)) is not None), None)
+    return next((q for i in times if (q := of_day_question(i, names, data, where)) is not None), None)
 
 
 def _named(header: str) -> bool:

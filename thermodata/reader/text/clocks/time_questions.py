@@ -16,7 +16,7 @@ from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.clock_numbers import year_and_day
+from thermodata.reader.text.times.clock_numbers import days_beside, fraction_question, year_and_day
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
@@ -177,6 +177,21 @@ def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[i
         letters = format_of_joined([str(r[i]).strip() for r in data if r[i] not in ("", None)])
         if letters is not None:
             return i, letters
+    return None
+
+
+def of_day_question(place: int, names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of numbers that are called a time beside days: parts of a day, or clocks such as 800 for 8:00. None
+    where they are neither."""
+    if (fraction := fraction_question(place, names, data, where)) is not None:
+        return fraction
+    cells = [str(r[place]).strip() for r in data if r[place] not in ("", None)]
+    letters = format_of_joined(cells)
+    for day in days_beside(place, names, data) if letters is not None else ():
+        days = [str(r[day]).strip() for r in data if r[day] not in ("", None)]
+        form = guess_format(days)
+        spelled = None if form is None else f"{form} {letters}"
+        return _format_question((day, place), names, spelled, f"{days[0]} {cells[0]}", where)
     return None
 
 
