@@ -94,3 +94,30 @@ def test_a_column_behind_a_date_that_is_called_otherwise_is_a_signal(tmp_path: P
     rows = [f"2026-07-14 08:{k:02d}:00;{k % 24};{k}.5" for k in range(40)]
     (tmp_path / "a.csv").write_text("\n".join(["Date;Hour;T", *rows, ""]))
     assert [name for _, name in load(Reader(), tmp_path / "a.csv", Source()).values] == ["Hour", "T"]
+
+
+@pytest.mark.parametrize(
+    ("head", "each", "step_ns"),
+    [
+        ("1/10s", 1, 10**8),
+        ("Zehntel", 1, 10**8),
+        ("1/100 s", 10, 10**7),
+        ("hundredths", 5, 10**7),
+        ("1/1000s", 5, 10**6),
+    ],
+)
+def test_parts_of_a_second_in_a_column_behind_whole_ones_are_read(
+    tmp_path: Path, head: str, each: int, step_ns: int
+) -> None:
+    rows = [f"12.03.2026;08:00:{k // 5:02d};{k % 5 * each};{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / "a.csv").write_text("\n".join([f"Date;Time;{head};T", *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    expected = [(k // 5) * 10**9 + k % 5 * each * step_ns for k in range(50)]
+    assert (data.t_ns["table"] - data.t_ns["table"][0]).tolist() == expected
+    assert [name for _, name in data.values] == ["T"]
+
+
+def test_parts_beyond_those_of_a_second_are_a_signal(tmp_path: Path) -> None:
+    rows = [f"12.03.2026;08:00:{k:02d};{k};{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Time;1/10s;T", *rows, ""]))
+    assert len(load(Reader(), tmp_path / "a.csv", Source(timezone="UTC")).values) == 2
