@@ -103,3 +103,13 @@ def test_words_for_time_of_more_languages(tmp_path: Path, head: str) -> None:
     )
     table = delimited.open_table(tmp_path / "log.csv", Source())
     assert [table.layout.names[i] for i in table.layout.time] == [head]
+
+
+def test_a_time_that_the_interval_above_it_contradicts_is_asked(tmp_path: Path) -> None:
+    rows = [f"{k},{20 + k / 100:.2f},{k / 10:.1f}" for k in range(60)]
+    head = ["# Sample interval: 10 s", "Time [s],T_bearing [degC],Z [um]"]
+    (tmp_path / "log.csv").write_text("\n".join([*head, *rows, ""]), "utf-8")
+    draft_files(tmp_path)
+    assert "every 10 s by 'Sample interval: 10 s' above them: which one is it?" in (
+        tmp_path / "campaign.yaml"
+    ).read_text("utf-8")

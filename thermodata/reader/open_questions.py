@@ -7,6 +7,8 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
 
+ASK = "which one is it?"  # in a note on times that may be read in two ways: `init` asks it
+YEAR = "which year is it?"  # the same
 UNKNOWN = "unknown"  # what a drafted campaign file writes where only the lab knows
 
 

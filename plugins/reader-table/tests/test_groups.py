@@ -53,6 +53,9 @@ def held(data: Data, stream: str, name: str, t: list[float], values: list[Any]) 
             ("Zeit  1 - Standard [s]", "Zeit  2 - Fast [s]"),
             ("a", "b"),
         ),
+        ("x [s];a;x [s];b;c", ("x [s]", "x [s]#2"), ("a", "b")),
+        ("x1 [s];a;x2 [s];b;c", ("x1 [s]", "x2 [s]"), ("a", "b")),
+        ("x;a;x;b;c\ns;V;s;V;V", ("x", "x#2"), ("a", "b")),
         ("CH1;;CH2;;\nTime;Value;Time;Value;n", ("CH1/Time", "CH2/Time"), ("CH1/Value", "CH2/Value")),
     ],
 )
@@ -64,6 +67,17 @@ def test_each_group_is_a_stream_of_its_own_length(
     held(data, streams[1], names[1], B, VB)
     assert not data.losses
     assert data.recording.notes[0].startswith("2 time columns, each with the columns behind it")
+
+
+def test_a_time_that_another_one_repeats_in_its_own_unit_is_of_its_columns(tmp_path: Path) -> None:
+    data = read(tmp_path, "x [s];a;x [min];b\n" + rows(A, VA, [t / 60 for t in B], VB), time={})
+    held(data, "x [s]", "a", A, VA)
+    held(data, "x [min]", "b", B, VB)
+
+
+@pytest.mark.parametrize("header", ["x [s];a;x [um];b", "x [s];a;y [s];b", "a;x [s];b;x [s]"])
+def test_a_position_and_a_span_are_no_times_of_other_columns(tmp_path: Path, header: str) -> None:
+    assert len(read(tmp_path, header + "\n" + rows(A, A, A, A), time={"column": 1, "unit": "s"}).t_ns) == 1
 
 
 def test_groups_of_dates_have_lengths_of_their_own(tmp_path: Path) -> None:

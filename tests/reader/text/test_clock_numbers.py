@@ -50,6 +50,8 @@ def test_hours_and_minutes_beside_a_date_are_its_time_of_day(tmp_path: Path, hea
     [
         ("Date;Time;T_front", "2026-07-{d};{part:.10f};{T}", "fraction of the day in 'Date'"),
         ("Date,Time,T_front", "202607{d},{joined},{T}", "%Y%m%d %H%M%S"),
+        ("Date,Time,T_front", "2026-07-{d},{hhmm},{T}", "%Y-%m-%d %H%M"),
+        ("Datum;Uhrzeit;T_front", "{d}.07.2026;{hhmm};{T}", "%d.%m.%Y %H%M"),
         ("Year,DOY,HHMM,T_front", "2026,{doy},{hhmm},{T}", "%Y %j %H%M"),
     ],
 )
@@ -62,6 +64,26 @@ def test_what_may_be_a_time_of_day_is_asked_with_an_answer_that_reads_it(
     assert times(tmp_path, head, row, **asked.value.declare) == EVERY
 
 
+def test_a_year_its_day_and_a_clock_without_a_header_are_asked_as_such_and_no_channels(tmp_path: Path) -> None:
+    rows = [f"101,2026,71,{800 + k},{20 + k / 9:.2f},{20 + k / 7:.2f}" for k in range(59)]
+    (tmp_path / "a.csv").write_text("\n".join([*rows, ""]))
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    assert asked.value.declare == {"time": {"column": [2, 3, 4], "format": "%Y %j %H%M"}}
+    assert asked.value.times == ("column 2", "column 3", "column 4")
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC", table=asked.value.declare))
+    assert data.t_ns["table"][0] == np.datetime64("2026-03-12T08:00", "ns").astype(np.int64)
+
+
+def test_minutes_from_a_start_beside_a_date_are_no_clock(tmp_path: Path) -> None:
+    """They go on behind 59, where a clock has its next hour."""
+    rows = [f"2026-07-14;{800 + k};{20 + k / 9:.2f}" for k in range(90)]
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Time;T", *rows, ""]))
+    with pytest.raises(QuestionError) as asked:
+        load(Reader(), tmp_path / "a.csv", Source())
+    assert asked.value.declare == {"time": {"unit": "unknown"}}
+
+
 def test_seconds_from_a_start_beside_a_date_are_no_fraction_of_it(tmp_path: Path) -> None:
     rows = [f"2026-07-14;{k / 4};{k}.5" for k in range(40)]
     (tmp_path / "a.csv").write_text("\n".join(["Date;Time [s];T", *rows, ""]))
@@ -72,3 +94,30 @@ def test_a_column_behind_a_date_that_is_called_otherwise_is_a_signal(tmp_path: P
     rows = [f"2026-07-14 08:{k:02d}:00;{k % 24};{k}.5" for k in range(40)]
     (tmp_path / "a.csv").write_text("\n".join(["Date;Hour;T", *rows, ""]))
     assert [name for _, name in load(Reader(), tmp_path / "a.csv", Source()).values] == ["Hour", "T"]
+
+
+@pytest.mark.parametrize(
+    ("head", "each", "step_ns"),
+    [
+        ("1/10s", 1, 10**8),
+        ("Zehntel", 1, 10**8),
+        ("1/100 s", 10, 10**7),
+        ("hundredths", 5, 10**7),
+        ("1/1000s", 5, 10**6),
+    ],
+)
+def test_parts_of_a_second_in_a_column_behind_whole_ones_are_read(
+    tmp_path: Path, head: str, each: int, step_ns: int
+) -> None:
+    rows = [f"12.03.2026;08:00:{k // 5:02d};{k % 5 * each};{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / "a.csv").write_text("\n".join([f"Date;Time;{head};T", *rows, ""]))
+    data = load(Reader(), tmp_path / "a.csv", Source(timezone="UTC"))
+    expected = [(k // 5) * 10**9 + k % 5 * each * step_ns for k in range(50)]
+    assert (data.t_ns["table"] - data.t_ns["table"][0]).tolist() == expected
+    assert [name for _, name in data.values] == ["T"]
+
+
+def test_parts_beyond_those_of_a_second_are_a_signal(tmp_path: Path) -> None:
+    rows = [f"12.03.2026;08:00:{k:02d};{k};{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / "a.csv").write_text("\n".join(["Date;Time;1/10s;T", *rows, ""]))
+    assert len(load(Reader(), tmp_path / "a.csv", Source(timezone="UTC")).values) == 2

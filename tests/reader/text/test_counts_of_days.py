@@ -117,3 +117,33 @@ def test_rows_that_are_too_quick_are_told(tmp_path: Path) -> None:
     assert quick_note("t", np.arange(60) * 1e-5, "s") is None
     assert quick_note("t", np.arange(60) * 4e-6, "s") is not None
     assert quick_note("t", np.zeros(60), "s") is None
+
+
+OLE_DAYS = 46083.2916666667 + DAYS  # 2026-03-02 07:00
+
+
+@pytest.mark.parametrize(("name", "other"), [("Time [d]", "d (days from a start)"), ("Time", "s?")])
+def test_days_of_excel_are_asked_whether_their_header_says_days_or_nothing(
+    tmp_path: Path, name: str, other: str
+) -> None:
+    with pytest.raises(QuestionError) as asked:
+        _read(tmp_path, name, OLE_DAYS)
+    assert asked.value.declare["time"]["unit"] == "unknown"
+    assert "2026-03-02" in asked.value.ask
+    assert other in asked.value.ask
+    assert _read(tmp_path, name, OLE_DAYS, {"unit": "excel"})[1][0] // 10**9 == SEVEN // 10**9
+    assert _read(tmp_path, name, OLE_DAYS, {"unit": "d"})[0].clock == "relative"
+
+
+@pytest.mark.parametrize("units", ["days,degC,degC", None])
+def test_days_of_ole_by_their_name_are_read_whatever_the_row_of_units_says(tmp_path: Path, units: str | None) -> None:
+    rows = (f"{t:.10f},2{i % 9}.5,2{i % 8}.25" for i, t in enumerate(OLE_DAYS))
+    (tmp_path / "a.csv").write_text("\n".join(["Timestamp (OADate),T1,T2", *([units] if units else []), *rows, ""]))
+    table = delimited.open_table(tmp_path / "a.csv", Source())
+    (first, *_) = [b for b in delimited.blocks(tmp_path / "a.csv", table, Source()) if isinstance(b, Block)]
+    assert int(first.t_ns[0]) // 10**9 == SEVEN // 10**9
+    assert any("counts days from a date by its size: excel" in note for note in table.notes) is (units is not None)
+
+
+def test_days_that_count_from_a_start_are_taken_so(tmp_path: Path) -> None:
+    assert _read(tmp_path, "Time [d]", DAYS)[0].clock == "relative"

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.draft.make import draft_files
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader.text import delimited
 
@@ -103,3 +104,24 @@ def test_a_row_whose_date_is_torn_is_lost_alone(tmp_path: Path) -> None:
     found, losses, _ = read(tmp_path, dates, clocks(EVERY))
     assert found == [m for i, m in enumerate(EVERY) if i not in (50, 60)]
     assert len(losses) == 2
+
+
+@pytest.mark.parametrize(("name", "year"), [("log_2026-03-12.csv", "2026"), ("log.csv", "YYYY")])
+@pytest.mark.parametrize("day", ["12.03.", "12/03", "12.3."])
+def test_days_without_a_year_are_told_and_the_year_is_asked(tmp_path: Path, name: str, year: str, day: str) -> None:
+    rows = [f"{day};08:{k:02d}:00;{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / name).write_text("\n".join(["Datum;Uhrzeit;T_Lager [°C]", *rows, ""]), "utf-8")
+    draft_files(tmp_path)
+    drafted = (tmp_path / "campaign.yaml").read_text("utf-8")
+    assert f"'Datum' says days without a year, '{day}'" in drafted
+    assert f"its start: {year}-MM-DD 08:00:00" in drafted
+    table = delimited.open_table(tmp_path / name, Source())
+    notes = delimited.describe(table, Source()).notes
+    assert not any("without a date" in note for note in notes)
+
+
+def test_times_of_day_beside_other_numbers_are_without_a_date(tmp_path: Path) -> None:
+    rows = [f"12.{k % 10};08:{k:02d}:00;{20 + k / 9:.2f}" for k in range(50)]
+    (tmp_path / "log.csv").write_text("\n".join(["Druck;Uhrzeit;T_Lager [°C]", *rows, ""]), "utf-8")
+    table = delimited.open_table(tmp_path / "log.csv", Source())
+    assert any("without a date" in note for note in delimited.describe(table, Source()).notes)

@@ -35,3 +35,26 @@ def test_what_says_no_interval_leaves_the_question_open(line: list[str]) -> None
     with pytest.raises(QuestionError) as asked:
         find([["Logger XY"], line, *HEAD, *ROWS], None, "here")
     assert asked.value.declare == {"time": {"period": "unknown"}}
+
+
+def _notes(line: str, step: float, said: dict[str, object] | None = None) -> list[str]:
+    rows = [[f"{k * step:g}", f"{21 + k / 10:.1f}", "0.5"] for k in range(40)]
+    layout = find([[line], ["Time [s]", "T front", "dZ"], *rows], {"time": said} if said else None, "here")
+    return [note for note in layout.notes if "which one is it?" in note]
+
+
+@pytest.mark.parametrize(
+    ("line", "step"), [("# Sample interval: 10 s", 1), ("Sampling rate: 5 Hz", 1), ("Scan interval: 2 s", 0.5)]
+)
+def test_a_time_that_an_interval_above_it_contradicts_is_told_until_one_is_declared(line: str, step: float) -> None:
+    (note,) = _notes(line, step)
+    assert line.lstrip("# ") in note
+    assert not _notes(line, step, {"column": 1})
+    assert not _notes(line, step, {"period": 10.0})
+
+
+@pytest.mark.parametrize(
+    ("line", "step"), [("Sample interval: 10 s", 10), ("Sampling rate: 10 Hz", 60), ("Interval: 1 s", 1.02)]
+)
+def test_rows_at_their_interval_and_means_over_several_are_not_told(line: str, step: float) -> None:
+    assert not _notes(line, step)

@@ -80,3 +80,44 @@ def test_an_offset_beside_none_is_taken(tmp_path: Path, line: str) -> None:
 def test_which_line_says_that_clocks_are_put_ahead() -> None:
     assert saving_on([["UTC offset", "+01:00"], ["Daylight saving", "On"]]) == "Daylight saving On"
     assert saving_on([["DST", "Off"]]) is None
+
+
+@pytest.mark.parametrize(
+    ("line", "zone"),
+    [("# Time zone: America/New_York", "America/New_York"), ("Local time: Europe/Berlin", "Europe/Berlin")],
+)
+def test_a_zone_that_a_head_names_is_proposed_and_told_beside_another(tmp_path: Path, line: str, zone: str) -> None:
+    described(tmp_path, time="Time", above=line)
+    draft_files(tmp_path)
+    (asked,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
+    assert f"timezone: {zone}?" in asked
+    assert "Europe/Prague" not in asked
+    told = described(tmp_path, time="Time", above=line, zone="Asia/Tokyo")
+    assert any("the declared Asia/Tokyo is used" in note for note in told.notes)
+    assert not any("says" in note for note in described(tmp_path, time="Time", above=line, zone=zone).notes)
+
+
+@pytest.mark.parametrize("line", ["Path: Data/Berlin/log", "Unit: Pa/Hz", "Machine: Etc/None"])
+def test_what_has_a_stroke_is_no_zone(tmp_path: Path, line: str) -> None:
+    described(tmp_path, time="Time", above=line)
+    draft_files(tmp_path)
+    assert "e.g. timezone: Europe/Prague" in (tmp_path / "campaign.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("names", "zone"),
+    [
+        (["run1_UTC.csv"], "UTC"),
+        (["run1_UTC+2.csv", "run2_UTC+2.csv"], "Etc/GMT-2"),
+        (["run1_CET.csv"], "Etc/GMT-1"),
+        (["run1_UTC.csv", "run2.csv"], "Europe/Prague"),
+        (["run1.csv"], "Europe/Prague"),
+    ],
+)
+def test_a_zone_in_the_names_of_all_files_is_proposed(tmp_path: Path, names: list[str], zone: str) -> None:
+    for day, name in enumerate(names, 1):
+        rows = [f"2026-03-{day:02d} 08:{k:02d}:00,{20 + k % 9}.5" for k in range(40)]
+        (tmp_path / name).write_text("\n".join(["time,T1 [degC]", *rows, ""]))
+    draft_files(tmp_path)
+    (asked,) = [x for x in (tmp_path / "campaign.yaml").read_text().splitlines() if "timezone?" in x]
+    assert f"timezone: {zone}" in asked

@@ -16,7 +16,7 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.explain import kind_of, why_no_table
 from thermodata.reader.guard import described
-from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.open_questions import ASK, UNKNOWN, YEAR
 from thermodata.reader.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
 from thermodata.reader.text.times.unpadded import UNPADDED
@@ -24,7 +24,8 @@ from thermodata.reader.zone import NO_ZONE
 
 _MOST_QUESTIONS = 4
 _ASSUMED = (
-    f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}|is that its unit"
+    f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}|is that its unit|"
+    f"{re.escape(ASK)}|{re.escape(YEAR)}"
 )
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}

@@ -11,9 +11,10 @@ from zoneinfo import ZoneInfo
 from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.zone_of_names import named_zone
 from thermodata.errors import ThermodataError
 from thermodata.reader.step_back import likely_cause, said
-from thermodata.reader.text.tables.zone_named import OPEN
+from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.schema.counted import counted
 from thermodata.store.ingest.repeated_times import MANY
 from thermodata.store.tidy.times_of_day import began, first_of
@@ -57,8 +58,8 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
     if not any(f.local for f in group.files):
         return None
-    head = next((n for f in group.files for n in f.recording.notes if OPEN in n), None)
-    said = "" if head is None else f"; {head}"
+    head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
+    said, likely = "" if head is None else f"; {head}", named_zone(head, [f.path for f in group.files])
     pairs = [
         (f.start_ns, begin)
         for g in groups
@@ -70,7 +71,7 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     ]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
-        return "timezone? it logs local times without a zone; taken as UTC. e.g. timezone: Europe/Prague" + said
+        return "timezone? it logs local times without a zone; taken as UTC. " + likely + said
     fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
     ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
     return f"timezone? local times, {ahead} from the other sources' UTC: " + (

@@ -25,6 +25,7 @@ from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
+from thermodata.reader.text.times.days_without_year import yearless_note
 from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.time_units import EPOCHS
 from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
@@ -106,7 +107,7 @@ def describe(table: Table, source: Source) -> Recording:
     if table.begin is not None:
         notes.append(table.begin.note())
     else:
-        notes += [DayCount.note(timed.formats[0].cycle_ns) for timed in table.groups if timed.of_day]
+        notes += _of_day_notes(table, source)
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
     if table.cut:
@@ -119,6 +120,18 @@ def describe(table: Table, source: Source) -> Recording:
         tuple(dict.fromkeys(notes)),
         of_day,
     )
+
+
+def _of_day_notes(table: Table, source: Source) -> list[str]:
+    """What is told of times of day: from where they count, or that a day beside them lacks its year."""
+    found = []
+    for timed in (timed for timed in table.groups if timed.of_day):
+        head = table.sample.head[table.layout.first : table.layout.first + _LAST_LINES]
+        rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in head if line.strip()]
+        declared = (source.table or {}).get("time")
+        yearless = None if declared else yearless_note(table.layout.names, rows, timed.group.time[0], table.name)
+        found.append(yearless or DayCount.note(timed.formats[0].cycle_ns))
+    return found
 
 
 def _zone_notes(table: Table, source: Source, start: int) -> list[str]:

@@ -46,9 +46,9 @@ _OTHERS = frozenset("bBaAjGVUWuwcxX")
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
-    """How the cells of one time column read. role: datetime, date, time, millisecond, microsecond or fraction (of a
-    second, behind whole ones), offset (milliseconds since a start), relative (numbers), or part (of the time of a
-    column before it). zoned: whether the cells name their offset from UTC: None where either may come."""
+    """How the cells of one time column read. role: datetime, date, time, tenth, hundredth, millisecond, microsecond or
+    fraction (of a second, behind whole ones), offset (milliseconds since a start), relative (numbers), or part (of the
+    time of a column before it). zoned: whether the cells name their offset from UTC: None where either may come."""
 
     role: str
     pattern: re.Pattern[str] | None
@@ -94,6 +94,10 @@ UNIX_US = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{3})", "microseconds since
 UNIX_NS = _format("offset", r"(?P<oms>\d{13})(?P<of>\d{6})", "nanoseconds since 1970", zone=False)
 MILLISECOND = _format("millisecond", r"(?P<ms>\d{1,3})(?:[.,]0*)?", "0...999", zone=False)
 MILLISECONDS = re.compile(r"(?i)^(ms|msec|millise[ck]\w*|millis|millitm|毫秒)\b")  # the name of such a column
+PARTS_NS = {"ds": 10**8, "cs": 10**7, "ms": 10**6, "us": 10**3}  # by the group of the pattern
+_S = r"(?:s|se[ck]|se[ck]onds?|sekunden?)\.?"
+_TENTHS = r"tenths?(?: of a second)?|zehntel(?:-?sekunden?)?"
+_HUNDREDTHS = r"hundredths?(?: of a second)?|hundertstel(?:-?sekunden?)?|centise[ck]\w*"
 # parts of a second in a column behind whole ones: the name of such a column, and how its cells read
 _PARTS_OF_A_SECOND = (
     (MILLISECONDS, MILLISECOND),
@@ -101,6 +105,15 @@ _PARTS_OF_A_SECOND = (
         re.compile(r"(?i)^([uµμ]s|[uµμ]sec|mi[ck]rose[ck]\w*|micros|微秒)\b"),
         _format("microsecond", r"(?P<us>\d{1,6})(?:[.,]0*)?", "0...999999", zone=False),
     ),
+    (
+        re.compile(rf"(?i)^(1/10 ?{_S}|{_TENTHS})$"),
+        _format("tenth", r"(?P<ds>\d)(?:[.,]0*)?", "0...9", zone=False),
+    ),
+    (
+        re.compile(rf"(?i)^(1/100 ?{_S}|{_HUNDREDTHS})$"),
+        _format("hundredth", r"(?P<cs>\d{1,2})(?:[.,]0*)?", "0...99", zone=False),
+    ),
+    (re.compile(rf"(?i)^1/1000 ?{_S}$"), MILLISECOND),
     (
         re.compile(r"(?i)^(s|sec|seconds?)$"),
         _format("fraction", r"0?[.,](?P<f>\d{1,9})\d*", "0.000...0.999", zone=False),

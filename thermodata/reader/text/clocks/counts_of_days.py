@@ -9,10 +9,12 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
+from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
+_MJD_2000 = 51_544
 _LOGGED_YEARS = 1.5e-4  # from row to row: an hour and a bit, as four digits behind the point have it
 _QUICK_S = 5e-6  # from row to row: what measures heat is slower by far
 
@@ -59,6 +61,32 @@ def count_question(name: str, values: Array, where: str, column: int | None = No
         declare=said,
         meanwhile=said,
     )
+
+
+def excel_or_question(name: str, values: Array, where: str, other: str) -> str:
+    """'excel' for what may be Excel's days where the name says that it is a date; QuestionError elsewhere. other: the
+    unit in which the numbers count from a start, if they do."""
+    if re.search(r"(?i)dat", name):
+        return "excel"
+    days = f"excel (days since 1900: {_day(values[0], 'excel')})"
+    if values[0] > _MJD_2000:
+        days += f", mjd (modified Julian days: {_day(values[0], 'mjd')})"
+    from_start = "d (days from a start)" if other == "d" else other
+    raise QuestionError(
+        f"times that may be Excel's days or {'days from a start' if other == 'd' else 'seconds'}",
+        where=where,
+        got=f"{name}: {values[0]:.12g} ...",
+        expected="a unit",
+        hint=f"declare table: {{time: {{unit: excel}}}}, unit: mjd or unit: {other}",
+        ask=f"unit of the time: {days} or {from_start}? '{name}' begins with {values[0]:.12g}",
+        declare={"time": {"unit": UNKNOWN}},
+        meanwhile={"time": {"unit": "excel"}},
+    )
+
+
+def _day(number: float, unit: str) -> str:
+    """The day that a count of days says."""
+    return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
 
 
 def when(number: float, unit: str) -> str:

@@ -16,11 +16,13 @@ from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hou
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
 from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
 from thermodata.reader.text.clocks.odd_clocks import clock_question
+from thermodata.reader.text.clocks.start_and_end import interval_note
 from thermodata.reader.text.clocks.time_questions import (
     ZONED_ROWS,
     epoch_in,
     joined_question,
     no_time,
+    of_day_question,
     size_of_clock,
     time_question,
     without_word,
@@ -30,7 +32,7 @@ from thermodata.reader.text.clocks.time_questions import (
 from thermodata.reader.text.clocks.zoned_beside import beside_note, zoned_beside
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.text.times.clock_numbers import columns_of_clock, fraction_question
+from thermodata.reader.text.times.clock_numbers import columns_of_clock
 from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.spans import are_spans
@@ -113,7 +115,7 @@ def time_of(
     numeric = sum(map(is_number, cells)) * 2 > len(cells)
     notes = zone_notes(columns, names, data)
     if wanted is None:
-        notes += beside_note(columns[0], names, data)
+        notes += [*beside_note(columns[0], names, data), *interval_note(columns, names, data)]
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
         form = said_clock(name, units[columns[0]], cells)
@@ -121,16 +123,16 @@ def time_of(
         return columns, None, form, notes
     text = with_step(unit or units[columns[0]] or unit_of_time(name))
     if text is None:
-        if (fraction := fraction_question(columns[0], names, data, where)) is not None:
-            raise fraction
+        if (of_day := of_day_question(columns[0], names, data, where)) is not None:
+            raise of_day
         text = size_of_clock(name, cells, where)
         notes.append(
             f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
             "if that is wrong"
         )
-    elif unit is None and (epoch := epoch_in(str(text), cells)) is not None:
+    elif unit is None and (epoch := epoch_in(name, str(text), cells, where)) is not None:
         notes.append(
-            f"time column '{name}' counts {text} since 1970 by its size: {epoch}; "
+            f"time column '{name}' counts {text} from a date by its size: {epoch}; "
             "declare table: {time: {unit: ...}} if that is wrong"
         )
         text = epoch
@@ -203,11 +205,12 @@ def find_time(
 def _fraction_beside(
     columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
 ) -> QuestionError | None:
-    """What to ask where a day alone was found, and a column that is called a time holds numbers below 1."""
+    """What to ask where a day alone was found, and a column that is called a time holds parts of a day, or
+    clocks in one number."""
     if len(columns) != 1 or not any(is_dated(r[columns[0]]) and not _tell_the_hour([r[columns[0]]]) for r in data):
         return None
     times = [i for i, name in enumerate(names) if i not in columns and is_time_header(name)]
-    return next((q for i in times if (q := fraction_question(i, names, data, where)) is not None), None)
+    return next((q for i in times if (q := of_day_question(i, names, data, where)) is not None), None)
 
 
 def _named(header: str) -> bool:

@@ -2,8 +2,8 @@
 
 Where each time shares its name with other columns, that tells which are its own (tagged_columns.py). Else a later
 column starts a group where it is named like the first time (the same word, numbered, or with the name of the column
-behind it), rises like a time, and has columns behind it. Two times of the same rows are one group: the second is a
-signal. What may be either is asked.
+behind it; any word where both have a unit of time), rises like a time, and has columns behind it. Two times of the same
+rows are one group: the second is a signal. What may be either is asked.
 """
 
 from __future__ import annotations
@@ -92,7 +92,8 @@ def spans(
 
     FormatError where a second time may be one of its own rows or of the first's.
     """
-    said = {i: n for i in range(len(names)) if (n := time_name(names[i])) and _rises(i, n, units[i], data)}
+    named = {i: n for i, name in enumerate(names) if (n := time_name(name))} or _by_unit(names, units)
+    said = {i: n for i, n in named.items() if _rises(i, n, units[i], data)}
     by_name, left = tagged(names, tuple(said), data)
     if by_name and left and not _one_clock([i for one in by_name for i in one.times], units, data):
         raise _of_no_name([names[i] for i in left], names, where)
@@ -127,6 +128,17 @@ def spans(
         return [], notes
     edges = [0, *(run[0] for run in own[1:]), len(names)]
     return [Span(tuple(run), tuple(range(a, b))) for run, a, b in zip(own, edges, edges[1:], strict=False)], notes
+
+
+def _by_unit(names: Sequence[str], units: Sequence[str | None]) -> dict[int, _Name]:
+    """The columns of a unit of time that share the name of a first one, whatever that is, or number it: 'x [s]',
+    'x [min]'."""
+    bare = [split_unit(re.sub(r"#\d+$", "", name))[0].strip().casefold() for name in names]
+    words = [match["word"] if (match := _NUMBERED.match(name)) else name for name in bare]
+    alike = [
+        i for i, unit in enumerate(units) if words[i] == words[0] and (unit or "").strip("[]() ").lower() in SECONDS
+    ]
+    return {i: _Name(words[0], "", True) for i in alike} if alike[:1] == [0] and len(alike) > 1 else {}
 
 
 def _kept(name: str) -> str:

@@ -14,13 +14,12 @@ from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
-from thermodata.reader.text.clocks.counts_of_days import count_question, may_be_excel
+from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.times.clock_numbers import year_and_day
+from thermodata.reader.text.times.clock_numbers import days_beside, fraction_question, year_and_day
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
-_MJD_2000 = 51_544
 _ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
 _COUNTERS = {"millis": "ms", "micros": "us"}
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
@@ -119,11 +118,6 @@ def _rising(data: Sequence[Sequence[Cell]], place: int) -> Array | None:
     return values if even and float(np.mean(np.abs(steps - np.median(steps)) <= 0.1 * np.median(steps))) > 0.9 else None
 
 
-def _day(number: float, unit: str) -> str:
-    """The day that a count of days says."""
-    return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
-
-
 def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     """The unit of a time that names none, where its size leaves one sense only: a count from a date.
     QuestionError where it does not."""
@@ -134,30 +128,18 @@ def size_of_clock(name: str, cells: Sequence[Cell], where: str) -> str:
     if (counted := count_question(name, values, where)) is not None:
         raise counted
     if may_be_excel(values):
-        if re.search(r"(?i)dat", name):
-            return "excel"
-        days = "excel (days since 1900)"
-        if values[0] > _MJD_2000:
-            of_excel, of_mjd = _day(values[0], "excel"), _day(values[0], "mjd")
-            days = f"excel (days since 1900: {of_excel}), mjd (modified Julian days: {of_mjd})"
-        raise QuestionError(
-            "times that may be Excel's days or seconds",
-            where=where,
-            got=f"{name}: {values[0]:.12g} ...",
-            expected="a unit",
-            hint="declare table: {time: {unit: excel}}, unit: mjd or unit: s",
-            ask=f"unit of the time: {days} or s? '{name}' begins with {values[0]:.12g}",
-            declare={"time": {"unit": UNKNOWN}},
-            meanwhile={"time": {"unit": "excel"}},
-        )
+        return excel_or_question(name, values, where, "s")
     raise unit_question(name, values, where)
 
 
-def epoch_in(unit: str, cells: Sequence[Cell]) -> str | None:
-    """The count since 1970 that times in a unit are by their size; None where they may count from a start."""
+def epoch_in(name: str, unit: str, cells: Sequence[Cell], where: str) -> str | None:
+    """The count from a date that times in a unit are by their size; None where they may count from a start.
+    QuestionError for days that may do either."""
     values = np.array([v for c in cells if (v := number_of(c)) is not None], np.float64)
     epoch = found_epoch(values) if values.size else None
     seconds = SECONDS.get(unit.strip().strip("[]()").lower())
+    if seconds == SECONDS["d"] and may_be_excel(values):
+        return excel_or_question(name, values, where, "d")
     return epoch if epoch and epoch.startswith("unix") and EPOCHS[epoch].seconds == seconds else None
 
 
@@ -195,6 +177,21 @@ def _joined_clock(day: int, names: list[str], data: list[list[Cell]]) -> tuple[i
         letters = format_of_joined([str(r[i]).strip() for r in data if r[i] not in ("", None)])
         if letters is not None:
             return i, letters
+    return None
+
+
+def of_day_question(place: int, names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
+    """What to ask of numbers that are called a time beside days: parts of a day, or clocks such as 800 for 8:00. None
+    where they are neither."""
+    if (fraction := fraction_question(place, names, data, where)) is not None:
+        return fraction
+    cells = [str(r[place]).strip() for r in data if r[place] not in ("", None)]
+    letters = format_of_joined(cells)
+    for day in days_beside(place, names, data) if letters is not None else ():
+        days = [str(r[day]).strip() for r in data if r[day] not in ("", None)]
+        form = guess_format(days)
+        spelled = None if form is None else f"{form} {letters}"
+        return _format_question((day, place), names, spelled, f"{days[0]} {cells[0]}", where)
     return None
 
 

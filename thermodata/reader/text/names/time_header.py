@@ -6,19 +6,20 @@ import re
 
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.time_units import SECONDS, known_unit
+from thermodata.reader.time_units import EPOCHS, SECONDS, known_unit
 
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"
 )
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
+_BRACKETS = re.compile(r"^(?P<name>.*\S)\s*[(\[](?P<unit>[^()\[\]]+)[)\]]$")
 _MARK = re.compile(r"^\s*[#%;]+\s*")  # of a comment that holds the header
 
 
 def unit_of_time(header: str, unit: str | None = None) -> str | None:
     """The unit of time that a header names, in brackets or behind the word for time: "Zeit in h", "t / min", "time_ms".
     unit: what was split from it, or stands in a row of its own. None where it names none."""
-    name, own = split_unit(header)
+    name, own = _split(header)
     for text in (unit, own):
         if text is not None:
             return known_unit(text)
@@ -31,10 +32,11 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
 
 def is_time_header(header: str, unit: str | None = None) -> bool:
     """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
-    name = _MARK.sub("", split_unit(header)[0]).strip()
+    name, own = _split(header)
+    name = _MARK.sub("", name).strip()
     if unit is not None and unit_of_time(header, unit) is None:
         return False
-    return TIME_WORD.match(name) is not None or (split_unit(header)[1] is None and unit_of_time(header) is not None)
+    return TIME_WORD.match(name) is not None or (own is None and unit_of_time(header) is not None)
 
 
 def says_time(cell: str) -> bool:
@@ -44,3 +46,10 @@ def says_time(cell: str) -> bool:
     return TIME_WORD.match(word) is not None or (
         first is not None and len(first[0]) > 1 and TIME_WORD.match(first[0]) is not None
     )
+
+
+def _split(header: str) -> tuple[str, str | None]:
+    """(name, unit or None), a count from a date as a unit, too: 'Timestamp (OADate)'."""
+    name, unit = split_unit(header)
+    match = _BRACKETS.match(name.strip()) if unit is None else None
+    return (match["name"], match["unit"]) if match and known_unit(match["unit"]) in EPOCHS else (name, unit)

@@ -21,7 +21,7 @@ from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
-from thermodata.reader.text.preamble.head_interval import with_interval
+from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
 from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.time_units import EPOCHS, SECONDS
 from thermodata.reader.zone import NAT
@@ -141,7 +141,12 @@ def find(
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     except QuestionError as question:
         raise with_interval(question, map(texts_of, above)) from None
-    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused) if note))
+    alone = groups[0] if not said.get("time") and len(groups) == 1 else None
+    against = None
+    if alone is not None and alone.seconds is not None and alone.time:
+        (time,) = alone.time
+        against = against_interval(names[time], [r[time] for r in data], alone.seconds, map(texts_of, above))
+    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused, against) if note))
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
 
 

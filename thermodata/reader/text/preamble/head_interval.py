@@ -6,8 +6,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from thermodata.errors import QuestionError
-from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.open_questions import ASK, UNKNOWN
+from thermodata.reader.text.cells.cell import Cell, number_of
 from thermodata.reader.time_units import SECONDS
 
 _LABEL = re.compile(
@@ -18,6 +21,7 @@ _LABEL = re.compile(
 )
 _VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
 _CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)")
+_NEAR = 1.05  # of an interval, by which rows may be off
 _BARE_WORDS = ("zeit", "takt", "rate", "period", "step", "cycle")  # which alone say another thing as well
 
 
@@ -48,6 +52,25 @@ def _seconds(value: str, unit: str | None) -> float | None:
     if said in ("hz", "khz"):
         return 1.0 / (number * (1000 if said == "khz" else 1))
     return number * SECONDS[said] if said in SECONDS else None
+
+
+def against_interval(name: str, cells: Sequence[Cell], unit_s: float, lines: Iterable[Sequence[str]]) -> str | None:
+    """The note on a time that the interval above it contradicts: its rows follow each other faster, or it only numbers
+    them. None where it does not; rows that are further apart may be means. cells: of the time, in
+    units of unit_s [s]."""
+    found = interval_above(lines)
+    steps = np.diff([v for c in cells if (v := number_of(c)) is not None])
+    if found is None or not steps.size:
+        return None
+    seconds, line = found
+    step, numbered = float(np.median(steps)), bool((steps == 1).all())
+    if not step > 0 or not (seconds > _NEAR * step * unit_s or (numbered and unit_s > _NEAR * seconds)):
+        return None
+    apart, every = f"{step * unit_s:.6g} s", f"{seconds:.12g} s"
+    return (
+        f"rows are {apart} apart by '{name}', and every {every} by '{line[:80]}' above them: {ASK} declare "
+        f"table: {{time: {{period: {every}}}}} where they follow each other so, or time: {{column: ...}}"
+    )
 
 
 def with_interval(question: QuestionError, lines: Iterable[Sequence[str]]) -> QuestionError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import cache
 from zoneinfo import available_timezones
 
 from thermodata.reader.zone import utc_offset_ns
@@ -12,7 +13,11 @@ from thermodata.reader.zone import utc_offset_ns
 _PLACED = re.compile(
     r"\s*\((?:UTC|GMT)\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?(?P<minutes>\d\d))?\)\s*(?P<places>[^\W\d_][^;()\d]*)$"
 )
+_BY_NAME = re.compile(r"(?<![\w/])[A-Z][A-Za-z]+(?:/[A-Z][A-Za-z_+-]+\d*){1,2}(?![\w/])")
 _WINTER_S, _SUMMER_S = 1767268800, 1782907200  # of 2026; south of the equator the other way round
+
+
+_zones = cache(available_timezones)
 
 
 def without_places(text: str) -> str:
@@ -35,10 +40,22 @@ def places_above(lines: Iterable[Sequence[str]]) -> tuple[str | None, str] | Non
     return None
 
 
+def zone_by_name(lines: Iterable[Sequence[str]]) -> tuple[str, str] | None:
+    """(the IANA zone, the line) of lines above the rows that name one: 'Time zone: America/New_York'. None where none
+    does, or they name several."""
+    found: dict[str, str] = {}
+    for cells in lines:
+        text = " ".join(c.strip() for c in cells if c.strip()).strip("#%;/* \t\"'")
+        for match in _BY_NAME.finditer(text):
+            if match[0] in _zones():
+                found.setdefault(match[0], text)
+    return next(iter(found.items())) if len(found) == 1 else None
+
+
 def _zone_of(places: Sequence[str], east_s: int) -> str | None:
     """The zone that is called by the first of some places, with this offset in its winter [s]."""
     by_place: dict[str, list[str]] = {}
-    for name in sorted(available_timezones()):
+    for name in sorted(_zones()):
         area, _, place = name.rpartition("/")
         if area and "/" not in area and area != "Etc":
             by_place.setdefault(place.replace("_", " ").casefold(), []).append(name)

@@ -8,10 +8,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from thermodata.reader.text.cells.zone_words import HOURS, zone_above
-from thermodata.reader.text.preamble.zone_places import places_above
+from thermodata.reader.text.preamble.zone_places import places_above, zone_by_name
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.zone import utc_offset_ns
 
+SAYS = "the head says"
 OPEN = "whose clocks may be put ahead in summer or not"
 _NO_NAMES = ("Z", "UT", "UTC", "GMT")  # which are told without a question, or are no words of a header
 _WORDS = "|".join(sorted(set(HOURS).difference(_NO_NAMES), key=len, reverse=True))
@@ -60,7 +61,10 @@ def zones_said(
     if placed is not None:
         known = None if placed[0] is None else (placed[0], placed[1])
         return groups, known, _of_places(placed[1], placed[0]) if timezone is None else None
-    named = named_in(names[i] for g in groups if g.absolute and not (g.zoned or g.stated) for i in g.group.time)
+    open_groups = [g for g in groups if g.absolute and not (g.zoned or g.stated)]
+    if open_groups and (by_name := zone_by_name(lines)) is not None:
+        return groups, by_name, None if timezone else f"{SAYS} '{by_name[1][:_LONGEST]}': timezone: {by_name[0]}"
+    named = named_in(names[i] for g in open_groups for i in g.group.time)
     return groups, named, None if named is None or timezone is not None else _open(named[1], named[0])
 
 
@@ -77,8 +81,8 @@ def named_note(headers: Sequence[str], timezone: str | None, first_ns: int, last
 
 def _of_places(said: str, zone: str | None) -> str:
     """The note on a zone with places."""
-    return f"the head says '{said[:_LONGEST]}', {OPEN}" + (f": timezone: {zone} where they are" if zone else "")
+    return f"{SAYS} '{said[:_LONGEST]}', {OPEN}" + (f": timezone: {zone} where they are" if zone else "")
 
 
 def _open(said: str, zone: str) -> str:
-    return f"the head says '{said[:60]}', {OPEN}: timezone: {zone} where they never are"
+    return f"{SAYS} '{said[:60]}', {OPEN}: timezone: {zone} where they never are"

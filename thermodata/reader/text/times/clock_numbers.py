@@ -1,11 +1,12 @@
 """Times of day in numbers: `Hour` and `Minute` beside a date, a fraction of its day as sheets keep it, and days of the
-year (Campbell's `Year, DOY, HHMM`). Read cell by cell, each different text once."""
+year (Campbell's `Year, DOY, HHMM`, also without a header). Read cell by cell, each different text once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from datetime import date
 from functools import partial
+from itertools import pairwise
 
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_number, mostly, number_of
@@ -60,10 +61,7 @@ def fraction_question(
     full = [v for r in data if (v := number_of(r[place])) is not None]
     if not full or not all(0 <= v < 1 for v in full) or len(set(full)) < 2:
         return None
-    for day in (i for i in range(len(names)) if i != place):
-        cells = [r[day] for r in data if not is_empty(r[day])]
-        if not cells or not mostly(cells, is_dated, 0.9, len(cells)) or any(says_the_hour(str(c)) for c in cells[:1]):
-            continue
+    for day in days_beside(place, names, data):
         said = {"time": {"column": [day + 1, place + 1]}}
         return QuestionError(
             "numbers below 1 beside a date",
@@ -79,6 +77,14 @@ def fraction_question(
             meanwhile=said,
         )
     return None
+
+
+def days_beside(place: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> Iterator[int]:
+    """The other columns that hold dates without a time of day."""
+    for day in (i for i in range(len(names)) if i != place):
+        cells = [r[day] for r in data if not is_empty(r[day])]
+        if cells and mostly(cells, is_dated, 0.9, len(cells)) and not says_the_hour(str(cells[0])):
+            yield day
 
 
 def _counted(unit_ns: int, most: float, cell: str) -> int:
@@ -98,7 +104,9 @@ def days_of_years(pieces: Sequence[str]) -> Callable[[str], int] | None:
 
 def year_and_day(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
     """(columns, format) of a year, its day and a time of day that are called so: `Year, DOY, HHMM`; None where there
-    are none."""
+    are none. Without a header they are known by their values: a year, a day and a clock that goes on, side by side."""
+    if all(name == f"column {i + 1}" for i, name in enumerate(names)):
+        return _unnamed(names, data)
     words = [split_unit(n)[0].strip(" #.:_").casefold() for n in names]
     year = next((i for i, w in enumerate(words) if w in ("year", "jahr", "rok", "année", "año", "yyyy")), None)
     day = next((i for i, w in enumerate(words) if w in _DAYS_OF_YEAR), None)
@@ -114,6 +122,17 @@ def year_and_day(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[
     return None
 
 
+def _unnamed(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tuple[int, ...], str] | None:
+    reads = partial(_of_year, ("%Y", "%j", "%H%M"))
+    for year in range(len(names) - 3):
+        times = [reads(f"{r[year]} {r[year + 1]} {r[year + 2]}") for r in data]
+        rises = all(a < b for a, b in pairwise(times))
+        if len(times) > 2 and min(times) > _SINCE_1990 and rises and len({r[year] for r in data}) <= 2:
+            return (year, year + 1, year + 2), "%Y %j %H%M"
+    return None
+
+
+_SINCE_1990 = 20 * 365 * DAY_NS  # a year of any log
 _DAYS_OF_YEAR = ("doy", "day of year", "dayofyear", "day_of_year", "julian day", "julianday", "julian", "jday", "yday")
 _CLOCKS = {
     "%H%M": partial(read_joined, 4),

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from thermodata.plugin import Int1D
 from thermodata.reader.text.cells.clock_pattern import in_24_hours
 from thermodata.reader.text.cells.number import text_array
-from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, TimeFormat
+from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
 from thermodata.reader.text.cells.zone_words import offset_ns
 from thermodata.reader.zone import NAT
 
@@ -152,10 +152,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
     g = match.groupdict()
     if g and not any(text for name, text in g.items() if name not in _NO_NUMBERS):
         return NAT
-    if g.get("ms") is not None:
-        return int(g["ms"]) * 1_000_000
-    if g.get("us") is not None:
-        return int(g["us"]) * 1000
+    if (part := next((name for name in PARTS_NS if g.get(name) is not None), None)) is not None:
+        return int(g[part]) * PARTS_NS[part]
     if g.get("oms") is not None:
         return int(g["oms"]) * 1_000_000 + int((g["of"] or "0").ljust(6, "0"))
     total = 0
@@ -223,10 +221,8 @@ def _read_matrix(matrix: npt.NDArray[np.uint8], match: re.Match[str]) -> tuple[I
 
 def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) -> Int1D:
     groups = match.groupdict()
-    if "ms" in fields:
-        return fields["ms"] * 1_000_000
-    if "us" in fields:
-        return fields["us"] * 1000
+    if (part := next((name for name in PARTS_NS if name in fields), None)) is not None:
+        return fields[part] * PARTS_NS[part]
     if "oms" in fields:
         return fields["oms"] * 1_000_000 + fields.get("of", np.zeros_like(fields["oms"]))
     size = next(iter(fields.values())).shape

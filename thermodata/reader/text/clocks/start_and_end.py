@@ -1,0 +1,47 @@
+"""Rows that have two times, when what they hold began and when it ended: 'Start;Ende;T mean'. Which one a mean stands
+at is said and asked: half of an interval is more than many a lag."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.reader.open_questions import ASK
+from thermodata.reader.text.cells.cell import Cell, is_empty, is_stamp
+
+_BEGIN = re.compile(
+    r"(?i)(?:^|[\W_])(?:start|begin|beginn|anfang|von|from|début|debut|inicio|inizio|začátek)(?:$|[\W_])"
+)
+_END = re.compile(r"(?i)(?:^|[\W_])(?:ende?|stop|bis|to|fin|fine|konec)(?:$|[\W_])")
+_MOST = 0.9  # of the rows, that begin where the one before ended
+
+
+def interval_note(columns: Sequence[int], names: Sequence[str], data: Sequence[Sequence[Cell]]) -> list[str]:
+    """The note on rows from one time to another; none where they have one. columns: of the time that is taken."""
+    own = columns[-1]
+    if not _are_stamps(own, data):
+        return []
+    for other in (i for i in range(len(names)) if i not in columns and _are_stamps(i, data)):
+        ends = _follows(own, other, data) or bool(_END.search(names[own]) and _BEGIN.search(names[other]))
+        begins = _follows(other, own, data) or bool(_BEGIN.search(names[own]) and _END.search(names[other]))
+        if ends is begins:
+            continue
+        first, last = (other, own) if ends else (own, other)
+        which = "end" if ends else "beginning"
+        return [
+            f"each row has a time from '{names[first]}' to '{names[last]}': it stands at its {which}, "
+            f"'{names[own]}', and a mean would stand between them: {ASK} declare table: {{time: {{column: "
+            f"{own + 1}}}}} or {other + 1}"
+        ]
+    return []
+
+
+def _are_stamps(column: int, data: Sequence[Sequence[Cell]]) -> bool:
+    cells = [r[column] for r in data if not is_empty(r[column])]
+    return len(cells) > 2 and len(set(cells)) > _MOST * len(cells) and all(map(is_stamp, cells))
+
+
+def _follows(end: int, begin: int, data: Sequence[Sequence[Cell]]) -> bool:
+    """Whether rows begin at the time at which the one before them ended."""
+    pairs = list(zip((r[end] for r in data), (r[begin] for r in data[1:]), strict=False))
+    return bool(pairs) and sum(a == b for a, b in pairs) >= _MOST * len(pairs)

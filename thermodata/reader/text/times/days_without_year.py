@@ -1,0 +1,31 @@
+"""Days that say no year (`12.03.`) beside times of day: they are no dates, and the year is asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from thermodata.reader.open_questions import YEAR
+from thermodata.reader.text.cells.cell import is_empty
+from thermodata.reader.text.names.time_header import is_time_header
+
+_DAY = re.compile(r"\d{1,2}\.\s?\d{1,2}\.?|\d{1,2}[/-]\d{1,2}")
+_SAID = re.compile(r"(?<!\d)(?:19|20)\d\d(?=\D|[01]\d[0-3]\d|$)")
+
+
+def yearless_note(names: Sequence[str], rows: Sequence[Sequence[str]], of_day: int, where: str) -> str | None:
+    """The note on a column of days without a year, whose year the name of the file may say; None where there is none.
+    of_day: the column of the times of day."""
+    for i, name in enumerate(names):
+        cells = [r[i] for r in rows if i < len(r) and not is_empty(r[i])]
+        if i == of_day or not cells or not is_time_header(name) or not all(_DAY.fullmatch(c.strip()) for c in cells):
+            continue
+        clock = next((r[of_day].strip() for r in rows if of_day < len(r) and not is_empty(r[of_day])), "08:00:00")
+        said = set(_SAID.findall(where))
+        year = said.pop() if len(said) == 1 else None
+        by_name = f" ({year} by the file's name)" if year else ""
+        return (
+            f"'{name}' says days without a year, '{cells[0].strip()}', and is not read, so times of day count from the "
+            f"first row: {YEAR}{by_name} Give each test its start: {year or 'YYYY'}-MM-DD {clock}"
+        )
+    return None
