@@ -137,6 +137,8 @@ class AtRest(Result):
 class StartedOn(Result):
     """An open test that begins with something on; most of its error is the level of what may have run before.
 
+    campaign: its id
+    test: its id
     on: what is on at the first sample, and its value: Coolant at 1
     rmse_um: error of the test by the model as it is fitted, in the response's unit
     left_um: the same, had it run before

@@ -56,9 +56,11 @@ def started_on(response: FittedResponse, test: TestData) -> StartedOn | None:
     terms = [t for t in response.terms if not isinstance(t.effect, OfTests) and t.bound.covers(test)]
     running = [(t, _running(t, test)) for t in terms if t.values(test) is not None]
     names = list(dict.fromkeys(text for _, texts in running for text in texts.values()))
+    if not names:
+        return None
     residual, zero = response.residual(test), response.offset_from(test)
     before, best = _rms(residual[counts]), None
-    for some in dict.fromkeys([*((name,) for name in names), tuple(names)]) if names else ():
+    for some in dict.fromkeys([*((name,) for name in names), tuple(names)]):
         twice = np.zeros(len(test.t_s))
         for term, texts in running:
             roles = [role for role, text in texts.items() if text in some]
