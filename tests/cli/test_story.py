@@ -319,6 +319,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "responses",
         "by_choice",
         "not_asked",
+        "started_on",
         "rmse_um",
         "fitted_rmse_um",
         "locked_rmse_um",

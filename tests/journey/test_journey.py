@@ -64,6 +64,7 @@ DIAGNOSIS = {
     "responses",
     "by_choice",
     "not_asked",
+    "started_on",
     "rmse_um",
     "fitted_rmse_um",
     "locked_rmse_um",

@@ -200,6 +200,10 @@ def test_versions_are_compared_over_the_tests_that_both_predict(world: Dataset, 
     noted = before_after_text(grown.model_copy(update={"notes": ["read in steps", left_out]}))
     assert noted.splitlines()[:2] == [left_out, ""]
     assert noted.endswith(text)
+    names = [t.test for t in world.tests if t.role == "calibration" and t.test != lost]
+    too = " and ".join(t.test for t in world.tests if t.role == "verification")
+    counted = f"{', '.join(names[:-1])} and {names[-1]}"
+    assert text.endswith(f"all of calibration: {counted}; fitted too by now, under verification: {too}")
     (row,) = (line.split() for line in text.splitlines() if line.split()[:3] == ["-", "all", "calibration"])
     assert float(row[3]) == pytest.approx(before, rel=0.01)
     # the versions: own errors keep their keys

@@ -14,7 +14,7 @@ from thermodata.report.data import ReportData
 from thermodata.report.error_rows import error_rows, headline_error
 from thermodata.report.figures import part_chart, points_for, residual_scale
 from thermodata.report.glossary import ERRORS
-from thermodata.report.headline import error_sentence, headline
+from thermodata.report.headline import error_sentence, headline, sentences
 from thermodata.report.page import render, what_is_left
 from thermodata.schema.result import Check
 
@@ -90,8 +90,22 @@ def test_verification_tests_are_said_to_be_fitted_for_what_they_were(data: Repor
         made = dataclasses.replace(data, scores=scores, checks=[again])
         return next(r.notes for r in error_rows(made) if r.word == "verification")
 
-    assert note(first.test) == "fitted too by now: some hold samples of calibration tests"
-    assert note(first.test, "other") == "fitted too by now: they took part in the choice"
+    assert note(first.test) == f"{first.test}; fitted too by now: some hold samples of calibration tests"
+    assert note(first.test, "other") == f"{first.test}; fitted too by now: they took part in the choice"
+
+
+def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: ReportData) -> None:
+    """A test begins with something on: the head says so, for errors on left-out tests do not show it."""
+    (test,) = {s.test for s in data.scores if s.role == "verification"}
+    said = f"{test} begins with coolant at 1, and the model counts it as switched on there: 7.3 um of error"
+    level = Check(name=f"on_at_start:demo/{test}", value=0.1, threshold=0.5, passed=False, advice=f"{said}. If it had")
+    off = dataclasses.replace(data, checks=[level])
+    plain = {r.word: r.note for r in error_rows(data)}
+    assert (plain["verification"], plain["fitted"]) == (test, "calibration tests: etve and sp9000")
+    there = {r.word: r.note for r in error_rows(off)}
+    assert (there["verification"], there["fitted"]) == (f"{test}; mostly the level of {test}", plain["fitted"])
+    assert f"{said}; errors on left-out tests have their level free" in " ".join(sentences(off))
+    assert "level free" not in " ".join(sentences(data))
 
 
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:

@@ -21,7 +21,7 @@ from thermodata.report.refined import named
 from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.report.words import listed
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight
+from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
 
 from .conftest import diagnosis
 
@@ -510,3 +510,16 @@ def test_a_verdict_without_a_claim_is_headed_by_its_first_words_and_told_to_its_
     assert headline(told_so).startswith("The open tests show no missing effect: ")
     assert ";" not in headline(told_so)
     assert sentences(told_so)[0] == "Judged without day9, where the probe is turned round."
+
+
+@pytest.mark.parametrize(("share", "otherwise"), [(0.9, False), (0.87, True), (None, True)])
+def test_the_level_of_a_test_that_begins_with_something_on_is_told_in_place_of_effects_that_act_otherwise(
+    share: float | None, otherwise: bool
+) -> None:
+    t5 = {"campaign": "A", "test": "t5", "on": "Coolant at 1", "rmse_um": 2.2, "left_um": 0.24, "of_squares": share}
+    started = [] if share is None else [StartedOn.model_validate(t5)]
+    seen = found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=0.9)
+    text = verdict_sentence(seen.model_copy(update={"started_on": started}))
+    assert ("fit it to all of them, or add a second lag" in text) is otherwise
+    level = "the level of t5 (2.20 um, 0.240 um had Coolant run before: it begins with Coolant at 1, which the"
+    assert (level in text) is (share is not None)

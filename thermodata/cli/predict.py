@@ -55,8 +55,9 @@ def predict_command(
     """Predict logs without displacement with MODEL.
 
     A folder of raw logs like those of the model's campaign (or with a campaign file of its own), a campaign file, or a
-    campaign of the store (campaign:ID where a path is called so too). The model starts in balance at the start of each
-    test. Exit code 3 says that tests were left out.
+    campaign of the store (campaign:ID where a path is called so too). In each test temperatures count from
+    their first values, and what is zero at rest (speeds, powers, switches) counts as at rest before the first sample.
+    Exit code 3 says that tests were left out.
     """
     from thermodata.cli.progress import progress_line
     from thermodata.draft.known.to_predict import predictions_of

@@ -13,7 +13,7 @@ from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
-from thermodata.report.words import duration, number, probability_text
+from thermodata.report.words import MOST_NAMED, duration, listed, number, probability_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -192,7 +192,8 @@ def _residual(seen: Seen) -> str:
         k for k in (1, round(600 / step), round(3600 / step), round(4 * 3600 / step)) if 0 < k < len(seen.correlation)
     ]
     remembered = ", ".join(f"{seen.correlation[k]:.2f} after {duration(k * step)}" for k in dict.fromkeys(marks))
-    lines = [f"residual of the calibration tests: {seen.count} samples; autocorrelation {remembered or '-'}"]
+    named = f" ({listed(seen.tests)})" if 0 < len(seen.tests) <= MOST_NAMED else ""
+    lines = [f"residual of the calibration tests{named}: {seen.count} samples; autocorrelation {remembered or '-'}"]
     for one in seen.ljung_box:
         white = "white" if one.p_value > 0.05 else "not white"
         lines.append(f"  Ljung-Box over {one.lags} lags: Q {number(one.q)}, {probability_text(one.p_value)}: {white}")

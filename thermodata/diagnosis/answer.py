@@ -23,6 +23,7 @@ from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
 from thermodata.diagnosis.tell.listed import candidate, explainable, first_cause, listed, with_probability
+from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -136,6 +137,7 @@ def _answer(
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),
+        "started_on": started_with(response, tests),
         "responses": [
             ResponseLeft(response=r.name, left=left) for r, left in zip(fitted.responses, shares, strict=True)
         ],

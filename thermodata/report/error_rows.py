@@ -11,7 +11,7 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import claims_of
-from thermodata.report.words import base_role, listed, pooled
+from thermodata.report.words import base_role, listed, pooled, tests_of_role
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 
@@ -116,10 +116,19 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     in_sample = {f"{s.campaign}/{s.test}" for s in data.scores if base_role(s.role) == role and s.role != role}
     overlap = {c.name.partition(":")[2] for c in data.checks if c.name.startswith("overlap:")}
     why = "some hold samples of calibration tests" if in_sample <= overlap else "they took part in the choice"
-    note = f"fitted too by now: {why}" if in_sample else ""
+    tests = tests_of_role(on_common([data.before, data.scores])[1], role) or tests_of_role(data.scores, role)
     if role == "calibration":
-        return ErrorRow("fitted", before, after, False, "calibration tests", data.unit, _whose(data))
+        return ErrorRow("fitted", before, after, False, f"calibration tests: {tests}", data.unit, _whose(data))
+    level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, role)) else ""
+    note = "; ".join(filter(None, [tests, f"fitted too by now: {why}" if in_sample else "", level]))
     return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
+
+
+def _off_by_level(data: ReportData, role: str) -> list[str]:
+    """Tests of a role that begin with something on which may have run before (check on_at_start)."""
+    off = [c.name for c in data.checks if c.name.startswith("on_at_start:")]
+    of_role = {(s.campaign, s.test) for s in data.scores if base_role(s.role) == role}
+    return [test for campaign, test in sorted(of_role) if any(n.endswith(f"{campaign}/{test}") for n in off)]
 
 
 def _whose(data: ReportData) -> str:

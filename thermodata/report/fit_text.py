@@ -10,7 +10,7 @@ from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table
-from thermodata.report.words import base_role, change, duration, number, pooled
+from thermodata.report.words import base_role, change, duration, listed, number, pooled, tests_of_role
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -216,7 +216,10 @@ def before_after_text(result: FitResult) -> str:
     lost = lost_sentence(result.before or [], result.scores, result.checks)
     left_out = [note for note in result.notes if note.startswith(MADE_WITHOUT)]
     head = "".join(f"{said}\n\n" for said in (*left_out, worse_on_locked(result), lost) if said)
-    return f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}"
+    too = {s.test for s in result.scores if s.role != base_role(s.role)}
+    fitted = tests_of_role(common[1], "calibration")
+    told = f"all of calibration: {fitted}; fitted too by now, under verification: {listed(sorted(too))}" if too else ""
+    return "\n".join(filter(None, [f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}", told]))
 
 
 def worse_on_locked(result: FitResult) -> str:

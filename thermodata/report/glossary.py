@@ -8,7 +8,7 @@ ERRORS = {
     "left-out": "each open test in turn, foretold by a fit to the others; its level is free",
     "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
     "and say so, as do those that hold samples of a fitted test",
-    "fitted": "tests that the model was fitted to: how well it bends to them, not how well it foretells",
+    "fitted": "calibration tests, which the model was fitted to: how well it bends to them, not how well it foretells",
 }
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 

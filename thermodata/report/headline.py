@@ -50,6 +50,7 @@ def sentences(data: ReportData) -> list[str]:
     # the verdict that nothing is missing has that figure already
     said = row is not None and number(row.after) in headline(data)
     lines = [] if said else [error_sentence(data)]
+    lines += _levels(data)
     lines.append(capital(lost_sentence(data.before, data.scores, data.checks)))
     claims = added_claims(data)
     if claims and data.reason and not data.diagnosis:
@@ -70,6 +71,17 @@ def sentences(data: ReportData) -> list[str]:
         # its first words are the headline
         lines[:0] = [of, capital(_verdict(data, data.diagnosis).partition("; ")[2])]
     return [line if line.endswith(".") else f"{line}." for line in lines if line]
+
+
+def _levels(data: ReportData) -> list[str]:
+    """What scores and weak spots show, and errors on left-out tests do not: tests that begin with something on."""
+    # the verdict that nothing is missing tells them
+    said = data.diagnosis is not None and data.diagnosis.verdict == "none" and bool(data.diagnosis.started_on)
+    return [
+        f"{c.advice.partition('. If it had')[0]}; errors on left-out tests have their level free and do not show it"
+        for c in data.checks
+        if c.name.startswith("on_at_start:") and not c.passed and not said
+    ]
 
 
 def _verdict(data: ReportData, found: Diagnosis) -> str:

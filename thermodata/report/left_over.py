@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING
 
 from thermodata.report.could_hide import may_act_instead
-from thermodata.report.words import duration, number, percent
+from thermodata.report.words import duration, listed, number, percent
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis
@@ -42,15 +43,38 @@ def as_of_nothing(found: Diagnosis) -> str:
 
 
 def otherwise(found: Diagnosis) -> str:
-    """What the model itself leaves, where that is much more than with its effects free to act otherwise; else ''."""
+    """What the model itself leaves, where that is much more than with its effects free to act otherwise, or is the
+    level of tests that begin with something on; else ''."""
     left, fitted = found.rmse_um, found.fitted_rmse_um
-    if left is None or fitted is None or fitted < OTHERWISE * left or fitted <= NOISY * (found.noise_um or 0.0):
+    if left is None or fitted is None:
         return ""
+    levels = of_levels(found)
+    # what the levels of such tests do not make
+    other = fitted * sqrt(max(0.0, 1.0 - sum(one.of_squares for one in found.started_on)))
+    if other < OTHERWISE * left or other <= NOISY * (found.noise_um or 0.0):
+        return levels
     instead = may_act_instead(found)
     return (
         f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
         f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
-        f"{f'; or {instead}' if instead else ''}"
+        f"{f'; or {instead}' if instead else ''}{levels}"
+    )
+
+
+def of_levels(found: Diagnosis) -> str:
+    """That the model as it is fitted errs by the level of tests that begin with something on; '' where none does."""
+    if not found.started_on:
+        return ""
+    tests = [
+        f"{one.test} ({number(one.rmse_um)} um, {number(one.left_um)} um had {one.on.rpartition(' at ')[0]} run "
+        f"before: it begins with {one.on}, which the model counts as switched on there)"
+        for one in found.started_on
+    ]
+    share = percent(sum(one.of_squares for one in found.started_on))
+    return (
+        f"; as it is fitted the model leaves {number(found.fitted_rmse_um)} um on the open tests, and {share} of its "
+        f"square is the level of {listed(tests)}; left-out tests have their level free. thermodata fit says what to do "
+        "(on_at_start)"
     )
 
 

@@ -82,6 +82,9 @@ def change(before: float | None, after: float | None) -> str:
     return f"{100 * (after / before - 1):+.0f} %" if before and after is not None else "-"
 
 
+MOST_NAMED = 6  # tests; more are counted
+
+
 def base_role(role: str) -> str:
     """'verification (in-sample)' -> 'verification': the role that the campaign gave a test."""
     return role.partition(" ")[0]
@@ -151,3 +154,10 @@ def _companion(one: HeatCompanion) -> str:
 def listed(names: Sequence[str]) -> str:
     """'a', 'a and b', 'a, b and c'."""
     return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+
+
+def tests_of_role(scores: Iterable[Score], role: str) -> str:
+    """'t1, t2 and t4', or how many they are: those whose errors a row of a role counts. Fitted verification tests are
+    verification tests."""
+    names = list(dict.fromkeys(s.test for s in scores if base_role(s.role) == role and s.phase == "all"))
+    return listed(names) if len(names) <= MOST_NAMED else f"{len(names)} tests"

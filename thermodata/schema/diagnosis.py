@@ -134,6 +134,25 @@ class AtRest(Result):
     moves_in: list[str]
 
 
+class StartedOn(Result):
+    """An open test that begins with something on; most of its error is the level of what may have run before.
+
+    campaign: its id
+    test: its id
+    on: what is on at the first sample, and its value: Coolant at 1
+    rmse_um: error of the test by the model as it is fitted, in the response's unit
+    left_um: the same, had it run before
+    of_squares: share of the squared error on all open tests that this makes; 0 to 1
+    """
+
+    campaign: str
+    test: str
+    on: str
+    rmse_um: float
+    left_um: float
+    of_squares: float
+
+
 class NotAsked(Result):
     """An effect of the library that was not asked: its plugin failed.
 
@@ -175,6 +194,7 @@ class Diagnosis(Result):
     responses: all of the model, in its order: the one with the largest share left is diagnosed, where none is asked for
     by_choice: whether the response was asked for
     not_asked: effects of the library whose plugins failed
+    started_on: open tests that begin with something on that may have run before
     """
 
     model: str
@@ -200,6 +220,7 @@ class Diagnosis(Result):
     responses: list[ResponseLeft] = []
     by_choice: bool = False
     not_asked: list[NotAsked] = []
+    started_on: list[StartedOn] = []
 
 
 class TestConfirmed(Result):

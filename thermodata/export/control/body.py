@@ -40,7 +40,7 @@ def make_body(program: Program, compensated: bool) -> Body:
 
 def _declare(body: Body) -> None:
     p, add = body.program, body.variables.append
-    add(Variable("restart", "bool", "in", "start from balance: what the inputs say now is zero"))
+    add(Variable("restart", "bool", "in", "start anew: what the temperatures are now is zero"))
     for i in p.inputs:
         at = f" at {i.at}" if i.at else ""
         add(Variable(i.name, "real", "in", f"[{i.unit}] {i.quantity.replace('_', ' ')}{at}"))
@@ -58,9 +58,9 @@ def _declare(body: Body) -> None:
         add(Variable(f"lost_{i.name}", "int", "kept", "bad readings in all"))
         add(Variable(f"seen_{i.name}", "bool", "kept", "a good reading was seen"))
     for d in p.drives:
-        add(Variable(d.name, "real", "temp", f"[{d.unit}] {d.text}" + (", from balance" if d.relative else "")))
+        add(Variable(d.name, "real", "temp", f"[{d.unit}] {d.text}" + (", from its start" if d.relative else "")))
         if d.relative:
-            add(Variable(f"ref_{d.name}", "real", "kept", f"{d.text} in balance"))
+            add(Variable(f"ref_{d.name}", "real", "kept", f"{d.text} at the start"))
     for s in p.states:
         _declare_state(body, s)
     for t in p.terms:
@@ -128,7 +128,7 @@ def _sensors(body: Body) -> None:
 
 def _start(body: Body) -> None:
     p, add = body.program, body.statements.append
-    add(Say("Start: from balance, or from the last state where there is one"))
+    add(Say("Start: temperatures count from now, all else was at rest; or from the last state where there is one"))
     add(If(var("restart"), (Assign("running", truth(False), "bool"),)))
     add(Assign("starting", truth(False), "bool"))
     good = tuple(law.Compare("==", var(f"bad_{i.name}"), whole(0)) for i in p.inputs)

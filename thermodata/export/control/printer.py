@@ -128,8 +128,9 @@ def heading(body: Body) -> list[str]:
     lines += [
         "",
         f"Call it every {p.cycle_s:g} s, no matter whether the correction is applied: the states go on.",
-        "It starts from balance when all readings are good for the first time, and again at `restart`:",
-        "temperatures then count from what they are. What is kept holds the last state over a power cut.",
+        "It starts when all readings are good for the first time, and again at `restart`: temperatures then count",
+        "from what they are, and what is zero at rest (speeds, powers, switches) counts as at rest before.",
+        "What is kept holds the last state over a power cut.",
         f"A bad reading is held for {p.limits.hold_s:g} s at most; then `fault`, and the correction stands still.",
     ]
     return lines

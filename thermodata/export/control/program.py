@@ -35,7 +35,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Drive:
-    """What drives effects: a formula of inputs; relative: it counts from what it was in balance."""
+    """What drives effects: a formula of inputs; relative: it counts from what it is at the start."""
 
     name: str
     text: str

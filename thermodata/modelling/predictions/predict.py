@@ -22,7 +22,7 @@ from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 class Predicted:
     """One response in one test; arrays of shape (n,), in the test's window.
 
-    predicted: from 0 at balance, in the response's unit. known: where every driver was measured, or nearly.
+    predicted: from 0 at the test's start, in the response's unit. known: where every driver was measured, or nearly.
     contributions: effect -> its share. measured: on the prediction's zero, that of the first minutes; None where the
     test has no such displacement, or is locked: a look at that is counted, and belongs to `confirm`.
     """

@@ -59,7 +59,7 @@ class SeenPath:
 @dataclass(frozen=True)
 class Seen:
     """One response. not_shown: (effect, why). correlation: r_0 ... at lags of step_s [s], over `count` residuals of the
-    calibration tests; states: the residual against each state."""
+    calibration tests, which are `tests`; states: the residual against each state."""
 
     response: str
     unit: str
@@ -70,6 +70,7 @@ class Seen:
     count: int
     ljung_box: tuple[LjungBox, ...]
     states: tuple[Against, ...]
+    tests: tuple[str, ...] = ()
     at_bounds: tuple[Check, ...] = ()  # what a bound holds, and whose it is
 
 
@@ -110,7 +111,8 @@ def _see(response: FittedResponse, data: Dataset) -> Seen:
         count,
         tuple(ljung_box(correlation, count, k) for k in LJUNG_BOX if k <= most),
         _states(response, shown, tests, residuals, data.step_s),
-        tuple(c for term in response.terms for c in at_bounds(response, term)),
+        tests=tuple(t.test for t in tests),
+        at_bounds=tuple(c for term in response.terms for c in at_bounds(response, term)),
     )
 
 

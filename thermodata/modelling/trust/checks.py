@@ -196,7 +196,7 @@ def _warm(design: Design) -> list[Check]:
             threshold=None,
             passed=True,
             advice="start_state: warm: how warm each part was is not known; what fades from the start was fitted "
-            "freely, and the free run begins at balance all the same",
+            "freely, and the free run begins as that of any other test",
         )
         for test, free in zip(design.tests, design.nuisance, strict=True)
         if free.free is not None

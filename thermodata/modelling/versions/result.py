@@ -10,6 +10,7 @@ from pathlib import Path
 from thermodata.modelling.compare.common import lost_tests
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
 from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.trust.started_on import started_on_checks
 from thermodata.schema.model import Model
 from thermodata.schema.result import Check, FitResult, Score
 from thermodata.view.dataset import Dataset
@@ -55,7 +56,8 @@ def make_result(
         for test, why in lacking.items()
     ]
     rows = scores(fitted, data, identity, locked=locked)
-    checks = [*fitted.checks(), *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)]
+    started = started_on_checks(fitted, data)
+    checks = [*fitted.checks(), *started, *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)]
     return FitResult(
         model=identity,
         name=fitted.spec.name,
