@@ -12,8 +12,9 @@ import pytest
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import at_best, probability, sharpness
-from thermodata.diagnosis.claims.rules import acting_size, apart, blunt, explained, failed_rules
+from thermodata.diagnosis.claims.rules import acting_size, blunt, explained, failed_rules
 from thermodata.diagnosis.verdict.judge import equivalents
+from thermodata.schema.counted import apart
 
 from .hand_made import measure, scored
 

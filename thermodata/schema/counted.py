@@ -12,3 +12,9 @@ def counted(n: int, one: str, does: str = "", do: str = "") -> str:
 def in_percent(share: float, digits: int = 0) -> str:
     """'15 %'."""
     return f"{100 * share:.{digits}f} %"
+
+
+def apart(value: float, limit: float) -> str:
+    """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
+    texts = [in_percent(value, digits) for digits in range(3)]
+    return next((t for digits, t in enumerate(texts) if t != in_percent(limit, digits)), texts[0])

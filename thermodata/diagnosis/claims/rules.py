@@ -15,7 +15,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import in_percent
+from thermodata.schema.counted import apart, in_percent
 from thermodata.schema.places import heat_at
 
 P_LIMIT = 0.01
@@ -168,12 +168,6 @@ def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
     if scored.drop < HARDLY:
         return f"{where} hardly falls, its size from the others (limit: a fall of {in_percent(fall)})"
     return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {in_percent(fall)})"
-
-
-def apart(value: float, limit: float) -> str:
-    """'14.9 %' beside a limit of 15 %: with as many digits as tell the two."""
-    texts = [in_percent(value, digits) for digits in range(3)]
-    return next((t for digits, t in enumerate(texts) if t != in_percent(limit, digits)), texts[0])
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:

@@ -8,11 +8,11 @@ from typing import Literal
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import GOOD_SHARE, OF_NOTHING, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
-from thermodata.diagnosis.claims.rules import PLAUSIBLE, apart, failed_rules
+from thermodata.diagnosis.claims.rules import PLAUSIBLE, failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import in_percent
+from thermodata.schema.counted import apart, in_percent
 
 Doubt = Literal["none", "some", "all"]
 """Whether any heat is missing: more is left than of machines that lack nothing, as much, or as a good model leaves."""

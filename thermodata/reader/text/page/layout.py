@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 from thermodata.errors import FormatError, QuestionError, UsageError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
@@ -22,9 +22,7 @@ from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
-from thermodata.reader.text.times.in_memory import Stamps
 from thermodata.reader.time_units import EPOCHS, SECONDS
-from thermodata.reader.zone import NAT
 
 STREAM = "table"
 _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
@@ -280,23 +278,3 @@ def period_s(period: Any, where: str) -> float:
 
         period = value_in(period, "s")
     return float(period)
-
-
-def one_clock(
-    times: Sequence[Stamps], groups: Sequence[Group], where: str
-) -> tuple[Literal["absolute", "relative"], int | None]:
-    """(clock, start_ns) of a recording, by the times of each group. FormatError where some are dates and others not."""
-    kinds = {t.absolute for t in times if t.t_ns.size}
-    if len(kinds) > 1:
-        raise FormatError(
-            "some times are dates and others count from their start",
-            where=where,
-            got=", ".join(
-                f"{g.stream}: {'dates' if t.absolute else 'relative'}" for g, t in zip(groups, times, strict=True)
-            ),
-            expected="one kind in a source",
-            hint="declare one time: table: {time: {column: ...}}, and a second source for the others",
-        )
-    absolute = kinds.pop() if kinds else groups[0].seconds is None
-    starts = [int(good[0]) for t in times if (good := t.t_ns[t.t_ns != NAT]).size]
-    return ("absolute", min(starts, default=0)) if absolute else ("relative", None)
