@@ -72,7 +72,8 @@ class Lathe:
             body, layer = link.split("-")
             self.air[AT[body], LAYERS.index(layer)] = g * rng.uniform(0.7, 1.4)
         self.losses = {name: watts * float(rng.uniform(0.7, 1.4)) for name, watts in LOSSES_W.items()}
-        self.oil = OIL * float(rng.uniform(0.7, 1.4))
+        flow = OIL * float(rng.uniform(0.7, 1.4))
+        self.flow = {link: flow * share for link, share in pairs(FLOW).items()}  # [W/K]
         self.mean, self.swing, self.layer = rng.uniform(10, 19), rng.uniform(2.5, 6), rng.uniform(0.8, 2.5)
         self.band, self.set = rng.uniform(0.4, 1.5), self.mean + rng.uniform(3, 7)  # of the chiller [K], [degC]
         self.chills, self.door = 0.0, False
@@ -88,9 +89,9 @@ class Lathe:
         elif tank > self.set + self.band:
             self.chills = 1.0
         links, wind = self.links.copy(), self.air.copy()
-        for link, share in pairs(FLOW).items():
+        for link, g in self.flow.items():
             i, j = (AT[name] for name in link.split("-"))
-            links[i, j] = links[j, i] = links[i, j] + self.oil * share * u["pump"]
+            links[i, j] = links[j, i] = links[i, j] + g * u["pump"]
         wind[[AT["chuck"], AT["workpiece"]]] *= 1 + 4 * (u["speed"] / self.top_rpm) ** 0.8
         full = np.diag(self.heat / dt_s + links.sum(1) + wind.sum(1)) - links
         self.temps = np.linalg.solve(full, self.heat / dt_s * self.temps + self._heat_w(u) + wind @ air)
