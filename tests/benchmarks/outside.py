@@ -1,9 +1,9 @@
 """Machines that others made, kept: from raw logs through the commands to a verdict, and what is right of it.
 
-    uv run python tests/benchmarks/outside.py run OUT.jsonl [--make small_mill] [--cases 1-24] [--jobs 2]
+    uv run python tests/benchmarks/outside.py run OUT.jsonl [--make small_mill] [--cases 0-23] [--jobs 2]
     uv run python tests/benchmarks/outside.py table OUT.jsonl [BEFORE.jsonl]
 
-A make is a module of `makes/`: a machine with its laboratory, written by somebody who had not read the diagnosis.
+A make is a package of `makes/`: a machine with its laboratory, written by somebody who had not read the diagnosis.
 `write(folder, case)` writes campaign.yaml, model.yaml and raw logs, and answers the truth:
 
     kind    one, two, three, none, not_logged, outside or fault
@@ -18,7 +18,6 @@ been seen once rules were looked at on it: `table` counts then what a change of 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import json
 import os
 import subprocess
@@ -27,6 +26,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -80,13 +80,7 @@ class Lab:
 
 
 def make_of(name: str) -> Callable[[Path, int], Truth]:
-    spec = importlib.util.spec_from_file_location(name, MAKES / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    written: Callable[[Path, int], Truth] = module.write
+    written: Callable[[Path, int], Truth] = import_module(f"makes.{name}").write
     return written
 
 
@@ -215,13 +209,13 @@ def _shown(row: Mapping[str, Any]) -> str:
 
 
 def main() -> None:
-    known = sorted(path.stem for path in MAKES.glob("*.py"))
+    known = sorted(path.parent.name for path in MAKES.glob("*/__init__.py"))
     asked = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     verbs = asked.add_subparsers(dest="verb", required=True)
     running = verbs.add_parser("run")
     running.add_argument("out", type=Path)
     running.add_argument("--make", nargs="*", default=known, choices=known)
-    running.add_argument("--cases", default="1-24", help="first-last, or numbers with commas between them")
+    running.add_argument("--cases", default="0-23", help="first-last, or numbers with commas between them")
     running.add_argument("--jobs", type=int, default=2)
     running.add_argument("--program", default=PROGRAM, help="another thermodata, to compare with")
     showing = verbs.add_parser("table")
