@@ -291,7 +291,7 @@ def test_days_since_1900_under_a_word_for_time_are_asked_for(lab: Lab) -> None:
     assert lab("init", lab.folder).code == 0
     drafted = lab.folder / "campaign.yaml"
     text = drafted.read_text(encoding="utf-8")
-    assert "excel (days since 1900) or s?" in text
+    assert "excel (days since 1900: 2026-03-02) or s?" in text
     assert lab("ingest", drafted).code == 3
     drafted.write_text(text.replace("unit: unknown", "unit: excel"), encoding="utf-8")
     assert lab("ingest", drafted).code == 0

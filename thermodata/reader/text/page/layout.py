@@ -139,12 +139,9 @@ def find(
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
     except QuestionError as question:
         raise with_interval(question, map(texts_of, above)) from None
-    alone = groups[0] if not said.get("time") and len(groups) == 1 else None
-    against = None
-    if alone is not None and alone.seconds is not None and alone.time:
-        (time,) = alone.time
-        against = against_interval(names[time], [r[time] for r in data], alone.seconds, map(texts_of, above))
-    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused, against) if note))
+    time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
+    against = [against_interval(names[i], [r[i] for r in data], groups[0].seconds, map(texts_of, above)) for i in time]
+    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused, *against) if note))
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
 
 

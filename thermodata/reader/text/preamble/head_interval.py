@@ -54,13 +54,15 @@ def _seconds(value: str, unit: str | None) -> float | None:
     return number * SECONDS[said] if said in SECONDS else None
 
 
-def against_interval(name: str, cells: Sequence[Cell], unit_s: float, lines: Iterable[Sequence[str]]) -> str | None:
+def against_interval(
+    name: str, cells: Sequence[Cell], unit_s: float | None, lines: Iterable[Sequence[str]]
+) -> str | None:
     """The note on a time that the interval above it contradicts: its rows follow each other faster, or it only numbers
-    them. None where it does not; rows that are further apart may be means. cells: of the time, in
-    units of unit_s [s]."""
-    found = interval_above(lines)
+    them. None where it does not, and of dates; rows that are further apart may be means. cells: of the time, in units
+    of unit_s [s], None of dates."""
+    found = None if unit_s is None else interval_above(lines)
     steps = np.diff([v for c in cells if (v := number_of(c)) is not None])
-    if found is None or not steps.size:
+    if unit_s is None or found is None or not steps.size:
         return None
     seconds, line = found
     step, numbered = float(np.median(steps)), bool((steps == 1).all())
