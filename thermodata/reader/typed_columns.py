@@ -16,9 +16,9 @@ from thermodata.reader.text.rows.quality_columns import (
     Pairs,
     may_be_quality,
     qualities,
+    said_of_codes,
     said_of_values,
     shared,
-    state_notes,
     with_bad_rows,
 )
 from thermodata.reader.zone import NAT
@@ -108,7 +108,7 @@ def related(
     return Related(
         told,
         quality,
-        tuple(n for n in (note, *shared({**quality, **of_rows}), *state_notes(called, codes)) if n),
+        tuple(n for n in (note, *shared({**quality, **of_rows}), *said_of_codes(called, codes, quality, of_rows)) if n),
         of_rows,
         codes,
     )

@@ -11,7 +11,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.status import BAD, declared_zero, tells_quality, zero_is_good
-from thermodata.reader.text.rows.quality_columns import bad_rows, quality_pairs, states, worded
+from thermodata.reader.text.rows.quality_columns import bad_rows, qualities, quality_pairs, states, worded
 
 
 @pytest.mark.parametrize(
@@ -153,12 +153,28 @@ def test_columns_of_quality_are_known_by_their_names(name: str, told: bool) -> N
         ({"X": ["20"], "X_err": ["3", "3", "2"]}, {}),  # 0 is not what it mostly says
         ({"T1": ["20"], "T2_Err": ["0", "1"]}, {}),
         ({"T1": ["20"], "T1_Status": ["0", "3"]}, {}),
+        ({"n": ["20"], "n State": ["0", "1"]}, {}),  # it turns
+        ({"Pump": ["20"], "Pump Status": ["FALSE", "TRUE"]}, {}),
+        ({"T1": ["20"], "T1_Alarm": ["0", "0", "1"]}, {}),  # of a limit: it is warm indeed
     ],
 )
 def test_columns_of_faults_are_of_the_channel_that_they_are_called_after(
     columns: dict[str, list[str]], pairs: dict[str, tuple[str, bool]]
 ) -> None:
     assert quality_pairs(columns) == pairs
+
+
+def test_a_column_with_a_unit_tells_no_faults() -> None:
+    columns = {"X": ["20"], "X_Error": ["0", "0", "3"]}
+    assert quality_pairs(columns) == {"X": ("X_Error", True)}
+    assert quality_pairs(columns, measured={"X_Error"}) == {}
+
+
+@pytest.mark.parametrize(("other", "words"), [("T1_Quality", ["good", "bad"]), ("T1_Status", ["0", "3"])])
+def test_faults_and_a_quality_of_one_value_both_count(other: str, words: list[str]) -> None:
+    columns = {"T1": ["20"], "T1_Err": ["0", "0", "8"], other: words}
+    first, second, codes = qualities(columns, lambda zero, name: zero)
+    assert sorted(own for each in (first, second) for own, _ in each.values()) + sorted(codes) == ["T1_Err", other]
 
 
 def test_a_state_in_codes_that_are_not_known_is_told() -> None:

@@ -158,12 +158,16 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     said = replace(said, sure=False) if where else said
     if HEAD in signal.properties:
         said, note = with_head(said, signal, note)
-    if STATE_OF in signal.properties:
+    if STATE_OF in signal.properties and said.quantity != "state":
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "
             "here: all rows count; leave those out by the test's measuring, or by a window"
         )
-        return Guess("state", sure=False, basis=("name",), questions=(asked,)), note
+        known = values is not None and values.low >= 0 and values.high <= 1  # on and off
+        as_state = replace(
+            said, quantity="state", unit=None, instead_of=None, why_not=None, sure=False, basis=("name",)
+        )
+        return replace(as_state, questions=() if known else (asked,)), note
     if len(units) > 1 and said.quantity:
         names = ", ".join(f"{u or 'none'} ({n})" for u, n in units.most_common())
         asked = f"unit: the files disagree: {names}; each file's own is taken"

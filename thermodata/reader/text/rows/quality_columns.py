@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 
@@ -23,10 +24,12 @@ _QUALITY = re.compile(rf"^(?P<base>.+?)[ ._:/-]*{_WORD}$", re.IGNORECASE)
 _BARE = re.compile(rf"^{_WORD}(?:#\d+)?$", re.IGNORECASE)  # a name that stands again has its number
 # what a logger writes beside a channel: its faults, of which 0 is none, or a state in codes of its own
 _BESIDE = re.compile(
-    r"^(?P<base>.+?)[ ._:/-]+(?:(?P<fault>err(?:or)?s?|fault|fehler|alarm|chyba)(?:[ _]?(?:code|flag|nr|no))?"
+    r"^(?P<base>.+?)[ ._:/-]+(?:(?P<fault>err(?:or)?s?|fault|fehler|chyba)(?:[ _]?(?:code|flag|nr|no))?"
     r"|(?P<state>status|state|zustand|stav|estado|état))$",
     re.IGNORECASE,
 )
+_STATUS = re.compile(r"status$", re.IGNORECASE)
+_SWITCH = frozenset({"0", "1", "true", "false", "on", "off", "ein", "aus", "yes", "no", "ja", "nein"})
 _MOST_CODES = 16
 _CODE = re.compile(r"^[+-]?\d*$")
 _FRACTION = re.compile(r"^[+-]?\d*[.,]\d*[1-9]\d*$")  # no code: what is called the quality of oil, or of air
@@ -41,10 +44,10 @@ Told = Callable[[bool | None, str], bool | None]
 
 
 def quality_pairs(
-    columns: Mapping[str, Sequence[str]], told: Told = lambda zero, name: zero
+    columns: Mapping[str, Sequence[str]], told: Told = lambda zero, name: zero, measured: Collection[str] = ()
 ) -> dict[str, tuple[str, bool]]:
     """Value column -> (its quality column, whether its code 0 is good). columns: name -> sampled cells; told: what the
-    campaign file adds to what the codes of all columns of one word say (None: nothing)."""
+    campaign file adds to what the codes of all columns of one word say (None: nothing); measured: those with a unit."""
     found = _of_bare(columns)
     for name in columns:
         match = _QUALITY.match(name) or _ROUND.match(name)
@@ -54,39 +57,56 @@ def quality_pairs(
         if value is not None and not any(_FRACTION.match(clean(cell)) for cell in columns[name]):
             found[value] = name, (match.groupdict().get("word") or "quality").casefold()
     pairs = _with_zeros(found, columns, told)
-    for value, name in _beside(columns).items():
-        if _BESIDE.match(name)["fault"] or are_qualities(map(clean, columns[name]), name):  # type: ignore[index]
-            pairs[value] = name, True
+    for value, name in _beside(columns, "fault", measured).items():
+        pairs.setdefault(value, (name, True))
+    for value, name in _beside(columns, "state", measured).items():
+        if not _is_a_switch(columns[name]) and are_qualities(map(clean, columns[name]), name):
+            pairs.setdefault(value, (name, True))
     return pairs
 
 
 def qualities(
-    columns: Mapping[str, Sequence[str]], told: Told
+    columns: Mapping[str, Sequence[str]], told: Told, measured: Collection[str] = ()
 ) -> tuple[dict[str, tuple[str, bool]], dict[str, tuple[str, bool]], dict[str, str]]:
-    """`quality_pairs`, `pairs_of_rows` and `states` of columns."""
-    pairs = quality_pairs(columns, told)
-    return pairs, pairs_of_rows(columns, pairs, told), states(columns, pairs)
+    """`quality_pairs`, `second_pairs` and `states` of columns. measured: those with a unit."""
+    pairs = quality_pairs(columns, told, measured)
+    return pairs, second_pairs(columns, pairs, told, measured), states(columns, pairs, measured)
 
 
-def pairs_of_rows(columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told) -> dict[str, tuple[str, bool]]:
-    """The same of values that have a quality of their own in `pairs`, and one of the whole row as well."""
-    of_rows = _with_zeros(_of_bare(columns), columns, told)
-    return {value: own for value, own in of_rows.items() if pairs[value] != own}
+def second_pairs(
+    columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str] = ()
+) -> dict[str, tuple[str, bool]]:
+    """The same of values that have a quality in `pairs`, and their faults, or a quality of the whole row, too."""
+    faults = {value: (name, True) for value, name in _beside(columns, "fault", measured).items()}
+    found = _with_zeros(_of_bare(columns), columns, told) | faults
+    return {value: own for value, own in found.items() if pairs[value] != own}
 
 
-def states(columns: Mapping[str, Sequence[str]], pairs: Pairs) -> dict[str, str]:
+def states(columns: Mapping[str, Sequence[str]], pairs: Pairs, measured: Collection[str] = ()) -> dict[str, str]:
     """Column of a state in codes that are not known here -> the value that it stands beside."""
     known = {own for own, _ in pairs.values()}
-    return {name: value for value, name in _beside(columns).items() if name not in known}
+    return {name: value for value, name in _beside(columns, "state", measured).items() if name not in known}
 
 
-def state_notes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str]) -> list[str]:
-    """A note on each such column. found: by `states`."""
-    return [
+def said_of_codes(columns: Mapping[str, Sequence[str]], found: Mapping[str, str], *pairs: Pairs) -> list[str]:
+    """A note on each column of faults, and of a status whose codes are not known. found: by `states`."""
+    faults = {own: value for each in pairs for value, (own, _) in each.items() if tells_faults(own)}
+    noted = [
+        f"'{own}' tells the faults of '{value}': rows on which it is not 0 do not count"
+        for own, value in faults.items()
+    ]
+    return noted + [
         f"'{name}' holds codes of '{value}' ({', '.join(_codes(columns[name])[:_SHOWN])}) that are not known here: its "
         "rows count whatever they say; leave those out by the test's measuring, with it as a channel of quantity state"
         for name, value in found.items()
+        if _STATUS.search(name) and not _is_a_switch(columns[name])
     ]
+
+
+def _is_a_switch(cells: Sequence[str]) -> bool:
+    """Whether the codes of a state are on and off: that something runs is no fault of it."""
+    codes = {code.casefold() for code in _codes(cells)}
+    return codes <= _SWITCH and codes != {"0"}
 
 
 def tells_faults(name: str) -> bool:
@@ -95,13 +115,17 @@ def tells_faults(name: str) -> bool:
     return match is not None and match["fault"] is not None
 
 
-def _beside(columns: Mapping[str, Sequence[str]]) -> dict[str, str]:
-    """Value column -> the one of its faults or states, which holds a few codes; where faults are, 0 mostly."""
+def _beside(
+    columns: Mapping[str, Sequence[str]], sort: Literal["fault", "state"], measured: Collection[str]
+) -> dict[str, str]:
+    """Value column -> the one of its faults, or of its states, which holds a few codes; where faults are, 0 mostly."""
     found: dict[str, str] = {}
     for name, cells in columns.items():
-        match = _BESIDE.match(name)
-        value = None if match is None else _value(columns, name, match["base"])
-        if match is None or value is None or not 0 < len(codes := _codes(cells)) <= _MOST_CODES:
+        match = None if name in measured else _BESIDE.match(name)
+        if match is None or match[sort] is None:
+            continue
+        value = _value(columns, name, match["base"])
+        if value is None or not 0 < len(codes := _codes(cells)) <= _MOST_CODES:
             continue
         numbers = all(_WHOLE.match(code) for code in codes)
         if match["fault"] and not (is_no_fault(codes[0]) and (numbers or not any(map(_is_a_reading, codes)))):
@@ -157,7 +181,7 @@ def _of_bare(columns: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, str]]
     if len(words := set(bare.values())) > 1:  # several of one row: the surest alone
         surest = min(words, key=lambda word: (tells_quality(bare_header(word)) or 0, word))
         bare = {name: word for name, word in bare.items() if word == surest}
-    beside = set(_beside(columns).values())
+    beside = {*_beside(columns, "fault", ()).values(), *_beside(columns, "state", ()).values()}
     order = [
         name for name in columns if name in bare or not (name in beside or _BARE.match(name) or _QUALITY.match(name))
     ]

@@ -23,7 +23,7 @@ from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
 from thermodata.reader.text.rows.grid import TIME
-from thermodata.reader.text.rows.quality_columns import qualities, shared, state_notes, worded
+from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of, find_decimal
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
@@ -141,7 +141,8 @@ def find_table(
     groups, zone, open_zone = zones_said(groups, layout.names, map(cells, head[: layout.first]), source.timezone)
     cells_of = sampled_cells(layout, groups, body)
     own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
-    quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where))
+    measured = {name for name, unit in zip(layout.names, layout.units, strict=True) if unit}
+    quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality), *worded(cells_of, of_rows)}
     times = {
         i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
@@ -163,13 +164,12 @@ def find_table(
     if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
         refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
     units_noted = [unit_note(cells_of[name], name) for name in words]
-    numbers = [cells_of[name] for name, kind in zip(layout.names, kinds, strict=True) if kind == "float64"]
+    named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
     if (declared := said.get("decimal")) == UNKNOWN:
         raise unanswered("decimal", "'.' or ','", where)
-    told = told_thousands(numbers) if declared is None else None
-    decimal = declared or (told.decimal if told else find_decimal(numbers, delimiter, where))
+    told = told_thousands(list(named.values())) if declared is None else None
+    decimal = declared or (told.decimal if told else find_decimal(list(named.values()), delimiter, where))
     if declared is None and told is None:
-        named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
         ask_for_thousands(named, decimal, where)
     bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
     told_unit = unit_column(bare, cells_of) if len(groups) == 1 else None
@@ -199,7 +199,7 @@ def find_table(
         told.note if told else None,
         *units_noted,
         *shared({**quality, **of_rows}),
-        *state_notes(own_cells, codes),
+        *said_of_codes(own_cells, codes, quality, of_rows),
         standing_note,
         told_unit.note() if told_unit else unit_column_note(bare, cells_of),
         doubt,
