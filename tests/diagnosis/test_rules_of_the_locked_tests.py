@@ -16,6 +16,7 @@ from thermodata.diagnosis.locked import confirm as confirming
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape, extended, on_all_open, rmse
 from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import turned_locked
+from thermodata.diagnosis.locked.unlocking import spoilt
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -458,6 +459,34 @@ def test_what_is_refused_for_all_locked_tests_is_told_with_their_error() -> None
     found = asked.kept(judged("a", "b"))
     assert (names_of(found.claims), names_of(found.refused)) == ("b", "a")
     assert "1.00 -> 9.00 um" in Asked(lambda one, whole: spoilt).kept(judged("a")).reason
+
+
+class OfSets:
+    """Fits that make all locked tests 9 times as bad where a set holds one of the sets of spoilers."""
+
+    def __init__(self, *spoilers: str) -> None:
+        self.spoilers = spoilers
+
+    def together(self, some: Sequence[CandidateEffect]) -> Foretold:
+        names = {c.effect.name for c in some}
+        return Foretold(1.0, 9.0 if any(set(one) <= names for one in self.spoilers) else 0.5, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("spoilers", "refuted"),
+    [
+        ((), ""),
+        (("b",), "b"),
+        (("a", "c"), "ac"),
+        (("ab",), "abc"),
+    ],  # a and b only side by side: any of the three may go
+)
+def test_what_is_sound_does_not_go_for_a_neighbour_that_spoils_the_locked_tests(
+    spoilers: tuple[str, ...], refuted: str
+) -> None:
+    some, fits = judged("a", "b", "c").claims, OfSets(*spoilers)
+    told = [spoilt(fits, some, place, 0.0) for place in range(3)]  # type: ignore[arg-type]
+    assert "".join(n for n, one in zip("abc", told, strict=True) if one is not None and one.spoils(0.0)) == refuted
 
 
 def test_a_fall_by_a_quarter_in_both_ways_says_neither() -> None:

@@ -16,7 +16,7 @@ from thermodata.diagnosis.locked.opened import kept_where_they_hold
 from thermodata.diagnosis.locked.turned_locked import as_artefacts, turned_locked
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.weigh.foretold import Looked
+from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.errors import ThermodataError
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
@@ -89,12 +89,21 @@ def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked
             return None
         looked_for.setdefault(one.scored.candidate.id)
         added = fits.foretold([o.scored.candidate for o in others], one.scored.candidate, foretold.tests)
-        together = fits.together([j.scored.candidate for j in some])
-        return Looked(foretold, added, found.measure.floor, unit, together)
+        return Looked(foretold, added, found.measure.floor, unit, spoilt(fits, some, place, found.measure.floor))
 
     return kept_where_they_hold(
         judgement, look, lambda twin: may_be_claimed(twin, found.measure, unit), found.conclude, unit
     )
+
+
+def spoilt(fits: Fits, some: Sequence[Judged], place: int, floor: float) -> Foretold | None:
+    """What all locked tests say of some members together; where they become much worse, of the one at the place alone,
+    if any one alone makes them so: what is sound does not go for its neighbour."""
+    together = fits.together([j.scored.candidate for j in some])
+    if together is None or not together.spoils(floor) or len(some) == 1:
+        return together
+    each = [fits.together([j.scored.candidate]) for j in some]
+    return each[place] if any(one is not None and one.spoils(floor) for one in each) else together
 
 
 def _turned(

@@ -54,13 +54,18 @@ class Foretold:
         """Whether there is more to be foretold than what is left alone: else these tests excite nothing of it."""
         return max(self.before, self.after) > floor
 
+    def spoils(self, floor: float) -> bool:
+        """Whether the error becomes so much larger that something of what is added is none."""
+        return self.says(floor) and self.after > SPOILS * self.before
+
 
 @dataclass(frozen=True, slots=True)
 class Looked:
     """The locked tests of one claim, beside all that is claimed with it, looked at in two ways. foretold: by the known
     effects, free to act otherwise as the noise has it. added: by the model as it stands, with the claim added; None
     where it can't predict them. floor: an error that is left alone. unit: of the response. together: all locked tests,
-    whether anything acts there or not, by the model as it stands, without and with all that is asked."""
+    whether anything acts there or not, by the model as it stands, without and with all that is asked, or with this one
+    alone where one of them is enough to spoil them."""
 
     foretold: Foretold
     added: Foretold | None
@@ -107,5 +112,4 @@ class Looked:
     @property
     def spoils(self) -> bool:
         """Whether all that is asked makes the locked tests so much worse that something of it is none."""
-        told = self.together
-        return told is not None and told.says(self.floor) and told.after > SPOILS * told.before
+        return self.together is not None and self.together.spoils(self.floor)
