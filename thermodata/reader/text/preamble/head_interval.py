@@ -62,8 +62,8 @@ def against_interval(
     name: str, cells: Sequence[Cell], unit_s: float | None, lines: Iterable[Sequence[str]]
 ) -> str | None:
     """The note on a time that the interval above it contradicts: its rows follow each other faster, or it only numbers
-    them. None where it does not, and of dates; rows that are further apart may be means, as those under a rate and those
-    at each minute or hour are. cells: of the time, in units of unit_s [s], None of dates."""
+    them. None where it does not, and of dates; rows that are further apart may be means, as those under a rate and at
+    each minute or hour are. cells: of the time, in units of unit_s [s], None of dates."""
     found = None if unit_s is None or unit_s >= SECONDS["min"] else interval_above(lines, rates=False)
     steps = np.diff([v for c in cells if (v := number_of(c)) is not None])
     if unit_s is None or found is None or not steps.size:
