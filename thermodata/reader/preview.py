@@ -17,6 +17,7 @@ from thermodata.reader.guard import asking, described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
 from thermodata.reader.regular import refuse_what_never_ends
+from thermodata.reader.text.names.unit_column import units_met
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds
@@ -99,6 +100,7 @@ def preview(
     for signal in said.signals:
         signals[signal.stream].append(signal)
     losses: list[Loss] = []
+    units = units_met(said.signals)
     began, read = time.monotonic(), 0
     hurried = path.stat().st_size > _SMALL
     for item in guarded(chosen, path, source, said):
@@ -106,6 +108,8 @@ def preview(
             losses.append(item)
             continue
         streams[item.stream].add(item, absolute, rows)
+        for met in units:
+            met.add(item)
         read += item.t_ns.size
         if watch is not None:
             watch(item)
@@ -123,7 +127,11 @@ def preview(
         "complete": said.complete,
         "whole": whole,
         "rows_read": read,
-        "notes": [*said.notes, *_of_clocks(streams.values(), absolute)],
+        "notes": [
+            *said.notes,
+            *(n for met in units if (n := met.note(said.notes))),
+            *_of_clocks(streams.values(), absolute),
+        ],
         "losses": [
             {
                 "where": x.where,

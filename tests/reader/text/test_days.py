@@ -120,6 +120,24 @@ def test_days_without_a_year_are_told_and_the_year_is_asked(tmp_path: Path, name
     assert not any("without a date" in note for note in notes)
 
 
+@pytest.mark.parametrize(
+    ("names", "first"),
+    [
+        ("Uhrzeit;Zeit [h];T_Lager [°C]", 0),
+        ("Uhrzeit;Zeit [h];T_Lager [°C]", 11),
+        ("Uhrzeit;Zeit;T_Lager\n;h;°C", 11),
+        ("Uhrzeit;Zeit;T_Lager [°C]", 0),
+        ("Uhrzeit;Zeit;T_Lager [°C]", 129),
+    ],
+)
+def test_hours_that_count_beside_times_of_day_are_no_days(tmp_path: Path, names: str, first: int) -> None:
+    rows = [f"08:{k:02d}:00;{(first + k) / 10:.1f};{20 + k / 9:.2f}" for k in range(8)]
+    (tmp_path / "log.csv").write_text("\n".join([names, *rows, ""]), "utf-8")
+    notes = delimited.describe(delimited.open_table(tmp_path / "log.csv", Source()), Source()).notes
+    assert any("without a date" in note for note in notes)
+    assert not any("which year" in note for note in notes)
+
+
 def test_times_of_day_beside_other_numbers_are_without_a_date(tmp_path: Path) -> None:
     rows = [f"12.{k % 10};08:{k:02d}:00;{20 + k / 9:.2f}" for k in range(50)]
     (tmp_path / "log.csv").write_text("\n".join(["Druck;Uhrzeit;T_Lager [°C]", *rows, ""]), "utf-8")

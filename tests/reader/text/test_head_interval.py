@@ -37,14 +37,14 @@ def test_what_says_no_interval_leaves_the_question_open(line: list[str]) -> None
     assert asked.value.declare == {"time": {"period": "unknown"}}
 
 
-def _notes(line: str, step: float, said: dict[str, object] | None = None) -> list[str]:
+def _notes(line: str, step: float, said: dict[str, object] | None = None, unit: str = "s") -> list[str]:
     rows = [[f"{k * step:g}", f"{21 + k / 10:.1f}", "0.5"] for k in range(40)]
-    layout = find([[line], ["Time [s]", "T front", "dZ"], *rows], {"time": said} if said else None, "here")
+    layout = find([[line], [f"Time [{unit}]", "T front", "dZ"], *rows], {"time": said} if said else None, "here")
     return [note for note in layout.notes if "which one is it?" in note]
 
 
 @pytest.mark.parametrize(
-    ("line", "step"), [("# Sample interval: 10 s", 1), ("Sampling rate: 5 Hz", 1), ("Scan interval: 2 s", 0.5)]
+    ("line", "step"), [("# Sample interval: 10 s", 1), ("Sampling interval: 0.2 s", 1), ("Scan interval: 2 s", 0.5)]
 )
 def test_a_time_that_an_interval_above_it_contradicts_is_told_until_one_is_declared(line: str, step: float) -> None:
     (note,) = _notes(line, step)
@@ -58,3 +58,17 @@ def test_a_time_that_an_interval_above_it_contradicts_is_told_until_one_is_decla
 )
 def test_rows_at_their_interval_and_means_over_several_are_not_told(line: str, step: float) -> None:
     assert not _notes(line, step)
+
+
+@pytest.mark.parametrize(
+    ("line", "unit"),
+    [
+        ("Sample rate: 100 Hz", "s"),
+        ("Abtastrate: 10 Hz", "s"),
+        ("Abtastfrequenz: 5 Hz", "s"),
+        ("Sample interval: 10 s", "min"),
+        ("Messintervall: 1 min", "h"),
+    ],
+)
+def test_means_of_each_second_minute_or_hour_are_not_told(line: str, unit: str) -> None:
+    assert not _notes(line, 1, unit=unit)

@@ -76,3 +76,19 @@ def test_names_that_repeat_are_told_apart_by_the_comments_below_their_units() ->
     assert read == {"Time": "min", "Front bearing": "°C", "TCP Z/probe 1": "mm", "TCP Z/error": "um"}
     read = _layout(columns, "Time;Front bearing;TCP Z;TCP X", units, ";Pt100;probe 1;error")
     assert read == {"Time": "min", "Front bearing": "°C", "TCP Z": "mm", "TCP X": "um"}
+
+
+@pytest.mark.parametrize(
+    ("heads", "units"),
+    [
+        ("Channel;Ch 1 (A);Ch 2 (A);Ch 3 (V)", [None, None, None]),
+        ("Zeit;Lager vorn (A);Lager hinten (C);Gehäuse (K)", [None, None, None]),
+        ("Sensor;PT100 (A);PT100 (B);Kraft (N)", [None, None, None]),
+        ("Channel;Ch 1 [°C];Ch 2 (DEG F);Ch 3 [V]", ["°C", "DEG F", None]),
+        ("DATUM:;M00: °C;M01: V;M02: mm", ["°C", "V", "mm"]),
+    ],
+)
+def test_a_full_row_above_the_names_says_units_of_sensors_only_where_they_can_be_nothing_else(
+    heads: str, units: list[str | None]
+) -> None:
+    assert list(_layout(heads, "Time;T_front;T_rear;T_case").values())[1:] == units

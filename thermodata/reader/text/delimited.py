@@ -129,7 +129,8 @@ def _of_day_notes(table: Table, source: Source) -> list[str]:
         head = table.sample.head[table.layout.first : table.layout.first + _LAST_LINES]
         rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in head if line.strip()]
         declared = (source.table or {}).get("time")
-        yearless = None if declared else yearless_note(table.layout.names, rows, timed.group.time[0], table.name)
+        said = (table.layout.names, table.layout.units)
+        yearless = None if declared else yearless_note(*said, rows, timed.group.time[0], table.name)
         found.append(yearless or DayCount.note(timed.formats[0].cycle_ns))
     return found
 

@@ -11,6 +11,7 @@ from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Loss, Reader, Recording, Signal, Source
 from thermodata.reader import newest_first, registry
 from thermodata.reader.guard import described, guarded
+from thermodata.reader.text.names.unit_column import units_met
 from thermodata.schema.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
 from thermodata.store.raw.raw_stream import RawStream
@@ -78,6 +79,7 @@ def read_raw(
             by_stream: dict[str, list[Signal]] = {}
             for signal in recording.signals:
                 by_stream.setdefault(signal.stream, []).append(signal)
+            units = units_met(recording.signals)
             for item in guarded(reader, path, source, recording):
                 if isinstance(item, Loss):
                     losses.append(item)
@@ -95,6 +97,8 @@ def read_raw(
                         target, by_stream[item.stream], unordered=bool(getattr(reader, "unordered", False))
                     )
                 writers[item.stream].add(item)
+                for met in units:
+                    met.add(item)
         except (ThermodataError, MemoryError, KeyboardInterrupt):
             raise
         except Exception as error:
@@ -102,6 +106,8 @@ def read_raw(
                 "the file cannot be read", where=source_path, got=f"{type(error).__name__}: {error}"
             ) from error
         check()
+        late = [note for met in units if (note := met.note(recording.notes)) is not None]
+        recording = dataclasses.replace(recording, notes=(*recording.notes, *late))
         streams = [
             _finish(store, writer, stream, key, path, source_path, sha256, reader, recording, losses)
             for stream, writer in writers.items()

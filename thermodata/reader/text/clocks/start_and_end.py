@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.reader.open_questions import ASK
-from thermodata.reader.text.cells.cell import Cell, is_empty, is_stamp
+from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_stamp
 
 _BEGIN = re.compile(
     r"(?i)(?:^|[\W_])(?:start|begin|beginn|anfang|von|from|début|debut|inicio|inizio|začátek)(?:$|[\W_])"
@@ -28,12 +28,35 @@ def interval_note(columns: Sequence[int], names: Sequence[str], data: Sequence[S
             continue
         first, last = (other, own) if ends else (own, other)
         which = "end" if ends else "beginning"
+        declared = [_shown(columns), *map(_shown, _with_its_date(other, columns, data))]
         return [
             f"each row has a time from '{names[first]}' to '{names[last]}': it stands at its {which}, "
             f"'{names[own]}', and a mean would stand between them: {ASK} declare table: {{time: {{column: "
-            f"{own + 1}}}}} or {other + 1}"
+            f"{declared[0]}}}}}{''.join(f' or {d}' for d in declared[1:])}"
         ]
     return []
+
+
+def _with_its_date(other: int, columns: Sequence[int], data: Sequence[Sequence[Cell]]) -> list[list[int]]:
+    """The columns of the other time, with the date that stands before it or else that of the time that is taken, where
+    one has its date in a column of its own; none where the other one lacks its date."""
+    if _are_dates(other, data):
+        return [[other]]
+    if other and other - 1 not in columns and _are_dates(other - 1, data):
+        return [[other - 1, other]]
+    if len(columns) > 1:
+        return [[*columns[:-1], other]]
+    return [] if _are_dates(columns[0], data) else [[other]]
+
+
+def _shown(columns: Sequence[int]) -> str:
+    """Columns as they are declared, from 1."""
+    return str([i + 1 for i in columns] if len(columns) > 1 else columns[0] + 1)
+
+
+def _are_dates(column: int, data: Sequence[Sequence[Cell]]) -> bool:
+    cells = [r[column] for r in data if not is_empty(r[column])]
+    return bool(cells) and all(map(is_dated, cells))
 
 
 def _are_stamps(column: int, data: Sequence[Sequence[Cell]]) -> bool:

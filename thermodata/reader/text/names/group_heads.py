@@ -9,6 +9,7 @@ from thermodata.reader.text.cells.cell import is_number, is_stamp
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.time_header import says_time
 from thermodata.reader.text.names.units_row import STATISTIC, mostly_units
+from thermodata.schema.quantity import converts, is_unit
 
 # what loggers write before a row that describes the columns
 OF_TEXTS = re.compile(r"(?i)comments?|kommentar|description|beschreibung|bezeichnung|label|tag( no)?|name|ch")
@@ -36,8 +37,25 @@ def heads_over(above: Sequence[str], names: Sequence[str]) -> list[str]:
 def units_of_heads(above: Sequence[str], names: Sequence[str]) -> list[str | None]:
     """The unit that the head of its group says of each name, but for a time's: 'T_front (DEG F)' over 'Timestamp' and
     'Value'; or the cell above it, in a row that names every column: 'M00: °F' over what the user called it."""
-    heads = list(above) if all(above) else heads_over(above, names)
-    return [None if says_time(n) else split_unit(head)[1] for head, n in zip(heads, names, strict=True)]
+    full = all(above)
+    heads = list(above) if full else heads_over(above, names)
+    unit_of = _unit_of_column if full else _unit_of_group
+    return [None if says_time(n) else unit_of(head) for head, n in zip(heads, names, strict=True)]
+
+
+def _unit_of_group(head: str) -> str | None:
+    return split_unit(head)[1]
+
+
+def _unit_of_column(head: str) -> str | None:
+    """The unit in a cell above a name: one behind a colon, or of temperature or length. Of others the cell may say what
+    the channel measures to make that of it ('Ch 3 (V)'), and one letter in round brackets numbers sensors
+    ('PT100 (A)')."""
+    unit = split_unit(head)[1]
+    if unit is None or head.removesuffix(unit).rstrip().endswith(":"):
+        return unit
+    of_these = is_unit(unit) and any(converts(unit, other) for other in ("degC", "m"))
+    return unit if of_these and (len(unit) > 1 or f"({unit})" not in head) else None
 
 
 def apart_by_comments(names: list[str], below: Sequence[Sequence[str]]) -> list[str]:

@@ -20,13 +20,15 @@ _LABEL = re.compile(
     r"サンプリング間隔|サンプリング周期|采样间隔|采样周期|记录间隔"
 )
 _VALUE = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>[^\W\d]{1,8})?")
+_RATE = re.compile(r"(?i)rate|frequen[cz]")  # at which a logger samples, whatever it writes
 _CLOCK = re.compile(r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2}(?:[.,]\d+)?)")
 _NEAR = 1.05  # of an interval, by which rows may be off
 _BARE_WORDS = ("zeit", "takt", "rate", "period", "step", "cycle")  # which alone say another thing as well
 
 
-def interval_above(lines: Iterable[Sequence[str]]) -> tuple[float, str] | None:
-    """(the time from row to row [s], the line that says so); None where none says one, or several say others."""
+def interval_above(lines: Iterable[Sequence[str]], rates: bool = True) -> tuple[float, str] | None:
+    """(the time from row to row [s], the line that says so); None where none says one, or several say others. rates:
+    whether lines that say a rate count, too."""
     found: dict[float, str] = {}
     for cells in lines:
         text = " ".join(c.strip() for c in cells if c and c.strip()).strip("#%;/* \t\"'")
@@ -35,6 +37,8 @@ def interval_above(lines: Iterable[Sequence[str]]) -> tuple[float, str] | None:
         )
         label = _LABEL.fullmatch(match["label"].strip()) if match else None
         if match is None or label is None or label[0].casefold() in _BARE_WORDS:
+            continue
+        if not rates and _RATE.search(label[0]):
             continue
         seconds = _seconds(match["value"].strip(), match["unit"])
         if seconds is not None:
@@ -58,9 +62,9 @@ def against_interval(
     name: str, cells: Sequence[Cell], unit_s: float | None, lines: Iterable[Sequence[str]]
 ) -> str | None:
     """The note on a time that the interval above it contradicts: its rows follow each other faster, or it only numbers
-    them. None where it does not, and of dates; rows that are further apart may be means. cells: of the time, in units
-    of unit_s [s], None of dates."""
-    found = None if unit_s is None else interval_above(lines)
+    them. None where it does not, and of dates; rows that are further apart may be means, as those under a rate and at
+    each minute or hour are. cells: of the time, in units of unit_s [s], None of dates."""
+    found = None if unit_s is None or unit_s >= SECONDS["min"] else interval_above(lines, rates=False)
     steps = np.diff([v for c in cells if (v := number_of(c)) is not None])
     if unit_s is None or found is None or not steps.size:
         return None

@@ -7,18 +7,22 @@ from collections.abc import Sequence
 
 from thermodata.reader.open_questions import YEAR
 from thermodata.reader.text.cells.cell import is_empty
-from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 
-_DAY = re.compile(r"\d{1,2}\.\s?\d{1,2}\.?|\d{1,2}[/-]\d{1,2}")
+_DAY = re.compile(r"(\d{1,2})(?:\.\s?|[/-])(\d{1,2})\.?")
 _SAID = re.compile(r"(?<!\d)(?:19|20)\d\d(?=\D|[01]\d[0-3]\d|$)")
 
 
-def yearless_note(names: Sequence[str], rows: Sequence[Sequence[str]], of_day: int, where: str) -> str | None:
+def yearless_note(
+    names: Sequence[str], units: Sequence[str | None], rows: Sequence[Sequence[str]], of_day: int, where: str
+) -> str | None:
     """The note on a column of days without a year, whose year the name of the file may say; None where there is none.
     of_day: the column of the times of day."""
-    for i, name in enumerate(names):
+    for i, (name, unit) in enumerate(zip(names, units, strict=True)):
         cells = [r[i] for r in rows if i < len(r) and not is_empty(r[i])]
-        if i == of_day or not cells or not is_time_header(name) or not all(_DAY.fullmatch(c.strip()) for c in cells):
+        if i == of_day or not is_time_header(name) or unit_of_time(name, unit) is not None:
+            continue  # which counts hours
+        if not cells or not all(map(_is_day, cells)):
             continue
         clock = next((r[of_day].strip() for r in rows if of_day < len(r) and not is_empty(r[of_day])), "08:00:00")
         said = set(_SAID.findall(where))
@@ -29,3 +33,10 @@ def yearless_note(names: Sequence[str], rows: Sequence[Sequence[str]], of_day: i
             f"first row: {YEAR}{by_name} Give each test its start: {year or 'YYYY'}-MM-DD {clock}"
         )
     return None
+
+
+def _is_day(cell: str) -> bool:
+    """Whether a cell is a day and a month in either order, as '0.5' and '12.30' are not."""
+    match = _DAY.fullmatch(cell.strip())
+    low, high = sorted(map(int, match.groups())) if match else (0, 0)
+    return 1 <= low <= 12 and high <= 31
