@@ -108,6 +108,28 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     assert "level free" not in " ".join(sentences(data))
 
 
+@pytest.mark.parametrize(
+    ("errors", "name", "note"),
+    [
+        ({("dZ", "big"): 12.0, ("dZ", "small"): 10.0}, "dZ/demo/big", "big and small; mostly the level of big"),
+        ({("dZ", "big"): 12.0, ("dZ", "small"): 0.4}, "dZ/demo/small", "big and small"),
+        ({("dZ", "big"): 12.0, ("dX", "big"): 0.4}, "dX/demo/big", "big"),
+        ({("dZ", "big"): 12.0}, "dZ/ademo/big", "big"),
+    ],
+)
+def test_a_row_is_mostly_the_level_of_tests_that_make_most_of_it(
+    data: ReportData, errors: dict[tuple[str, str], float], name: str, note: str
+) -> None:
+    like = next(s for s in data.scores if s.role == "verification" and s.phase == "all")
+    scores = [like.model_copy(update={"response": r, "test": t, "rmse_um": e}) for (r, t), e in errors.items()]
+    check = Check(name=f"on_at_start:{name}", value=0.1, threshold=0.5, passed=False, advice="")
+    units = {"dX": "K", "dZ": "um"}
+    made = dataclasses.replace(
+        data, scores=scores, before=[], checks=[check], responses=("dZ", "dX"), units=units, unit="um"
+    )
+    assert [r.note for r in error_rows(made) if r.word == "verification"] == [note]
+
+
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:
     added = dataclasses.replace(data, reason=diagnosis("none"))
     assert headline(added) == "feed_screw was added to baseline, and no diagnosis claims it"

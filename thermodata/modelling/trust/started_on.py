@@ -26,7 +26,7 @@ from thermodata.view.dataset import Dataset, TestData
 # 1 - s had it run for long: half of s at s = 2/3, which takes a lag 1.1 time constants
 LEFT = 0.5
 BEFORE_S = 24 * 3600.0  # as long as it is let run before: four of the longest time constants of what is switched
-CLEARLY = 0.5  # of what is left had it run before: a gain of its own that leaves less says that it was switched on there
+CLEARLY = 0.5  # of what is left had it run before: gains of its own that leave less say that it was switched on there
 FADED = 0.05  # of what a start that is not known does, after three time constants
 
 
