@@ -98,7 +98,9 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     """A test begins with something on: the head says so, for errors on left-out tests do not show it."""
     (test,) = {s.test for s in data.scores if s.role == "verification"}
     said = f"{test} begins with coolant at 1, and the model counts it as switched on there: 7.3 um of error"
-    level = Check(name=f"on_at_start:demo/{test}", value=0.1, threshold=0.5, passed=False, advice=f"{said}. If it had")
+    level = Check(
+        name=f"on_at_start:demo/{test}", value=0.1, threshold=0.5, passed=False, advice=f"{said}. If so, this"
+    )
     off = dataclasses.replace(data, checks=[level])
     plain = {r.word: r.note for r in error_rows(data)}
     assert (plain["verification"], plain["fitted"]) == (test, "calibration tests: etve and sp9000")
@@ -106,6 +108,9 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     assert (there["verification"], there["fitted"]) == (f"{test}; mostly the level of {test}", plain["fitted"])
     assert f"{said}; errors on left-out tests have their level free" in " ".join(sentences(off))
     assert "level free" not in " ".join(sentences(data))
+    alone = " ".join(sentences(dataclasses.replace(off, reason=None, diagnosis=None)))
+    assert f"{said}." in alone
+    assert "left-out" not in alone, "no left-out error stands beside it"
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.nuisance import WARM
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Float1D
+from thermodata.schema.begins_on import IF_SO, begins_on, values_of
 from thermodata.schema.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
@@ -46,7 +47,7 @@ class StartedOn:
     @property
     def on(self) -> str:
         """'Coolant at 1'."""
-        return " and ".join(f"{name} at {value}" for name, value in self.channels.items())
+        return values_of(self.channels)
 
 
 def started_on(response: FittedResponse, test: TestData) -> StartedOn | None:
@@ -92,10 +93,7 @@ def started_on_checks(fitted: FittedModel, data: Dataset) -> list[Check]:
 
 
 def _advice(found: StartedOn, unit: str) -> str:
-    said = (
-        f"{found.test.test} begins with {found.on}, and the model counts it as switched on there: {found.rmse:.3g} "
-        f"{unit} of error, {found.left:.3g} {unit} had it run before. If it had, "
-    )
+    said = begins_on(found.test.test, found.channels, found.rmse, found.left, unit) + IF_SO
     if found.fitted:
         return f"{said}start_state: warm leaves the start of the test free in the fit"
     if found.after_s is None:
