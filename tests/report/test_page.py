@@ -149,13 +149,22 @@ def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: 
     assert limits[0].label == "noise of 30 s means ±0.70\u00a0µm"
 
 
-@pytest.mark.parametrize(("minutes", "told"), [(60, False), (61, True)])
+@pytest.mark.parametrize(
+    ("minutes", "role", "told"),
+    [
+        (60, "calibration", False),
+        (61, "calibration", True),
+        (60, "verification", True),
+        (60, "verification (in-sample)", True),
+    ],
+)
 def test_what_is_slow_is_told_of_tests_that_are_long_enough_to_have_it(
-    data: ReportData, minutes: int, told: bool
+    data: ReportData, minutes: int, role: str, told: bool
 ) -> None:
+    """A fit leaves a short test's mean at zero, not that of a test which it foretells from its first samples."""
     one = data.tests[0]
     rows = round(60 * minutes / one.step_s)
-    short = dataclasses.replace(data, tests=[dataclasses.replace(one, residual=one.residual[:rows])])
+    short = dataclasses.replace(data, tests=[dataclasses.replace(one, residual=one.residual[:rows], role=role)])
     assert ("of it, in means of 30 min" in {what for what, _, _ in what_is_left(short)}) is told
 
 
