@@ -32,15 +32,17 @@ SPEC = Model.model_validate(
 )
 
 
-def a_test(k: int, role: str, *, on: bool, share: float = 0.0, level: float = 0.0, to: int = 55) -> TestData:
+def a_test(
+    k: int, role: str, *, on: bool, share: float = 0.0, level: float = 0.0, to: int = 55, gain: float = 9.0
+) -> TestData:
     """Ten hours of a switch. on: at the first sample, until minute `to`. share: of its rest that it had reached before.
-    level: of an error that begins with the eleventh minute [um]."""
+    level: of an error that begins with the eleventh minute [um]. gain: of the switch [um]."""
     rng = np.random.default_rng(k)
     t = np.arange(600) * STEP
     state = np.repeat(rng.permutation([0.0, 1.0] * 5), 60)
     state[:to] = float(on)
     state[to : to + 60] = 0.0
-    y = 9.0 * (lag(state, 1500.0, STEP) + share * np.exp(-t / 1500.0)) + rng.normal(0, 0.2, 600)
+    y = gain * (lag(state, 1500.0, STEP) + share * np.exp(-t / 1500.0)) + rng.normal(0, 0.2, 600)
     y += np.where(t >= 660.0, level, 0.0)
     values = {"dZ": y, "Coolant": state}
     valid = {name: np.ones(600, bool) for name in values}
@@ -104,6 +106,12 @@ def test_a_test_that_says_how_it_began_is_left_alone(change: Callable[[TestData]
 def test_a_level_of_another_cause_is_none_of_it() -> None:
     assert not said(a_test(3, "verification", on=False, level=-7.0))
     assert not said(a_test(3, "verification", on=True, level=7.0))
+
+
+@pytest.mark.parametrize(("gain", "told"), [(0.9, False), (0.0, True)])
+def test_a_switch_that_does_little_in_its_test_was_switched_on_there(gain: float, told: bool) -> None:
+    """A tenth of its gain from the first sample on is no rest that it had reached; nothing at all may be one."""
+    assert bool(said(a_test(3, "verification", on=True, to=600, gain=gain))) is told
 
 
 def test_what_was_fitted_with_it_may_begin_warm() -> None:

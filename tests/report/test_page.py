@@ -98,7 +98,9 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     """A test begins with something on: the head says so, for errors on left-out tests do not show it."""
     (test,) = {s.test for s in data.scores if s.role == "verification"}
     said = f"{test} begins with coolant at 1, and the model counts it as switched on there: 7.3 um of error"
-    level = Check(name=f"on_at_start:demo/{test}", value=0.1, threshold=0.5, passed=False, advice=f"{said}. If it had")
+    level = Check(
+        name=f"on_at_start:demo/{test}", value=0.1, threshold=0.5, passed=False, advice=f"{said}. If so, this"
+    )
     off = dataclasses.replace(data, checks=[level])
     plain = {r.word: r.note for r in error_rows(data)}
     assert (plain["verification"], plain["fitted"]) == (test, "calibration tests: etve and sp9000")
@@ -106,6 +108,31 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     assert (there["verification"], there["fitted"]) == (f"{test}; mostly the level of {test}", plain["fitted"])
     assert f"{said}; errors on left-out tests have their level free" in " ".join(sentences(off))
     assert "level free" not in " ".join(sentences(data))
+    alone = " ".join(sentences(dataclasses.replace(off, reason=None, diagnosis=None)))
+    assert f"{said}." in alone
+    assert "left-out" not in alone, "no left-out error stands beside it"
+
+
+@pytest.mark.parametrize(
+    ("errors", "name", "note"),
+    [
+        ({("dZ", "big"): 12.0, ("dZ", "small"): 10.0}, "dZ/demo/big", "big and small; mostly the level of big"),
+        ({("dZ", "big"): 12.0, ("dZ", "small"): 0.4}, "dZ/demo/small", "big and small"),
+        ({("dZ", "big"): 12.0, ("dX", "big"): 0.4}, "dX/demo/big", "big"),
+        ({("dZ", "big"): 12.0}, "dZ/ademo/big", "big"),
+    ],
+)
+def test_a_row_is_mostly_the_level_of_tests_that_make_most_of_it(
+    data: ReportData, errors: dict[tuple[str, str], float], name: str, note: str
+) -> None:
+    like = next(s for s in data.scores if s.role == "verification" and s.phase == "all")
+    scores = [like.model_copy(update={"response": r, "test": t, "rmse_um": e}) for (r, t), e in errors.items()]
+    check = Check(name=f"on_at_start:{name}", value=0.1, threshold=0.5, passed=False, advice="")
+    units = {"dX": "K", "dZ": "um"}
+    made = dataclasses.replace(
+        data, scores=scores, before=[], checks=[check], responses=("dZ", "dX"), units=units, unit="um"
+    )
+    assert [r.note for r in error_rows(made) if r.word == "verification"] == [note]
 
 
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:
@@ -122,13 +149,22 @@ def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: 
     assert limits[0].label == "noise of 30 s means ±0.70\u00a0µm"
 
 
-@pytest.mark.parametrize(("minutes", "told"), [(60, False), (61, True)])
+@pytest.mark.parametrize(
+    ("minutes", "role", "told"),
+    [
+        (60, "calibration", False),
+        (61, "calibration", True),
+        (60, "verification", True),
+        (60, "verification (in-sample)", True),
+    ],
+)
 def test_what_is_slow_is_told_of_tests_that_are_long_enough_to_have_it(
-    data: ReportData, minutes: int, told: bool
+    data: ReportData, minutes: int, role: str, told: bool
 ) -> None:
+    """A fit leaves a short test's mean at zero, not that of a test which it foretells from its first samples."""
     one = data.tests[0]
     rows = round(60 * minutes / one.step_s)
-    short = dataclasses.replace(data, tests=[dataclasses.replace(one, residual=one.residual[:rows])])
+    short = dataclasses.replace(data, tests=[dataclasses.replace(one, residual=one.residual[:rows], role=role)])
     assert ("of it, in means of 30 min" in {what for what, _, _ in what_is_left(short)}) is told
 
 

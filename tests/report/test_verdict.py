@@ -516,10 +516,38 @@ def test_a_verdict_without_a_claim_is_headed_by_its_first_words_and_told_to_its_
 def test_the_level_of_a_test_that_begins_with_something_on_is_told_in_place_of_effects_that_act_otherwise(
     share: float | None, otherwise: bool
 ) -> None:
-    t5 = {"campaign": "A", "test": "t5", "on": "Coolant at 1", "rmse_um": 2.2, "left_um": 0.24, "of_squares": share}
+    t5: dict[str, object] = {
+        "campaign": "A",
+        "test": "t5",
+        "on": "Coolant at 1",
+        "rmse_um": 2.2,
+        "left_um": 0.24,
+        "of_squares": share,
+    }
     started = [] if share is None else [StartedOn.model_validate(t5)]
     seen = found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=0.9)
     text = verdict_sentence(seen.model_copy(update={"started_on": started}))
     assert ("fit it to all of them, or add a second lag" in text) is otherwise
-    level = "the level of t5 (2.20 um, 0.240 um had Coolant run before: it begins with Coolant at 1, which the"
+    level = "t5 begins with Coolant at 1, and the model counts it as switched on there: 2.2 um of error, 0.24 um had it"
     assert (level in text) is (share is not None)
+
+
+@pytest.mark.parametrize(
+    ("fitted", "share", "errors", "levels"), [(0.9, 0.4, 1, 1), (0.2, 0.9, 1, 1), (0.9, 0.02, 1, 0)]
+)
+def test_the_error_as_fitted_is_told_once_and_levels_that_make_little_of_it_are_not(
+    fitted: float, share: float, errors: int, levels: int
+) -> None:
+    one = StartedOn(
+        campaign="A",
+        test="t5",
+        on="Coolant at 1 and n at 3000 rpm",
+        channels={"Coolant": "1", "n": "3000 rpm"},
+        rmse_um=2.2,
+        left_um=0.24,
+        of_squares=share,
+    )
+    seen = found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=fitted, started_on=[one])
+    text = verdict_sentence(seen)
+    assert text.count("as it is fitted the model leaves") == errors
+    assert text.count("counts them as switched on there: 2.2 um of error, 0.24 um had they run before") == levels

@@ -11,9 +11,13 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import claims_of
-from thermodata.report.words import base_role, listed, pooled, tests_of_role
+from thermodata.report.words import LITTLE, base_role, listed, pooled, tests_of_role
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.result import Score
+
+MOSTLY = 0.5
+"""Of a row's squared error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,19 +120,31 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     in_sample = {f"{s.campaign}/{s.test}" for s in data.scores if base_role(s.role) == role and s.role != role}
     overlap = {c.name.partition(":")[2] for c in data.checks if c.name.startswith("overlap:")}
     why = "some hold samples of calibration tests" if in_sample <= overlap else "they took part in the choice"
-    tests = tests_of_role(on_common([data.before, data.scores])[1], role) or tests_of_role(data.scores, role)
+    common = on_common([data.before, data.scores])[1]
+    tests = tests_of_role(common, role) or tests_of_role(data.scores, role)
     if role == "calibration":
         return ErrorRow("fitted", before, after, False, f"calibration tests: {tests}", data.unit, _whose(data))
-    level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, role)) else ""
+    scores = common if tests_of_role(common, role) else data.scores
+    level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, scores, role)) else ""
     note = "; ".join(filter(None, [tests, f"fitted too by now: {why}" if in_sample else "", level]))
     return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
 
 
-def _off_by_level(data: ReportData, role: str) -> list[str]:
-    """Tests of a role that begin with something on which may have run before (check on_at_start)."""
-    off = [c.name for c in data.checks if c.name.startswith("on_at_start:")]
-    of_role = {(s.campaign, s.test) for s in data.scores if base_role(s.role) == role}
-    return [test for campaign, test in sorted(of_role) if any(n.endswith(f"{campaign}/{test}") for n in off)]
+def _off_by_level(data: ReportData, scores: Sequence[Score], role: str) -> list[str]:
+    """Tests of a role that begin with something on which may have run before (check on_at_start), where their levels
+    make most of the row's squared error; those that make little of it are left out."""
+    off = {c.name: 1.0 - (c.value or 0.0) ** 2 for c in data.checks if c.name.startswith("on_at_start:")}
+    whole, levels = 0.0, dict[str, float]()
+    for s in scores:
+        if s.phase == "all" and base_role(s.role) == role and s.response in data.told_together:
+            of = "" if len(data.responses) == 1 else f"{s.response}/"
+            squares = s.n * (s.rmse_um or 0.0) ** 2
+            whole += squares
+            share = off.get(f"on_at_start:{of}{s.campaign}/{s.test}", 0.0)
+            levels[s.test] = levels.get(s.test, 0.0) + share * squares
+    if sum(levels.values()) <= MOSTLY * whole:
+        return []
+    return [test for test, squares in sorted(levels.items()) if squares > LITTLE * whole]
 
 
 def _whose(data: ReportData) -> str:

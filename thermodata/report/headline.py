@@ -8,6 +8,7 @@ from thermodata.report.lost import lost_sentence
 from thermodata.report.of_response import of_response
 from thermodata.report.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words import change, in_unit, listed, number
+from thermodata.schema.begins_on import IF_SO
 from thermodata.schema.diagnosis import Diagnosis
 
 
@@ -77,11 +78,10 @@ def _levels(data: ReportData) -> list[str]:
     """What scores and weak spots show, and errors on left-out tests do not: tests that begin with something on."""
     # the verdict that nothing is missing tells them
     said = data.diagnosis is not None and data.diagnosis.verdict == "none" and bool(data.diagnosis.started_on)
-    return [
-        f"{c.advice.partition('. If it had')[0]}; errors on left-out tests have their level free and do not show it"
-        for c in data.checks
-        if c.name.startswith("on_at_start:") and not c.passed and not said
-    ]
+    off = [c for c in data.checks if c.name.startswith("on_at_start:") and not c.passed and not said]
+    left_out = any(row.word == "left-out" for row in error_rows(data))
+    hidden = "; errors on left-out tests have their level free and do not show it" if left_out else ""
+    return [c.advice.partition(IF_SO)[0] + hidden for c in off]
 
 
 def _verdict(data: ReportData, found: Diagnosis) -> str:

@@ -6,7 +6,8 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from thermodata.report.could_hide import may_act_instead
-from thermodata.report.words import duration, listed, number, percent
+from thermodata.report.words import LITTLE, duration, number, percent
+from thermodata.schema.begins_on import begins_on
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis
@@ -48,33 +49,35 @@ def otherwise(found: Diagnosis) -> str:
     left, fitted = found.rmse_um, found.fitted_rmse_um
     if left is None or fitted is None:
         return ""
-    levels = of_levels(found)
     # what the levels of such tests do not make
     other = fitted * sqrt(max(0.0, 1.0 - sum(one.of_squares for one in found.started_on)))
     if other < OTHERWISE * left or other <= NOISY * (found.noise_um or 0.0):
-        return levels
+        return of_levels(found)
     instead = may_act_instead(found)
     return (
         f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
         f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
-        f"{f'; or {instead}' if instead else ''}{levels}"
+        f"{f'; or {instead}' if instead else ''}{of_levels(found, told=True)}"
     )
 
 
-def of_levels(found: Diagnosis) -> str:
-    """That the model as it is fitted errs by the level of tests that begin with something on; '' where none does."""
-    if not found.started_on:
+def of_levels(found: Diagnosis, told: bool = False) -> str:
+    """That the model as it is fitted errs by the level of tests that begin with something on; '' where none does, or
+    they make little of its error. told: whether that error was."""
+    share = sum(one.of_squares for one in found.started_on)
+    if share <= LITTLE:
         return ""
     tests = [
-        f"{one.test} ({number(one.rmse_um)} um, {number(one.left_um)} um had {one.on.rpartition(' at ')[0]} run "
-        f"before: it begins with {one.on}, which the model counts as switched on there)"
+        begins_on(one.test, one.channels or dict([one.on.split(" at ", 1)]), one.rmse_um, one.left_um)
         for one in found.started_on
+        if one.of_squares > LITTLE * share
     ]
-    share = percent(sum(one.of_squares for one in found.started_on))
+    error = (
+        "" if told else f"as it is fitted the model leaves {number(found.fitted_rmse_um)} um on the open tests, and "
+    )
     return (
-        f"; as it is fitted the model leaves {number(found.fitted_rmse_um)} um on the open tests, and {share} of its "
-        f"square is the level of {listed(tests)}; left-out tests have their level free. thermodata fit says what to do "
-        "(on_at_start)"
+        f"; {error}{percent(share)} of the square of that error is the level of tests that may have been on before: "
+        f"{', and '.join(tests)}; left-out tests have their level free. thermodata fit says what to do (on_at_start)"
     )
 
 

@@ -47,7 +47,7 @@ SPOTS_SHOWN = 10
 SLOW_S = 1800.0
 """An error that keeps its sign for so long is systematic [s]."""
 FEW = 2
-"""Means of a test, the last of them of less, that tell nothing slow."""
+"""Means of a calibration test, the last of them of less, that tell nothing slow."""
 
 
 def build_report(store: Store, ref: str, out: Path | str) -> Path:
@@ -189,8 +189,9 @@ def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
         return []
     step = tests[0].step_s
     whole = _rms([p.residual for p in tests])
-    # about zero by the fit, a test of few such means has none that could keep a sign
-    slow = _rms([m for m in (block_mean(p.residual, max(1, round(SLOW_S / p.step_s))) for p in tests) if len(m) > FEW])
+    means = [(p.role, block_mean(p.residual, max(1, round(SLOW_S / p.step_s)))) for p in tests]
+    # about zero by the fit, a calibration test of few such means has none that could keep a sign
+    slow = _rms([m for role, m in means if role != "calibration" or len(m) > FEW])
     of = f", of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     noises = ((name, _noise(data, name)) for name in data.told_together)
     noisy, noise = next(((name, n) for name, n in noises if n is not None), ("", None))

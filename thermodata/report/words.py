@@ -83,6 +83,7 @@ def change(before: float | None, after: float | None) -> str:
 
 
 MOST_NAMED = 6  # tests; more are counted
+LITTLE = 0.05  # of a squared error: what makes less is not named
 
 
 def base_role(role: str) -> str:

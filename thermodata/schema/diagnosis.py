@@ -140,6 +140,7 @@ class StartedOn(Result):
     campaign: its id
     test: its id
     on: what is on at the first sample, and its value: Coolant at 1
+    channels: the same, each channel or expression with its value; empty in an answer of an older version
     rmse_um: error of the test by the model as it is fitted, in the response's unit
     left_um: the same, had it run before
     of_squares: share of the squared error on all open tests that this makes; 0 to 1
@@ -148,6 +149,7 @@ class StartedOn(Result):
     campaign: str
     test: str
     on: str
+    channels: dict[str, str] = {}
     rmse_um: float
     left_um: float
     of_squares: float

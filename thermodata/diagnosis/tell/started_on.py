@@ -22,6 +22,7 @@ def started_with(response: FittedResponse, tests: Sequence[TestData]) -> list[St
             campaign=test.campaign,
             test=test.test,
             on=found.on,
+            channels=dict(found.channels),
             rmse_um=found.rmse,
             left_um=found.left,
             of_squares=n * (found.rmse**2 - found.left**2) / whole,

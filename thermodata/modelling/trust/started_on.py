@@ -19,6 +19,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.nuisance import WARM
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Float1D
+from thermodata.schema.begins_on import IF_SO, begins_on, values_of
 from thermodata.schema.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
@@ -26,6 +27,7 @@ from thermodata.view.dataset import Dataset, TestData
 # 1 - s had it run for long: half of s at s = 2/3, which takes a lag 1.1 time constants
 LEFT = 0.5
 BEFORE_S = 24 * 3600.0  # as long as it is let run before: four of the longest time constants of what is switched
+CLEARLY = 0.5  # of what is left had it run before: gains of its own that leave less say that it was switched on there
 FADED = 0.05  # of what a start that is not known does, after three time constants
 
 
@@ -45,7 +47,7 @@ class StartedOn:
     @property
     def on(self) -> str:
         """'Coolant at 1'."""
-        return " and ".join(f"{name} at {value}" for name, value in self.channels.items())
+        return values_of(self.channels)
 
 
 def started_on(response: FittedResponse, test: TestData) -> StartedOn | None:
@@ -66,7 +68,8 @@ def started_on(response: FittedResponse, test: TestData) -> StartedOn | None:
             roles = [role for role, text in texts.items() if text in some]
             twice += _had_run(term, test, roles) if roles else 0.0
         left = _rms((residual - twice + twice[zero].mean())[counts])
-        if left < LEFT * before and (best is None or left < best.left):
+        acting = [term for term, texts in running if any(text in some for text in texts.values())]
+        if left < LEFT * before and (best is None or left < best.left) and not _acts_less(left, response, test, acting):
             values = {name: _first(test, name) for name in some}
             fitted = test.key in response.calibrate
             best = StartedOn(test, values, before, left, _faded_after(test, twice), fitted)
@@ -90,10 +93,7 @@ def started_on_checks(fitted: FittedModel, data: Dataset) -> list[Check]:
 
 
 def _advice(found: StartedOn, unit: str) -> str:
-    said = (
-        f"{found.test.test} begins with {found.on}, and the model counts it as switched on there: {found.rmse:.3g} "
-        f"{unit} of error, {found.left:.3g} {unit} had it run before. If it had, "
-    )
+    said = begins_on(found.test.test, found.channels, found.rmse, found.left, unit) + IF_SO
     if found.fitted:
         return f"{said}start_state: warm leaves the start of the test free in the fit"
     if found.after_s is None:
@@ -134,6 +134,16 @@ def _had_run(term: FittedTerm, test: TestData, roles: Sequence[str]) -> Float1D:
     )
     found = term.bound.while_acting(test, columns(term.effect, (led, rows), values.params)) - term.columns(test)
     return np.asarray(found @ np.array([values.gains[g.name] for g in term.effect.gains]), dtype=np.float64)
+
+
+def _acts_less(left: float, response: FittedResponse, test: TestData, terms: Sequence[FittedTerm]) -> bool:
+    """Whether gains of the test's own, switched on where it begins, leave clearly less than it had it run before."""
+    counts, zero = response.mask(test), response.offset_from(test)
+    basis = np.column_stack([term.columns(test) for term in terms])
+    basis = (basis - basis[zero].mean(axis=0))[counts]
+    residual = response.residual(test)[counts]
+    gains = np.linalg.lstsq(basis, residual, rcond=None)[0]
+    return _rms(residual - basis @ gains) < CLEARLY * left
 
 
 def _faded_after(test: TestData, twice: Float1D) -> float | None:
