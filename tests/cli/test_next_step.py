@@ -66,9 +66,52 @@ def test_a_channel_that_every_test_lost_is_mended_first_where_the_model_reads_it
 
     model = path.with_name("model.yaml")
     again = f"then thermodata ingest {path} again"
-    assert step() == f"next: mend {signal}, which a first model may read and every test lost, {again}"
+    assert step() == f"next: mend {signal}, which a first model reads and every test lost, {again}"
     model.write_text(path.with_name("baseline.yaml").read_text())
     mend = f"next: mend {signal}, which {model} reads and every test lost, {again}"
     assert step() == (mend if read else f"next: thermodata fit {model}")
     logs[0].write_text(whole)  # one test has it
     assert step() == f"next: thermodata fit {model}"
+
+
+def test_a_lost_channel_that_a_first_model_does_without_stops_nothing(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    for log in (tmp_path / "lab/raw").iterdir():
+        log.write_text(log.read_text().replace("feed_Z [", "other ["))
+    model = path.with_name("model.yaml")
+    done = say("--store", tmp_path / "s", "ingest", path)
+    assert done.code == 3
+    fit = f"thermodata fit {model}"
+    assert done.err.splitlines()[-1] == f"next: thermodata first-model {path} drafts {model}; {fit}"
+    assert say("first-model", path).code == 0
+    assert say("--store", tmp_path / "s", "fit", model).code == 0
+
+
+@pytest.mark.parametrize(
+    ("drivers", "lost", "read"),
+    [
+        ("{effect: coolant, drivers: {state: feed_Z}}", "feed_Z", True),
+        ("{effect: lag, drivers: {u: spindle_speed - feed_Z}}", "feed_Z", True),
+        ("{effect: lag, drivers: {u: {at: axis.z.nut}}}", "T_nut_Z", True),
+        ("{effect: lag, drivers: {u: {at: axis.z}}}", "T_hall", False),
+        ("{effect: lag, id: T_hall, drivers: {u: T_bearing}}", "T_hall", False),
+        ("{effect: coolant, drivers: {state: feed_Z}, fixed: {gain: 1}}", "gain", False),
+        ("{effect: coolant, drivers: {state: feed_Z}}", "state", False),
+        ("{effect: coolant, drivers: {state: feed_Z}}", "coolant", False),
+    ],
+)
+def test_a_model_reads_what_its_drivers_name_and_what_lies_at_their_places(
+    say: Say, tmp_path: Path, drivers: str, lost: str, read: bool
+) -> None:
+    path = write_campaign(tmp_path / "lab")
+    for log in (tmp_path / "lab/raw").iterdir():
+        log.write_text(log.read_text().replace(f"{lost} [", "other ["))
+    if f"  {lost}:" not in path.read_text():
+        more = f"  {lost}: {{source: log, signal: {lost}, quantity: state, at: coolant}}"
+        path.write_text(path.read_text().replace("calibrations:", f"{more}\ncalibrations:"))
+    model = path.with_name("model.yaml")
+    base = path.with_name("baseline.yaml").read_text()
+    model.write_text(f"{base[: base.index('effects:')]}effects:\n  - {drivers}\n")
+    done = say("--store", tmp_path / "s", "ingest", path)
+    assert done.code == 3
+    assert (f"mend {lost}, which" in done.err.splitlines()[-1]) is read

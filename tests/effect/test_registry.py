@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
@@ -48,8 +50,10 @@ LIBRARY = {
 @pytest.fixture
 def fresh() -> Iterator[None]:
     registry._load.cache_clear()
+    registry.code.cache_clear()
     yield
     registry._load.cache_clear()
+    registry.code.cache_clear()
 
 
 def test_the_library_is_installed() -> None:
@@ -83,3 +87,27 @@ def test_without_plugins_the_error_says_what_installs_them(fresh: None, monkeypa
     _entries(monkeypatch)
     with pytest.raises(UsageError, match="pip install"):
         effect("lag")
+
+
+@pytest.mark.parametrize("changed", ["base_of_effects.py", "own_effects/__init__.py", "own_effects/laws.py"])
+def test_the_code_is_of_the_plugin_and_of_the_class_that_it_imports(
+    fresh: None, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, changed: str
+) -> None:
+    (tmp_path / "own_effects").mkdir()
+    (tmp_path / "base_of_effects.py").write_text(
+        "from thermodata_effects_machine_tool.generic import Lag\n\n\n"
+        "class Base(Lag):\n    def __init__(self, law):\n        self.law, self.name = law, 'doubled'\n"
+    )
+    (tmp_path / "own_effects/laws.py").write_text("def law(x):\n    return 2 * x\n")
+    (tmp_path / "own_effects/__init__.py").write_text(
+        "from base_of_effects import Base\nfrom own_effects.laws import law\n\neffect = Base(law)\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    for module in ("base_of_effects", "own_effects", "own_effects.laws"):
+        monkeypatch.delitem(sys.modules, module, raising=False)
+    _entries(monkeypatch, EntryPoint("doubled", "own_effects:effect", registry.GROUP))
+    before = registry.code()
+    assert failed_effects() == {}
+    (tmp_path / changed).write_text((tmp_path / changed).read_text() + "# another law\n")
+    registry.code.cache_clear()
+    assert registry.code() != before

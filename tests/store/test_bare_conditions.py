@@ -44,6 +44,25 @@ def test_with_units_nothing_is_told(tmp_path: Path) -> None:
     assert told(text, tmp_path) == []
 
 
+@pytest.mark.parametrize(
+    ("condition", "is_told"),
+    [
+        ("speed: 0", False),
+        ('load: "0"', False),
+        ("fan_position: 2", False),
+        ("position: 2", True),
+        ("air: 1", False),
+        ("air: 0", False),
+        ("sealing_air: 1", False),
+        ("air: 21", True),
+        ("speed: 1", True),
+        ("Table_feed: 1", True),
+    ],
+)
+def test_a_zero_a_switch_and_one_of_a_row_need_no_unit(tmp_path: Path, condition: str, is_told: bool) -> None:
+    assert bool(told(TEXT[: TEXT.index("  - ")] + f"  - {{id: a, conditions: {{{condition}}}}}\n", tmp_path)) is is_told
+
+
 @pytest.mark.parametrize(("name", "unit"), UNIT.items())
 def test_the_unit_that_is_named_is_that_of_the_numbers_beside_it(name: str, unit: str) -> None:
     assert plain_value(f"3 {unit}") == plain_value(3), name

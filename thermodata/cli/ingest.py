@@ -21,14 +21,17 @@ def ingest_command(session: Session, campaign: Path) -> int:
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
     from thermodata.cli.progress import progress_line
+    from thermodata.draft.writing.baseline import model_text_of
     from thermodata.report.after_ingest import next_step
+    from thermodata.schema.load import load_campaign
     from thermodata.store.ingest.run import ingest, store_for
 
     store = store_for(session.store_path, campaign)
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line).to_json())
     session.answer(summary, lambda: ingest_text(summary))
-    if (step := next_step(store, summary, campaign)) is not None:
+    step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)))
+    if step is not None:
         session.say(step)
     return 3 if summary["losses"] else 0
 

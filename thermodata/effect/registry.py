@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import inspect
+import sys
 import warnings
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
@@ -59,19 +60,23 @@ def origin(effect: Effect) -> str:
 @lru_cache(maxsize=1)
 def code() -> str:
     """A hash of the files that the effects are written in: an answer stands for the equations that it was made with."""
-    files = {file for found in all_effects().values() for file in _files(type(found))}
+    found = all_effects()
+    classes = {type(one).__module__ for one in found.values()}
+    # an instance may be made with its law, and its class come from another package
+    named = {entry.module for entry in entry_points(group=GROUP) if entry.name in found}
+    files = {file for module in classes | named for file in _files(module)}
     digests = sorted(hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
     return hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
-def _files(made: type) -> set[Path]:
-    """All of its package, for an equation may stand beside its class. None of a class that was made at run time."""
+def _files(name: str) -> set[Path]:
+    """All of a module's package, for an equation may stand beside its class. None of what was made at run time."""
     try:
-        file = Path(inspect.getfile(made))
-    except (TypeError, OSError):
+        file = Path(inspect.getfile(sys.modules[name]))
+    except (KeyError, TypeError, OSError):
         return set()
     module = file.parent if file.name == "__init__.py" else file
-    depth = made.__module__.count(".")
+    depth = name.count(".")
     within = module.parents[depth - 1] if depth else module
     if within.is_dir():
         return set(within.rglob("*.py"))

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from thermodata.effect.places import holds
 from thermodata.errors import ThermodataError
-from thermodata.schema.load import load_model
-from thermodata.schema.model import Model
+from thermodata.modelling.inputs.drivers import names_of
+from thermodata.schema.load import load_model, parse_model
+from thermodata.schema.model import Driver, Model, Place, Response
 
 if TYPE_CHECKING:
     import duckdb
@@ -18,11 +20,12 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 _CHANNEL = re.compile(r"\bchannel '(\w+)'")
+_MOVES = ("displacement", "tilt")
 
 
-def next_step(store: Store, summary: Mapping[str, Any], campaign: Path) -> str | None:
+def next_step(store: Store, summary: Mapping[str, Any], campaign: Path, draft: Callable[[], str | None]) -> str | None:
     """What leads to a model; to samples, where the campaign has none of these. None where it has a model. summary: of
-    the ingest, as its JSON; campaign: the file."""
+    the ingest, as its JSON; campaign: the file; draft: the text of its first model."""
     again = f"then thermodata ingest {campaign} again"
     if not summary["samples"]:
         # where nothing was lost, it has no tests yet, as a note says
@@ -33,12 +36,16 @@ def next_step(store: Store, summary: Mapping[str, Any], campaign: Path) -> str |
         name = summary["campaign"]
         if con.execute("select 1 from model where list_contains(campaigns, ?) limit 1", [name]).fetchone():
             return None
-        lost = [one for one in _lost_everywhere(con, name, summary["losses"]) if model is None or _reads(model, one)]
+        lost = _lost_everywhere(con, name, summary["losses"])
         unfitted = _nothing_to_fit(con, (name,) if model is None else model.campaign_ids, model)
     fit = f"thermodata fit {path}"
-    if lost:
-        whose = f"{path} reads" if model is not None else "a first model may read"
-        return f"next: mend {' and '.join(c['name'] for c in lost)}, which {whose} and every test lost, {again}"
+    asking = model
+    if lost and not path.exists():
+        text = draft()
+        asking = None if text is None else parse_model(text)
+    if asking is not None and (read := [one["name"] for one in lost if _reads(asking, one)]):
+        whose = f"{path} reads" if path.exists() else "a first model reads"
+        return f"next: mend {' and '.join(read)}, which {whose} and every test lost, {again}"
     make = "" if path.exists() else f"thermodata first-model {campaign} drafts {path}; "
     if unfitted:
         return (
@@ -68,13 +75,30 @@ def _lost_everywhere(
 
 
 def _reads(model: Model, channel: Mapping[str, Any]) -> bool:
-    """Whether a model file names a channel, or models a displacement at its place."""
-    for response in model.responses:
-        of_axis = response.axis is not None and response.axis == channel.get("axis")
-        if of_axis and response.at in (None, channel.get("at")):
+    """Whether a model names a channel, as a response or in what drives an effect, or means it by its place."""
+    responses = [*model.responses]
+    for effect in model.effects:
+        responses += [*(effect.acts_on or ()), *filter(None, [effect.response])]
+        if any(_drives(driver, channel) for driver in effect.drivers.values()):
             return True
-    said = json.dumps([r.channel for r in model.responses]) + "".join(e.model_dump_json() for e in model.effects)
-    return re.search(rf"\b{channel['name']}\b", said) is not None
+    return any(_is_response(one, channel) for one in responses)
+
+
+def _is_response(response: Response, channel: Mapping[str, Any]) -> bool:
+    if response.channel is not None:
+        return bool(response.channel == channel["name"])
+    if channel.get("quantity") not in _MOVES or channel.get("axis") != response.axis:
+        return False
+    return response.at is None or holds(response.at, channel.get("at"))
+
+
+def _drives(driver: Driver, channel: Mapping[str, Any]) -> bool:
+    if isinstance(driver, Place):
+        return channel.get("quantity") not in (*_MOVES, "label") and holds(driver.at, channel.get("at"))
+    try:
+        return channel["name"] in names_of(driver)
+    except ThermodataError:  # `fit` refuses it with its line
+        return False
 
 
 def _nothing_to_fit(con: duckdb.DuckDBPyConnection, campaigns: Sequence[str], model: Model | None) -> bool:

@@ -22,6 +22,8 @@ UNIT = _KEPT | {
     "diameter": "mm",
     "duration": "s",
 }
+_WHOLE = frozenset({"position"})  # as the last of several words it is one of a row: fan_position: 2
+_SWITCH = frozenset({"air"})  # cutting air, or the air that seals, is on or off
 
 
 def conditions_without_unit(campaign: Campaign, path: Path) -> list[str]:
@@ -30,7 +32,7 @@ def conditions_without_unit(campaign: Campaign, path: Path) -> list[str]:
     for test in campaign.tests:
         for name, value in test.conditions.items():
             unit = _unit(name)
-            if unit is not None and _bare(value):
+            if unit is not None and _lacks_unit(name, value):
                 found.setdefault((name, unit), []).append((test.id, value))
     lines = _lines(path) if found else {}
     said = []
@@ -47,16 +49,23 @@ def conditions_without_unit(campaign: Campaign, path: Path) -> list[str]:
 
 def _unit(name: str) -> str | None:
     """The unit that a condition of this name is read in: by its whole name, else by its last word."""
-    return UNIT.get(name.lower()) or UNIT.get(name.lower().rpartition("_")[2])
+    last = _last_word(name)
+    return UNIT.get(name.lower()) or (None if last in _WHOLE else UNIT.get(last))
 
 
-def _bare(value: Any) -> bool:
+def _last_word(name: str) -> str:
+    return name.lower().rpartition("_")[2]
+
+
+def _lacks_unit(name: str, value: Any) -> bool:
+    """Of a number alone, but for 0, which is nothing in any unit, and 1 of what may be switched."""
     if isinstance(value, bool):
         return False
     try:
-        return not split_value(value)[1]
+        number, unit = split_value(value)
     except ThermodataError:
         return False
+    return not unit and number != 0 and not (number == 1 and _last_word(name) in _SWITCH)
 
 
 def _lines(path: Path) -> dict[tuple[str, str], int]:
