@@ -212,3 +212,15 @@ def test_texts_from_data_can_not_break_the_page(data: ReportData) -> None:
 def test_a_model_without_tests_or_diagnosis_still_has_a_page(data: ReportData) -> None:
     bare = dataclasses.replace(data, tests=(), scores=[], before=[], versions=(), reason=None, calibrations=())
     assert "No test of this model can be predicted" in render(bare)
+
+
+def test_what_is_slow_is_no_more_than_all_that_is_left(data: ReportData) -> None:
+    """A short calibration test has its zero in both rows."""
+    one = data.tests[0]
+    fitted = dataclasses.replace(one, residual=np.tile([-0.1, 0.1], 50), role="calibration")
+    foretold = dataclasses.replace(one, residual=np.full(1000, 5.0), role="verification")
+    figures = {
+        what: float(figure)
+        for what, figure, _ in what_is_left(dataclasses.replace(data, tests=[fitted] * 10 + [foretold]))
+    }
+    assert figures["of it, in means of 30 min"] <= figures["left over in all open tests"]

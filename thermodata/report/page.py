@@ -190,8 +190,8 @@ def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
     step = tests[0].step_s
     whole = _rms([p.residual for p in tests])
     means = [(p.role, block_mean(p.residual, max(1, round(SLOW_S / p.step_s)))) for p in tests]
-    # about zero by the fit, a calibration test of few such means has none that could keep a sign
-    slow = _rms([m for role, m in means if role != "calibration" or len(m) > FEW])
+    # about zero by the fit, a calibration test of few such means has none that could keep a sign: alone it tells none
+    slow = _rms([m for _, m in means]) if any(r != "calibration" or len(m) > FEW for r, m in means) else None
     of = f", of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     noises = ((name, _noise(data, name)) for name in data.told_together)
     noisy, noise = next(((name, n) for name, n in noises if n is not None), ("", None))
