@@ -35,6 +35,7 @@ from measure import PROGRAM, table
 MAKES = Path(__file__).parent / "makes"
 ROUNDS = 3
 DONE = (0, 3)  # exit codes of a command that answered
+REFUSED = 2  # of one that says what is wrong with what it was asked
 Truth = Mapping[str, Any]
 
 
@@ -65,6 +66,10 @@ class Asked:
     losses: list[str]
 
 
+class RefusedError(RuntimeError):
+    """A command refused what it was asked, and did not fail."""
+
+
 class Lab:
     """The commands on one store."""
 
@@ -75,7 +80,8 @@ class Lab:
         told = [self.program, *map(str, words), "--store", str(self.folder / "store"), "--json"]
         done = subprocess.run(told, cwd=self.folder, capture_output=True, text=True, check=False)
         if done.returncode not in DONE:
-            raise RuntimeError(f"{' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr[-2000:]}")
+            kind = RefusedError if done.returncode == REFUSED else RuntimeError
+            raise kind(f"{' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr[-2000:]}")
         return json.loads(done.stdout)
 
 
@@ -128,7 +134,7 @@ def worth(lab: Lab, model: str, hidden: Sequence[Truth]) -> float | None:
         return None
     try:
         said = lab.ask("confirm", model, hidden[0]["right"][0])
-    except RuntimeError:
+    except RefusedError:
         return None
     before, after = said["locked_rmse_um_before"], said["locked_rmse_um_after"]
     return None if not before or after is None else 1 - after / before
@@ -173,9 +179,10 @@ def outcome(row: Mapping[str, Any]) -> str:
 
 
 SORTS: Mapping[str, Callable[[Mapping[str, Any]], bool]] = {
-    "one, worth 30 %": lambda r: r["kind"] == "one" and (r["worth"] or 0) >= 0.3,
-    "one, worth 10 to 30 %": lambda r: r["kind"] == "one" and 0.1 <= (r["worth"] or 0) < 0.3,
-    "one, worth less": lambda r: r["kind"] == "one" and (r["worth"] or 0) < 0.1,
+    "one, worth 30 %": lambda r: r["kind"] == "one" and r["worth"] is not None and r["worth"] >= 0.3,
+    "one, worth 10 to 30 %": lambda r: r["kind"] == "one" and r["worth"] is not None and 0.1 <= r["worth"] < 0.3,
+    "one, worth less": lambda r: r["kind"] == "one" and r["worth"] is not None and r["worth"] < 0.1,
+    "one, worth not known": lambda r: r["kind"] == "one" and r["worth"] is None,
     "two or three": lambda r: r["kind"] in ("two", "three"),
     "nothing hidden": lambda r: r["kind"] == "none",
     "not logged, outside": lambda r: r["kind"] in ("not_logged", "outside"),
