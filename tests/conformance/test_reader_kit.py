@@ -219,7 +219,7 @@ class OneScratchFileForAll(Good):
                 file.write(path.read_bytes())
         except FileExistsError:
             kind.met = True
-        end = time.monotonic() + 60.0
+        end = time.monotonic() + 180.0
         while os.getpid() != self.home and not kind.met and time.monotonic() < end:
             kind.met = not scratch.exists()
             time.sleep(0.001)

@@ -142,6 +142,9 @@ class TestAnswer:
                 whole = Confirmation(*shown, 1.0, 0.5 if held else 1.0, 0.8, {}, shapes=shapes(held))
                 return whole.on(tests)
 
+            def together(self, candidates: Sequence[Any]) -> None:
+                return None
+
         def confirm(*asked: Any) -> Confirmation:
             names = [c.effect.name for c in asked[3]]
             self.opened.append((names, [t.test for t in asked[5]]))

@@ -300,7 +300,7 @@ MUTANTS = [
         "merged names are lost",
     ),
     text("names/described.py", "len(set(said.values())) < len(said)", "False", "a kind of input is a name"),
-    text("names/described.py", "    rows = rows[: _names_at(rows, names)]\n", "", "a comment on sensors is a name"),
+    text("names/described.py", "    rows = rows[: names_at(rows, names)]\n", "", "a comment on sensors is a name"),
     text("names/described.py", "max(_FEWEST, len(names) // 2)", "1", "a comment on the file describes a channel"),
     text("rows/footer.py", "numbers = all(", "numbers = True or all(", "damage behind a word is no loss"),
     text("rows/footer.py", "(bool(others) and _STATISTIC", "(_STATISTIC", "a word alone is statistics"),
@@ -333,8 +333,8 @@ MUTANTS = [
     ),
     text(
         "rows/quality_columns.py",
-        "[0 if is_good(str(word), zero) else BAD",
-        "[BAD if is_good(str(word), zero) else 0",
+        "[0 if _keeps(str(word), zero, faults) else BAD",
+        "[BAD if _keeps(str(word), zero, faults) else 0",
         "good values are bad",
     ),
     # ---- lines
