@@ -106,6 +106,7 @@ def ask(name: str, case: int, program: str) -> Asked:
             for candidate in new:
                 added = lab.ask("add", asked_of, candidate["id"])
                 asked_of, um[1] = added["model"], added["locked_rmse_um_after"]
+                um[0] = added["locked_rmse_um_before"] if um[0] is None else um[0]
             if not new or len(claims) >= len(truth["hidden"]):
                 break
             said = lab.ask("diagnose", asked_of)
