@@ -80,10 +80,12 @@ def related(
     *,
     told_by_cells: bool = True,
     beyond: Collection[str] = (),
+    measured: Collection[str] = (),
 ) -> Related:
     """By the first rows of columns on one time. values: shape (n,) each; empty: cells that hold nothing, of the columns
     that have any; told_by_cells: False where only what is declared stands; beyond: names of other streams of the file,
-    which may be declared as well. UsageError: `declared_standing`; QuestionError: `declared_zero`."""
+    which may be declared as well; measured: names of columns with a unit. UsageError: `declared_standing`;
+    QuestionError: `declared_zero`."""
     said = said or {}
     rows = rows_looked_at(len(values))
     head = {name: v[:rows] for name, v in values.items()}
@@ -93,7 +95,7 @@ def related(
     def zero_of(zero: bool | None, name: str) -> bool:
         return declared_zero(said, zero, name, where)
 
-    quality, of_rows, codes = qualities(called, zero_of)
+    quality, of_rows, codes = qualities(called, zero_of, measured)
     note = None
     told = _declared(said.get(KEY), list(values), beyond, where)
     own = {name for name, _ in (*quality.values(), *of_rows.values())}

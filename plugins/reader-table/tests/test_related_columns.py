@@ -124,3 +124,17 @@ def test_of_a_wide_table_fewer_rows_are_looked_at_and_no_cells_of_columns_withou
     found = related({}, values, {}, np.arange(20_000), "a.parquet")
     assert found == Related()
     assert time.process_time() - began < 1  # every cell as a text took ten times as long
+
+
+@pytest.mark.parametrize(("write", "name"), [(text, "a.csv"), (book, "a.xlsx")], ids=["text", "workbook"])
+def test_an_error_with_a_unit_is_a_reading_and_no_code(tmp_path: Path, write: Write, name: str) -> None:
+    """Whole micrometres beside the axis whose error they are: good rows of it stay good."""
+    error: list[float | str | None] = ["um", *(3.0 if k % 5 == 0 else 0.0 for k in range(100))]
+    made = write(
+        tmp_path / name,
+        {"t [s]": ["", *map(float, range(100))], "X": ["mm", *np.arange(0.5, 100.5).tolist()], "X_Error": error},
+    )
+    data = load(Reader(), made, Source())
+    (stream,) = data.t_ns
+    assert not np.any(data.flags.get((stream, "X"), 0))
+    assert {s.name: s.properties.get("quality_of") for s in data.recording.signals}["X_Error"] is None

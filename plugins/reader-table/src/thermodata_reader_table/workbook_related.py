@@ -21,7 +21,9 @@ def with_related(
     good = stream.times.t_ns != NAT
     values = {name: v[good] for name, v in stream.values.items()}
     empty = {name: e[good] for name, e in stream.empty.items()}
-    found = related(said, values, empty, stream.times.t_ns, where, told_by_cells=told_by_cells, beyond=beyond)
+    measured = {name for name, unit in stream.units.items() if unit}
+    times = stream.times.t_ns
+    found = related(said, values, empty, times, where, told_by_cells=told_by_cells, beyond=beyond, measured=measured)
     if not (found.stands or found.quality or found.states):
         return stream, found
     flags = {name: f[good] for name, f in stream.flags.items()}
