@@ -17,7 +17,7 @@ from thermodata.reader.guard import asking, described, guarded
 from thermodata.reader.newest_first import NOTE, Steps
 from thermodata.reader.registry import claims, sniff
 from thermodata.reader.regular import refuse_what_never_ends
-from thermodata.reader.text.names.unit_column import units_met
+from thermodata.reader.units_met import units_met
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.plugin import Block, Loss, Signal
+from thermodata.plugin import Block, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.cells.quotes import clean
@@ -36,37 +36,6 @@ class UnitColumn:
         return f"'{self.column}' says the unit of '{self.of}' row by row: {shown} is converted to '{self.unit}'"
 
 
-@dataclass(slots=True)
-class UnitsMet:
-    """What rows say of their unit while their blocks pass: the first look at a file may not have met all."""
-
-    stream: str
-    said: UnitColumn
-    _converted: dict[str, None] = field(default_factory=dict)
-
-    def add(self, block: Block) -> None:
-        """The next rows of the file."""
-        if block.stream != self.stream or self.said.column not in block.values:
-            return
-        for word in dict.fromkeys(words_of(self.said.column, block.values[self.said.column])):
-            if word and normal_unit(word) != normal_unit(self.said.unit) and _converts(word, self.said.unit):
-                self._converted[word] = None
-
-    def note(self, told: Sequence[str]) -> str | None:
-        """What is told of units that were converted and are not told yet. told: the notes of the first look."""
-        own = f"'{self.said.column}' says the unit of "
-        before = [note for note in told if note.startswith(own)]
-        late = [word for word in self._converted if not any(f"'{word}'" in note for note in before)]
-        return replace(self.said, others=tuple(late)).note()
-
-
-def units_met(signals: Sequence[Signal]) -> list[UnitsMet]:
-    """One for each column of units among the signals of a file."""
-    unit_of = {(s.stream, s.name): s.unit for s in signals}
-    found = [(s, of, unit_of.get((s.stream, of))) for s in signals if (of := (s.properties or {}).get(UNIT_OF))]
-    return [UnitsMet(s.stream, UnitColumn(s.name, of, unit)) for s, of, unit in found if unit is not None]
-
-
 def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> UnitColumn | None:
     """None where no column is called a unit, its cells are none, or of several kinds, or it may be of several columns.
     kinds: of the columns beside the time whose headers say no unit; cells: their sampled cells."""
@@ -79,7 +48,7 @@ def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[st
     if first is None or not is_unit(first) or (len(found) == 1 and may_be_a_machine(first)):
         return None
     others = tuple(found)[1:]
-    if not all(_converts(other, first) for other in others):
+    if not all(converts_here(other, first) for other in others):
         return None
     return UnitColumn(called[0], numbers[0], first, others)
 
@@ -116,7 +85,7 @@ def _units_in(cells: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _converts(word: str, unit: str) -> bool:
+def converts_here(word: str, unit: str) -> bool:
     """Whether values in the one are converted to the other: letters alone may be machines."""
     return (len(word) > 1 or len(unit) > 1) and is_unit(word) and converts(word, unit)
 
@@ -134,7 +103,7 @@ def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> 
             if not word or normal_unit(word) == normal_unit(said.unit):
                 continue
             rows = words == word
-            if values.dtype.kind == "f" and _converts(word, said.unit):
+            if values.dtype.kind == "f" and converts_here(word, said.unit):
                 factor, offset = linear_conversion(word, said.unit)
                 values = np.where(rows, values * factor + offset, values)
                 continue
