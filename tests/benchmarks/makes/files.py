@@ -93,3 +93,18 @@ def workbook(path: Path, sheet: str, head: Sequence[str], rows: Iterable[Sequenc
 def document(path: Path, said: Mapping[str, Any]) -> None:
     """A campaign or a model."""
     path.write_text(yaml.safe_dump(said, sort_keys=False, allow_unicode=True), encoding="utf-8")
+
+
+def first_model(
+    path: Path, campaign: str, axis: str, step: str, effects: Iterable[tuple[str, Mapping[str, str]]]
+) -> None:
+    """The model that a laboratory begins with. effects: each with its drivers."""
+    said = {
+        "schema": "thermodata/model/1",
+        "name": "baseline",
+        "campaign": campaign,
+        "step": step,
+        "response": {"axis": axis, "at": "tcp"},
+        "effects": [{"effect": effect, "drivers": drivers} for effect, drivers in effects],
+    }
+    document(path, said)

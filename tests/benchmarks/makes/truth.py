@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Set
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,16 @@ KINDS = (
     "outside",  # physics that no channel tells
     "fault",  # of the logs; nothing is missing
 )
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a case hides. axis: of the response; hidden: causes; weak: of half the size and less."""
+
+    kind: str
+    axis: str
+    hidden: tuple[str, ...]
+    weak: bool
 
 
 def channels(ids: str) -> set[str]:

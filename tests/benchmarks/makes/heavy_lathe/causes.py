@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..truth import KINDS
+from ..truth import KINDS, Plan
 
 
 @dataclass(frozen=True)
@@ -21,15 +21,6 @@ class Cause:
     right: str
     twins: str
     gone: str = ""
-
-
-@dataclass(frozen=True)
-class Plan:
-    """hidden: causes. weak: of half the size and less."""
-
-    kind: str
-    hidden: tuple[str, ...]
-    weak: bool
 
 
 CAUSES: Mapping[str, Cause] = {
@@ -127,9 +118,9 @@ def plan(case: int, rng: np.random.Generator) -> Plan:
     names = [str(k) for k in turn.permutation([k for k in CAUSES if k not in ("ambient", "fixture")])]
     if kind == "two":
         first = 2 * (place - KINDS.index("two"))
-        return Plan(kind, (names[first], names[first + 1]), False)
+        return Plan(kind, "X", (names[first], names[first + 1]), False)
     if kind == "not_logged":
-        return Plan(kind, (str(rng.choice(UNSEEN)),), False)
+        return Plan(kind, "X", (str(rng.choice(UNSEEN)),), False)
     if kind in ("one", "weak"):
-        return Plan("one", (names[place],), kind == "weak")
-    return Plan(kind, (), False)
+        return Plan("one", "X", (names[place],), kind == "weak")
+    return Plan(kind, "X", (), False)

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ..files import document
-from ..truth import channels, hidden, write_truth
-from .causes import BASE, CAUSES, Plan, plan
+from ..files import first_model
+from ..truth import Plan, channels, hidden, write_truth
+from .causes import BASE, CAUSES, plan
 from .laboratory import Laboratory
 from .machine import Centre, scaled
 from .programme import Run, programme
@@ -50,15 +50,8 @@ def write(folder: Path, case: int) -> dict[str, Any]:
     laboratory = Laboratory(rng, folder, asked.axis, asked.kind, case)
     fault = laboratory.log(runs, temps, move, shown)
     laboratory.campaign(runs, shown)
-    model = {
-        "schema": "thermodata/model/1",
-        "name": "baseline",
-        "campaign": f"hmc-{case:02d}",
-        "step": "60 s",
-        "response": {"axis": asked.axis, "at": "tcp"},
-        "effects": [{"effect": BASE[k][0], "drivers": BASE[k][1]} for k in base],
-    }
-    document(folder / "model.yaml", model)
+    effects = ((BASE[k][0], BASE[k][1]) for k in base)
+    first_model(folder / "model.yaml", f"hmc-{case:02d}", asked.axis, "60 s", effects)
     truth = {
         "case": case,
         "kind": asked.kind,

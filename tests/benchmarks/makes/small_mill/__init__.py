@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ..files import document
-from ..truth import hidden, write_truth
-from .causes import BASE, CAUSES, Plan, plan
+from ..files import first_model
+from ..truth import Plan, hidden, write_truth
+from .causes import BASE, CAUSES, plan
 from .laboratory import SENSORS, Laboratory
 from .machine import Mill, scaled
 from .programme import Run, programme
@@ -36,15 +36,8 @@ def write(folder: Path, case: int) -> dict[str, Any]:
     laboratory = Laboratory(rng, folder, asked.axis, asked.kind)
     fault = laboratory.log(runs, temps, move, shown)
     laboratory.campaign(case, runs, shown)
-    model = {
-        "schema": "thermodata/model/1",
-        "name": "baseline",
-        "campaign": f"mill-{case:02d}",
-        "response": {"axis": asked.axis, "at": "tcp"},
-        "step": "60 s",
-        "effects": [{"effect": BASE[k][0], "drivers": {"temperature": BASE[k][1]}} for k in base],
-    }
-    document(folder / "model.yaml", model)
+    effects = ((BASE[k][0], {"temperature": BASE[k][1]}) for k in base)
+    first_model(folder / "model.yaml", f"mill-{case:02d}", asked.axis, "60 s", effects)
     truth = {
         "case": case,
         "kind": asked.kind,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..truth import KINDS
+from ..truth import KINDS, Plan
 
 
 @dataclass(frozen=True)
@@ -18,16 +18,6 @@ class Cause:
     sensors: str
     right: str
     twins: str
-
-
-@dataclass(frozen=True)
-class Plan:
-    """hidden: causes. weak: of half the size and less."""
-
-    kind: str
-    axis: str
-    hidden: tuple[str, ...]
-    weak: bool
 
 
 CAUSES: Mapping[str, Cause] = {
