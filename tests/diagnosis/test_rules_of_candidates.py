@@ -242,6 +242,27 @@ def test_the_same_effect_on_other_channels_is_the_same() -> None:
 
 
 @pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        ((PlainEffect("screw", "feed_x"),), "same"),  # the other end of the screw that the model reads
+        ((PlainEffect("screw", "feed_x"), PlainEffect("mount", "feed_x")), "related"),
+        ((PlainEffect("screw", "feed_x"), PlainEffect("sun", "sun")), None),  # it may be the sun
+        ((), None),
+    ],
+)
+def test_a_lag_is_as_near_to_the_model_as_the_furthest_name_of_its_channel(
+    names: tuple[PlainEffect, ...], expected: str | None
+) -> None:
+    library = {e.name: e for e in (*names, LAG)}
+    channels = {
+        "T_nut": ChannelInfo("T_nut", "temperature", "degC", at="axis.x.nut"),
+        "T_end": ChannelInfo("T_end", "temperature", "degC", at="axis.x.bearing"),
+    }
+    found = {c.id: c.kin for c in candidates(library, channels, (has("screw", "T_nut", family="feed_x"),), "dZ")}
+    assert found["lag:T_end"] == expected
+
+
+@pytest.mark.parametrize(
     ("present", "expected"),
     [
         ((has("bent", "T_nut", "T_axis", family="feed_x"),), "part"),
@@ -379,7 +400,7 @@ def test_a_plain_function_has_family_and_cause_of_what_it_stands_for() -> None:
     def of(*present: Present) -> dict[str, object]:
         return {c.id: c.kin for c in candidates(library, CHANNELS, present, "dZ")}
 
-    assert of(has("lag", "T_nut")) == {"motor:T_oil": "related", "lag:T_oil": None, "lag:T_free": None}
+    assert of(has("lag", "T_nut")) == {"motor:T_oil": "related", "lag:T_oil": "related", "lag:T_free": None}
     assert of(has("lag", "T_free"))["motor:T_oil"] is None
 
 

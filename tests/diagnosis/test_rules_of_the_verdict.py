@@ -251,6 +251,31 @@ def test_the_lock_is_opened_for_what_refines_and_is_as_probable_as_a_claim(
     assert (names(beside.claims), names(beside.likely)) == (["x"], ["a"] if asked else [])
 
 
+ALIKE, APART = (1.0, 0.0), (0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("family", "after", "kin", "shape", "expected"),
+    [
+        ("generic", 0.45, "same", ALIKE, "refine"),
+        ("control", 0.45, "same", ALIKE, "refine"),
+        ("feed_x", 0.45, "same", ALIKE, "effect"),  # a name says which physics it is
+        ("generic", 0.45, "near", ALIKE, "effect"),
+        ("generic", 0.45, "same", APART, "effect"),  # the tests tell it from that
+        ("generic", 0.39, "same", ALIKE, "effect"),  # what takes off six tenths is surely missing
+    ],
+)
+def test_a_lag_that_the_tests_cannot_tell_from_a_mode_of_the_model_is_no_cause(
+    family: str, after: float, kin: Any, shape: Sequence[float], expected: str
+) -> None:
+    mode = scored("mode", kin=kin, shape=shape, after=0.5, channels=("T_b",))
+    own = scored("a", family=family, after=after, shape=ALIKE)
+    found = verdict(own, first=[mode], refined=["mode"])
+    assert found.verdict == expected
+    assert [(j.refines, j.mode) for j in found.refinements] == ([("it is kin", "mode:T_b")] if not found.claims else [])
+    assert found.likely == (), "another mode of the model is none, however it does on the locked tests"
+
+
 def test_a_blunt_cause_is_not_claimed_and_is_no_refinement_either() -> None:
     blunt = scored("blunt", evidence=60.0)
     found = verdict(blunt)

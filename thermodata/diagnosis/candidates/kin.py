@@ -17,6 +17,7 @@ from thermodata.view.dataset import ChannelInfo
 # that the model has, at its place. "related": one elsewhere. "itself": an effect of the model with other gains
 # (`gain_by`)
 Kin = Literal["same", "heat", "part", "near", "related", "itself"] | None
+NEAREST_FIRST: tuple[Kin, ...] = ("itself", "same", "heat", "part", "near", "related", None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,11 @@ def kin_of(
     if names <= model.read and warm:
         return "part" if _one_of_several(names, [p.channels for p in model.own if p.family == family]) else "same"
     return "near" if near else "related"
+
+
+def furthest(names: Sequence[Kin]) -> Kin:
+    """Of a lag of channels that have names: it may be any of them, so it is as far from the model as the furthest."""
+    return max(names, key=NEAREST_FIRST.index, default=None)
 
 
 def _one_of_several(names: frozenset[str], read: Sequence[frozenset[str]]) -> bool:

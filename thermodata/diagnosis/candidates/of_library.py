@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.kin import Kin, ModelOf, kin_of, refines, told_by
+from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.diagnosis.question.present import (
     CONTROL,
@@ -190,8 +190,14 @@ def candidates(
                     lesser=is_lesser(effect, names, usable, other),
                 )
             )
-    named = {c.channels for c in found if c.family not in (GENERIC, CONTROL)}
-    return [replace(c, log_prior=UNNAMED) if _says_little(c, named) else c for c in found]
+    named = [c for c in found if c.family not in (GENERIC, CONTROL)]
+    kins: dict[tuple[str, ...], list[Kin]] = {}
+    for c in named:
+        kins.setdefault(c.channels, []).append(c.kin)
+    return [
+        replace(c, log_prior=UNNAMED, kin=c.kin or furthest(kins.get(c.channels, ()))) if _says_little(c, kins) else c
+        for c in found
+    ]
 
 
 def _follows(channel: ChannelInfo) -> bool:

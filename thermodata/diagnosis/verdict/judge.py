@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.diagnosis.claims.measure import FLOOR_SHARE, Measure
 from thermodata.diagnosis.claims.probability import may_be_confirmed, probability, sharpness
+from thermodata.diagnosis.claims.refinement import is_surely_missing
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, blunt, contradicts, failed_rules, halves, is_plain, rules
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.question.problem import Problem
@@ -36,13 +37,15 @@ SURE = 2.0
 class Judged:
     """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
     the model, in words; None for a cause of its own. beside: all candidates, ranked without it. in_place_of: the id of
-    the member, where `scored` is of one that the open tests can't tell from it."""
+    the member, where `scored` is of one that the open tests can't tell from it. mode: the id of another mode of what
+    the model has, which the tests can't tell from it either."""
 
     scored: Scored
     alone: Scored
     refines: str | None
     beside: tuple[Scored, ...]
     in_place_of: str | None = None
+    mode: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +75,8 @@ def judge(
         )
     if selection is None:
         return _nothing("not_testable", "no effect of the library fits the channels that were logged")
-    judged = _beside_each_other([Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members])
+    members = [Judged(m.scored, m.alone, refines(m.scored), m.beside) for m in selection.members]
+    judged = _beside_each_other([_or_a_mode(member, refines) for member in members])
     found = concluded(problem, selection, measure, judged)
     if found.verdict not in ("unknown", "none") or found.likely:
         return found
@@ -116,11 +120,23 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
 
 
+def _or_a_mode(j: Judged, refines: Callable[[Scored], str | None]) -> Judged:
+    """A lag or a difference names no physics: where the tests can't tell it from another mode of what the model has, it
+    is that, unless it is surely missing."""
+    nameless = j.scored.candidate.family in (GENERIC, CONTROL)
+    if j.refines is not None or not nameless or is_surely_missing(j.scored):
+        return j
+    for twin in equivalents(j.scored, j.beside):
+        if twin.candidate.kin == "same" and twin.candidate.within is None and (said := refines(twin)) is not None:
+            return replace(j, refines=said, mode=twin.candidate.id)
+    return j
+
+
 def _may_be_its_own(j: Judged) -> bool:
     """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
     another mode of the same effect, a change of it, or the temperature of a body whose heat the model has, is none."""
     one = j.scored.candidate
-    another = one.kin != "same" and (one.kin != "heat" or one.of_motion)
+    another = j.mode is None and one.kin != "same" and (one.kin != "heat" or one.of_motion)
     return j.refines is not None and one.within is None and another and blunt(j.scored) is None
 
 
