@@ -13,6 +13,7 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Signal
 from thermodata.reader.interleaved import Parting, series_columns, words_of
 from thermodata.reader.unit_words import holds_units
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_dots
 
 SERIES = "series"  # the property of a signal that says which it is of
 NEVER = "none"  # declared: rows are of one series
@@ -103,7 +104,7 @@ class Series:
 
     def note(self) -> str:
         """What was done, for whoever reads the recording's notes."""
-        shown = ", ".join(list(self.held)[:4]) + (", ..." if len(self.held) > 4 else "")
+        shown = with_dots(self.held, 4)
         told = " and ".join(f"'{tag}'" for tag in self.tags)
         return f"{told} names {len(self.held)} series whose rows stand below each other ({shown}): each is a stream"
 

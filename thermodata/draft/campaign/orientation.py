@@ -15,6 +15,7 @@ from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words
 from thermodata.plugin import Signal
+from thermodata.schema.listed import with_dots
 
 _SHOWN_STEPS = 12
 
@@ -71,8 +72,7 @@ def _is_turned(here: Sequence[float], there: Sequence[float]) -> bool:
 
 
 def _listed(steps: Sequence[float]) -> str:
-    more = ", ..." if len(steps) > _SHOWN_STEPS else ""
-    return ", ".join(f"{s:+.3g}" for s in steps[:_SHOWN_STEPS]) + more
+    return with_dots([f"{s:+.3g}" for s in steps], _SHOWN_STEPS)
 
 
 def _height(steps: Sequence[float]) -> float:
