@@ -7,7 +7,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 
 
-def zero_mask(t_s: Float1D, valid: Bool1D, over_s: float = 600.0) -> Bool1D:
+def zero_mask(t_s: Float1D, valid: Bool1D, over_s: float) -> Bool1D:
     """The valid samples within `over_s` [s] of the first valid one; shape (n,). At least that one.
 
     Counted from the first valid sample and not from the start: a machine that measures for 10 s every 20 min

@@ -194,7 +194,7 @@ def find_series(
     block: Block,
     *,
     absolute: bool,
-    declared: Declaration | None = None,
+    declared: Declaration,
     pieces: Int1D | None = None,
     taken: Collection[str] = (),
     stream_of: Callable[[str], str] = str,
@@ -204,7 +204,6 @@ def find_series(
     """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; taken: streams
     that others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not
     in the block."""
-    declared = Declaration() if declared is None else declared
     parting = declared.parting(block, absolute, pieces)
     doubts = tuple(declared.doubts(parting))
     if not parting.tags:

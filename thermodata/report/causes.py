@@ -34,7 +34,7 @@ class Cause(Generic[T]):
         return self.members[0]
 
 
-def cause_of(text: str, names: Collection[str] = ()) -> str:
+def cause_of(text: str, names: Collection[str]) -> str:
     """A text without what differs from place to place: numbers, what is quoted, paths, and these names."""
     known = set(names)
     text = _WORD.sub(lambda word: "~" if word.group() in known else word.group(), _QUOTED.sub("~", text))

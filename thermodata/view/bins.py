@@ -51,7 +51,7 @@ def bin_tests(
     campaigns: Sequence[str],
     step_s: float,
     wanted: Callable[[str], bool],
-    shifted: Collection[tuple[str, str, str]] = (),
+    shifted: Collection[tuple[str, str, str]],
 ) -> dict[Key, Binned]:
     """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included. shifted:
     (campaign, test, channel) of sensors that are off by one number through the test: as they read."""

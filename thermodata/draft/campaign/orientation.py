@@ -37,7 +37,7 @@ def reads_a_length(one: OneSignal) -> bool:
     return all(unit is not None and converts(unit, "displacement") for unit in units)
 
 
-def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], behind: Sequence[str] = ()) -> str:
+def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], behind: Sequence[str]) -> str:
     """Why a jump test is not used; where another one of the same probe is, with the steps of both. behind: the tests
     that were recorded after it and that one."""
     own = next(j for j in jumps if str(j.file.path) == path)

@@ -53,7 +53,7 @@ def tells_quality(name: str) -> int | None:
     return next((k for k, pattern in enumerate(_NAMES) if pattern.fullmatch(name)), None)
 
 
-def are_qualities(statuses: Iterable[str], name: str = "quality") -> bool:
+def are_qualities(statuses: Iterable[str], name: str) -> bool:
     """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent, and
     no 0 and 1 of a machine that stands and runs under a bare "StatusCode", for no status of OPC UA is 1."""
     none = frozenset({1}) if "status" in name.casefold() else frozenset()

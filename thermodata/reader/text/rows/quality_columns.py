@@ -74,7 +74,7 @@ def qualities(
 
 
 def second_pairs(
-    columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str] = ()
+    columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str]
 ) -> dict[str, tuple[str, bool]]:
     """The same of values that have a quality in `pairs`, and their faults, or a quality of the whole row, too."""
     faults = {value: (name, True) for value, name in _beside(columns, "fault", measured).items()}

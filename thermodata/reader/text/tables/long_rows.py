@@ -35,7 +35,6 @@ def refuse_long(
     rows: Sequence[Sequence[str]],
     where: str,
     times: Sequence[int] = (),
-    hint: str = _HINT,
 ) -> None:
     """FormatError for a table in which a column names what another one holds the value of: by its header, where that
     column has several names, or by its rows, where each time comes once for each of several names."""
@@ -53,7 +52,7 @@ def refuse_long(
         where=where,
         expected="a column a signal",
         got=f"'{names[tag]}' holds " + with_dots(said, 4),
-        hint=hint,
+        hint=_HINT,
     )
 
 
