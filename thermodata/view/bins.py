@@ -14,6 +14,7 @@ from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value, held_sums
 from thermodata.store.views.wide import file_list
+from thermodata.view.floats import floats
 
 if TYPE_CHECKING:
     import duckdb
@@ -110,7 +111,7 @@ def _bin_group(
         f"from {rows} r group by 1, 2 order by 1, 2"
     ).fetchnumpy()
     numbers = {
-        name: np.ma.filled(array.astype(float), np.nan)
+        name: floats(array)
         if name not in ("file__index", "bin__k", "zero__ns")
         else np.ma.getdata(array).astype(np.int64)
         for name, array in result.items()
