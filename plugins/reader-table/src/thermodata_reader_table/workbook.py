@@ -150,7 +150,7 @@ def read(path: Path, source: Source) -> Read:
             notes.append(f"{counted(count, 'hidden row')}: {they} read like the others")
         elif count:
             reason = f"{counted(count, 'cell')} of the workbook {kind}: {they} empty"
-            losses.append(Loss(path.name, None, None, None, reason))
+            losses.append(Loss(path.name, reason=reason))
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
 
