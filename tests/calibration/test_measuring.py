@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.measuring import measuring_mask, measuring_names, stretch_means, stretches
+from thermodata.calibration.measuring import measuring_mask, measuring_names, stretches
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
@@ -75,17 +75,5 @@ def test_a_channel_that_is_not_there_is_named() -> None:
             measuring_mask(T, spec, VALUES, UNITS)
 
 
-def test_mask_first_then_mean() -> None:
-    values = np.arange(100.0)
-    values[3] = np.nan
-    t, mean, n = stretch_means(T, values, FEED == 0)
-    assert n.tolist() == [19, 20, 20]
-    assert mean.tolist() == pytest.approx([np.nanmean(values[:20]), 49.5, 89.5])
-    assert t[1] == 49_500_000_000
-
-
-def test_no_stretch_gives_no_mean() -> None:
-    t, mean, n = stretch_means(T, np.full(100, np.nan), np.ones(100, bool))
-    assert (len(t), len(mean), len(n)) == (0, 0, 0)
-    assert len(stretch_means(T[:0], np.empty(0), np.zeros(0, bool))[0]) == 0
+def test_of_no_rows_there_is_no_mask() -> None:
     assert len(measuring_mask(T[:0], "feed_Z == 0", {"feed_Z": np.empty(0)}, UNITS)) == 0

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from thermodata.calibration.zero import zero_mask, zero_value
-from thermodata.errors import UsageError
+from thermodata.calibration.zero import zero_mask
 
 
 def test_counts_from_the_first_valid_sample() -> None:
     t = np.arange(0.0, 4000.0, 10.0)
-    values = np.where(t < 1200, 99.0, t)
     valid = t >= 1200
-    assert zero_value(t, values, valid, over_s=20.0) == pytest.approx(1210.0)
+    assert t[zero_mask(t, valid, over_s=20.0)].tolist() == [1200.0, 1210.0, 1220.0]
     assert zero_mask(t, valid, 0.0).sum() == 1
 
 
-def test_invalid_and_missing_samples_do_not_count() -> None:
-    t = np.arange(5.0)
-    assert zero_value(t, np.array([np.nan, 1.0, 50.0, 3.0, 9.0]), np.array([1, 1, 0, 1, 1], bool), 2.0) == 2.0
+def test_invalid_samples_do_not_count() -> None:
+    assert zero_mask(np.arange(5.0), np.array([0, 1, 0, 1, 1], bool), 2.0).tolist() == [False, True, False, True, False]
 
 
-def test_no_valid_sample_is_told() -> None:
-    with pytest.raises(UsageError, match="no valid sample"):
-        zero_value(np.arange(3.0), np.zeros(3), np.zeros(3, bool))
+def test_without_a_valid_sample_there_is_no_zero() -> None:
+    assert not zero_mask(np.arange(3.0), np.zeros(3, bool), 600.0).any()

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 import numpy as np
 import pytest
 
-from thermodata.plugin import Signal
-from thermodata.reader.events import HeldRows, fill_forward, held_blocks
+from thermodata.plugin import Block
+from thermodata.reader.events import HeldRows, Value, fill_forward
 from thermodata.schema.flag import INVALID, Flag
 
-SIGNALS = (Signal("T", "nc"), Signal("mode", "nc", dtype="str"), Signal("other", "elsewhere"))
 EVENTS = [
     (10, "T", 1.0),
     (10, "mode", "AUTO"),
@@ -21,9 +22,25 @@ EVENTS = [
 ]
 
 
+def _blocks(events: Iterable[tuple[int, str, Value]], rows: int = 100) -> Iterator[Block]:
+    """A block ends only between two times, so that no row is torn."""
+    held = HeldRows[int]({"T": "float64", "mode": "str"}, "nc")
+    for event in events:
+        if len(held) >= rows and event[0] != held.last:
+            yield _taken(held)
+        held.add(*event)
+    yield _taken(held)
+
+
+def _taken(held: HeldRows[int]) -> Block:
+    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
+    assert block is not None
+    return block
+
+
 @pytest.mark.parametrize("rows", [1, 2, 100])
 def test_each_signal_holds_its_last_value_whatever_the_blocks(rows: int) -> None:
-    blocks = list(held_blocks(EVENTS, SIGNALS, "nc", rows))
+    blocks = list(_blocks(EVENTS, rows))
     t = np.concatenate([b.t_ns for b in blocks])
     temperature = np.concatenate([b.values["T"] for b in blocks])
     mode = np.concatenate([b.values["mode"] for b in blocks])
@@ -34,7 +51,7 @@ def test_each_signal_holds_its_last_value_whatever_the_blocks(rows: int) -> None
 
 
 def test_before_the_first_value_and_while_unavailable_a_signal_is_flagged() -> None:
-    block = next(held_blocks([(1, "mode", "A"), (2, "T", 3.0), (3, "T", None)], SIGNALS, "nc"))
+    block = next(_blocks([(1, "mode", "A"), (2, "T", 3.0), (3, "T", None)]))
     assert block.flags is not None
     assert [bool(f & INVALID) for f in block.flags["T"].tolist()] == [True, False, True]
     assert "mode" not in block.flags
@@ -46,7 +63,7 @@ def test_the_first_value_after_a_hole_is_flagged_as_such_once(rows: int) -> None
     flags = np.concatenate(
         [
             np.zeros(b.t_ns.size, np.uint16) if b.flags is None or "T" not in b.flags else b.flags["T"]
-            for b in held_blocks(events, SIGNALS, "nc", rows)
+            for b in _blocks(events, rows)
         ]
     )
     assert flags.tolist() == [0, Flag.NOT_MEASURING, Flag.GAP, 0, 0]
@@ -84,14 +101,14 @@ def test_stamps_of_several_clocks_are_sorted_and_a_reset_is_not() -> None:
 
 
 def test_time_that_steps_back_keeps_the_order_of_the_log() -> None:
-    block = next(held_blocks([(5, "T", 1.0), (3, "T", 2.0)], SIGNALS, "nc"))
+    block = next(_blocks([(5, "T", 1.0), (3, "T", 2.0)]))
     np.testing.assert_array_equal(block.t_ns, [5, 3])
     np.testing.assert_array_equal(block.values["T"], [1.0, 2.0])
 
 
 def test_an_undeclared_signal_is_an_error() -> None:
     with pytest.raises(KeyError):
-        list(held_blocks([(1, "speed", 1.0)], SIGNALS, "nc"))
+        list(_blocks([(1, "speed", 1.0)]))
 
 
 def test_fill_forward_from_the_first_written_value() -> None:

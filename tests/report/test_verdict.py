@@ -19,9 +19,9 @@ from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.refined import named
 from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
-from thermodata.report.words import listed
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
+from thermodata.schema.listed import listed
 
 from .conftest import diagnosis
 

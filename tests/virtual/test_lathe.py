@@ -15,7 +15,7 @@ from thermodata.virtual.lathe.data import STEP_S, contribution, model_of, to_dat
 from thermodata.virtual.lathe.fields import STACK, Fields
 from thermodata.virtual.lathe.hall import Air, Hall
 from thermodata.virtual.lathe.logs import simulate_lathe
-from thermodata.virtual.lathe.losses import bearing_w, film_coefficient, motor_w, sliding_w
+from thermodata.virtual.lathe.losses import bearing_w, film_of, forced_cubed, motor_w, sliding_w
 from thermodata.virtual.lathe.march import Task, solve, solve_all
 from thermodata.virtual.lathe.programme import DT_S, Work, work
 from thermodata.virtual.lathe.right_names import RIGHT, mark
@@ -89,7 +89,7 @@ def test_stribeck_friction_falls_before_it_rises() -> None:
 
 def test_a_draught_and_a_larger_difference_take_more_heat() -> None:
     still, draught, hot = (
-        float(film_coefficient(np.array([T]), 20.0, v)[0]) for T, v in ((25.0, 0.05), (25.0, 2.0), (60.0, 0.05))
+        float(film_of(np.array([T]), 20.0, forced_cubed(v))[0]) for T, v in ((25.0, 0.05), (25.0, 2.0), (60.0, 0.05))
     )
     assert 3 < still < hot < 20
     assert still < draught < 25

@@ -116,7 +116,7 @@ def same_unit(one: str, other: str) -> bool:
 
 
 def reading_unit(
-    channel: Channel, signal_unit: str | None, calibrations: Sequence[CalibrationResult], where: str | None = None
+    channel: Channel, signal_unit: str | None, calibrations: Sequence[CalibrationResult], where: str | None
 ) -> str:
     """The unit of the scaled reading, before any calibration. CalibrationError where nothing tells it."""
     unit = channel.unit or signal_unit

@@ -34,63 +34,32 @@ def rows(
     smallest = min(abs(m) for m in moves)
     noise_pct = 100.0 * fit.noise_um / smallest
     answers = {k: abs(c) for k, c in crosstalk.items() if np.isfinite(c)}
-    most = max(answers, key=lambda k: answers[k]) if answers else None
     table = [
-        check(
+        _at_most(
             "uncertainty_pct",
             fit.uncertainty_pct,
             UNCERTAINTY_PCT,
-            fit.uncertainty_pct <= UNCERTAINTY_PCT,
             "move further or more often: the axis's positioning weighs too much on these moves",
         ),
-        check(
+        _at_most(
             "noise_pct_of_move",
             noise_pct,
             NOISE_PCT,
-            noise_pct <= NOISE_PCT,
             "larger moves, or look for the noise: earthing, a turning spindle, a loose probe",
         ),
     ]
     if fit.nonlinearity_pct is not None:
-        table.append(
-            check(
-                "nonlinearity_pct",
-                fit.nonlinearity_pct,
-                NONLINEARITY_PCT,
-                fit.nonlinearity_pct <= NONLINEARITY_PCT,
-                "the steps give different sensitivities: is the probe within its linear range?",
-            )
-        )
+        advice = "the steps give different sensitivities: is the probe within its linear range?"
+        table.append(_at_most("nonlinearity_pct", fit.nonlinearity_pct, NONLINEARITY_PCT, advice))
     if fit.drift_um is not None:
-        drift_pct = 100.0 * abs(fit.drift_um) / fit.span_um
-        table.append(
-            check(
-                "drift_pct",
-                drift_pct,
-                DRIFT_PCT,
-                drift_pct <= DRIFT_PCT,
-                "let the machine and the probe's amplifier come to rest first",
-            )
-        )
-    if most is not None:
-        table.append(
-            check(
-                "crosstalk_pct",
-                answers[most],
-                CROSSTALK_PCT,
-                answers[most] <= CROSSTALK_PCT,
-                f"'{most}' answers this axis too: align the probes with the axes",
-            )
-        )
-        table.append(
-            check(
-                "answers_most",
-                answers[most],
-                100.0,
-                answers[most] < 100.0,
-                f"'{most}' answers the move of {spec.axis} more than '{spec.signal}': swapped cables?",
-            )
-        )
+        advice = "let the machine and the probe's amplifier come to rest first"
+        table.append(_at_most("drift_pct", 100.0 * abs(fit.drift_um) / fit.span_um, DRIFT_PCT, advice))
+    if answers:
+        most = max(answers, key=lambda k: answers[k])
+        advice = f"'{most}' answers this axis too: align the probes with the axes"
+        table.append(_at_most("crosstalk_pct", answers[most], CROSSTALK_PCT, advice))
+        advice = f"'{most}' answers the move of {spec.axis} more than '{spec.signal}': swapped cables?"
+        table.append(check("answers_most", answers[most], 100.0, answers[most] < 100.0, advice))
     if spec.gain is not None:
         table.append(_data_sheet(spec, fit, unit))
     probe = probe_exists(spec, moves, fit, unit)
@@ -109,6 +78,10 @@ def rows(
     return table
 
 
+def _at_most(name: str, value: float, limit: float, advice: str) -> Check:
+    return check(name, value, limit, value <= limit, advice)
+
+
 def _data_sheet(spec: JumpCalibration, fit: JumpFit, unit: str) -> Check:
     assert spec.gain is not None
     value, written = split_value(spec.gain)
@@ -121,4 +94,4 @@ def _data_sheet(spec: JumpCalibration, fit: JumpFit, unit: str) -> Check:
             "data_sheet_gain_pct", None, DATA_SHEET_PCT, False, f"gain '{spec.gain}' is not a displacement over {unit}"
         )
     off = 100.0 * abs(abs(fit.gain) / expected - 1.0) if expected else float("inf")
-    return check("data_sheet_gain_pct", off, DATA_SHEET_PCT, off <= DATA_SHEET_PCT, advice)
+    return _at_most("data_sheet_gain_pct", off, DATA_SHEET_PCT, advice)

@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.calibration.expression import parse
 from thermodata.errors import UsageError, nearest
-from thermodata.plugin import Array, Bool1D, Float1D, Int1D
+from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import linear_conversion, split_value
@@ -74,21 +74,6 @@ def stretches(t_ns: Int1D, mask: Bool1D) -> tuple[Int1D, Int1D]:
     first = np.flatnonzero(mask & np.concatenate([[True], ~joined]))
     last = np.flatnonzero(mask & np.concatenate([~joined, [True]])) + 1
     return first.astype(np.int64), last.astype(np.int64)
-
-
-def stretch_means(t_ns: Int1D, values: Float1D, mask: Bool1D) -> tuple[Int1D, Float1D, Int1D]:
-    """Mean time [ns], mean value and number of samples of each stretch of a mask; NaN samples don't count."""
-    values = np.asarray(values, dtype=np.float64)
-    first, last = stretches(t_ns, mask)
-    counted = np.isfinite(values)
-    sums = np.concatenate([[0.0], np.cumsum(np.where(counted, values, 0.0))])
-    times = np.concatenate([[0.0], np.cumsum(np.where(counted, (t_ns - t_ns[0]) if len(t_ns) else 0, 0.0))])
-    numbers = np.concatenate([[0], np.cumsum(counted)])
-    n = numbers[last] - numbers[first]
-    keep = n > 0
-    first, last, n = first[keep], last[keep], n[keep]
-    mean_t = t_ns[0] + np.rint((times[last] - times[first]) / n).astype(np.int64) if len(n) else first
-    return mean_t, (sums[last] - sums[first]) / n, n
 
 
 def long_form(measuring: str | Measuring | None) -> Measuring:

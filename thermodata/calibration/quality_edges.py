@@ -8,6 +8,7 @@ from thermodata.calibration.quality_value import true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 _LEVEL = 4  # samples: one more than a spike or a puff of air has
+_REACH = 3  # samples before and after, between which a spike is looked for
 _OF_THE_LEAP = 0.5  # at a pause: what a sample that stands out leaps by on its other side, too
 
 
@@ -31,8 +32,8 @@ def without_pauses(hit: Bool1D, x: Float1D, after_pause: Bool1D) -> Bool1D:
     return kept
 
 
-def across_steps(x: Float1D, leap: float, reach: int = 3) -> Bool1D:
-    """Rows of x, shape (n,), whose neighbours `reach` before and after lie on either side of a clean step: one by more
+def across_steps(x: Float1D, leap: float) -> Bool1D:
+    """Rows of x, shape (n,), whose neighbours three before and after lie on either side of a clean step: one by more
     than `leap` between two levels, each of more samples than a spike has, beside which these are still."""
     n = len(x)
     mask: Bool1D = np.zeros(n, dtype=bool)
@@ -48,7 +49,7 @@ def across_steps(x: Float1D, leap: float, reach: int = 3) -> Bool1D:
     with np.errstate(invalid="ignore", over="ignore"):
         still = np.maximum(np.ptp(before, axis=1), np.ptp(after, axis=1)) < 0.1 * size[rows]
     for row in rows[still].tolist():
-        mask[max(0, row - reach + 1) : row + reach + 1] = True
+        mask[max(0, row - _REACH + 1) : row + _REACH + 1] = True
     return mask
 
 

@@ -41,7 +41,7 @@ def drives_stand(drives: Sequence[tuple[str, Array]]) -> Bool1D | None:
 
 
 def frozen_runs(
-    x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stand: Bool1D | None = None
+    x: Float1D, t_ns: Array, own: RunStats, others: Mapping[str, Array], stand: Bool1D | None
 ) -> Iterator[tuple[int, int, str]]:
     """(start, stop, why) of stretches in which a temperature x, shape (n,), is frozen. others: the temperatures
     that are logged with it; where there is none, or most of them rest as well, nothing is told. stand: see

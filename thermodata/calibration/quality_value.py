@@ -105,7 +105,7 @@ def held_runs(
     own: RunStats,
     others: Mapping[str, Array],
     stats: Mapping[str, RunStats],
-    elsewhere: RunStats | None = None,
+    elsewhere: RunStats | None,
 ) -> Iterator[tuple[int, int, bool, str]]:
     """(start, stop, stuck, why) of exactly constant stretches that chance can't explain.
 

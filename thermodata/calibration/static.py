@@ -25,12 +25,8 @@ def ratio_units(unit: str, name: str) -> tuple[str, str]:
     return out.strip(), into.strip()
 
 
-def evaluate_scale(name: str, spec: ScaleCalibration, *, of_displacement: bool = True) -> CalibrationResult:
-    """A data-sheet gain with the way the probe looks; without `facing` the sign stays unknown. of_displacement: whether
-    a displacement or a tilt is scaled; what else is measured has no side to look from, and the gain's own sign.
-
-    Raises CalibrationError where the gain has no unit, is zero, or carries a sign beside `facing`.
-    """
+def _gain(name: str, spec: ScaleCalibration | LinearCalibration) -> tuple[float, str]:
+    """(the declared gain, its unit); CalibrationError where it is zero."""
     gain, unit = split_value(spec.gain)
     if gain == 0:
         raise CalibrationError(
@@ -39,6 +35,16 @@ def evaluate_scale(name: str, spec: ScaleCalibration, *, of_displacement: bool =
             expected="a number other than 0",
             got=str(spec.gain),
         )
+    return gain, unit
+
+
+def evaluate_scale(name: str, spec: ScaleCalibration, *, of_displacement: bool = True) -> CalibrationResult:
+    """A data-sheet gain with the way the probe looks; without `facing` the sign stays unknown. of_displacement: whether
+    a displacement or a tilt is scaled; what else is measured has no side to look from, and the gain's own sign.
+
+    Raises CalibrationError where the gain has no unit, is zero, or carries a sign beside `facing`.
+    """
+    gain, unit = _gain(name, spec)
     unit_out, unit_in = ratio_units(unit, name)
     axis = facing_axis(name, spec.facing, spec.axis)
     sign: Sign = "unknown"
@@ -91,14 +97,7 @@ def evaluate_linear(name: str, spec: LinearCalibration, unit: str | None = None)
     ("" or None: whatever unit the channel has). Offsets are differences: -0.12 K on a channel in degC is
     -0.12 degC, in degF -0.216.
     """
-    gain, gain_unit = split_value(spec.gain)
-    if gain == 0:
-        raise CalibrationError(
-            f"calibration '{name}': a gain of zero",
-            where=f"calibrations.{name}.gain",
-            expected="a number other than 0",
-            got=str(spec.gain),
-        )
+    gain, gain_unit = _gain(name, spec)
     unit_out, unit_in = ratio_units(gain_unit, name) if gain_unit not in ("", "1") else (unit or "", unit or "")
     written = split_value(spec.offset)[1]
     offset = _offset(name, spec.offset, unit_out or written)

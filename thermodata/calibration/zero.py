@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.errors import UsageError
 from thermodata.plugin import Bool1D, Float1D
 
 
-def zero_mask(t_s: Float1D, valid: Bool1D, over_s: float = 600.0) -> Bool1D:
+def zero_mask(t_s: Float1D, valid: Bool1D, over_s: float) -> Bool1D:
     """The valid samples within `over_s` [s] of the first valid one; shape (n,). At least that one.
 
     Counted from the first valid sample and not from the start: a machine that measures for 10 s every 20 min
@@ -20,17 +19,3 @@ def zero_mask(t_s: Float1D, valid: Bool1D, over_s: float = 600.0) -> Bool1D:
         return np.zeros(len(t_s), bool)
     mask: Bool1D = valid & (t_s >= t_s[where[0]]) & (t_s <= t_s[where[0]] + max(over_s, 0.0))
     return mask
-
-
-def zero_value(t_s: Float1D, values: Float1D, valid: Bool1D, over_s: float = 600.0) -> float:
-    """Mean of the first valid samples, in the unit of `values`; UsageError where there is none."""
-    values = np.asarray(values, float)
-    mask = zero_mask(t_s, np.asarray(valid, bool) & np.isfinite(values), over_s)
-    if not mask.any():
-        raise UsageError(
-            "no valid sample to take the zero from",
-            expected="at least one",
-            got="0",
-            hint="look at `thermodata quality`: are all samples flagged, or is 'measuring' never true?",
-        )
-    return float(values[mask].mean())

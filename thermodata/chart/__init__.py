@@ -5,8 +5,9 @@ Both pages of this program use it, the saved report and the local workbench; see
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
     from thermodata.chart.assets import SCRIPTS, STYLES, asset, script, style
@@ -40,33 +41,13 @@ __all__ = [
     "style",
 ]
 # scripts and styles are asked for where nothing is drawn yet: numpy waits for the first curve
-_HOME = {
-    "SCRIPTS": "assets",
-    "STYLES": "assets",
-    "asset": "assets",
-    "script": "assets",
-    "style": "assets",
-    "effect_styles": "colour",
-    "columns_in": "decimate",
-    "min_max": "decimate",
-    "shortened": "decimate",
-    "packed": "pack",
-    "script_json": "pack",
-    "Axis": "spec",
-    "Band": "spec",
-    "Chart": "spec",
-    "HeatMap": "spec",
-    "Limit": "spec",
-    "Marks": "spec",
-    "Panel": "spec",
-    "Row": "spec",
-    "Series": "spec",
-    "Span": "spec",
-    "Strip": "spec",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name in _HOME:
-        return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = on_demand(
+    __name__,
+    {
+        "assets": "SCRIPTS STYLES asset script style",
+        "colour": "effect_styles",
+        "decimate": "columns_in min_max shortened",
+        "pack": "packed script_json",
+        "spec": "Axis Band Chart HeatMap Limit Marks Panel Row Series Span Strip",
+    },
+)

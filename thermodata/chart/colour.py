@@ -10,7 +10,7 @@ from thermodata.chart.assets import asset
 
 EFFECTS = tuple(f"effect-{i}" for i in range(1, 7))
 """Told apart by people who miss one kind of cone as well; more than six lines repeat them with other dashes."""
-MEASURED, MODEL, RESIDUAL, LANE = "measured", "model", "residual", "lane"
+MEASURED, MODEL, RESIDUAL = "measured", "model", "residual"
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 DASHES: dict[str, tuple[int, ...]] = {
     "solid": (),

@@ -10,7 +10,7 @@ MOST_POINTS = 1200
 _GAP_STEPS = 3.5  # a step of so many usual steps is a hole in the data
 
 
-def block_size(n: int, most: int = MOST_POINTS) -> int:
+def block_size(n: int, most: int) -> int:
     """How many samples one drawn point stands for."""
     return max(1, -(-n // most))
 

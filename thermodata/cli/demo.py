@@ -13,7 +13,8 @@ from thermodata.cli.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.table import fields
 from thermodata.report.verdict import claims_of, refinements_of, verdict_sentence
-from thermodata.report.words import change, duration, listed, number, pooled
+from thermodata.report.words import change, duration, number, pooled
+from thermodata.schema.listed import listed
 
 _MARK = ".thermodata-demo"  # a folder that holds it was made by a demo and may be made anew
 _MADE = ("raw", "campaign.yaml", "model.yaml", "truth", "thermodata.store", "report.html")

@@ -12,6 +12,7 @@ import click
 from thermodata.cli.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.table import table
+from thermodata.schema.listed import with_count
 
 if TYPE_CHECKING:
     from thermodata.draft.make import Drafted
@@ -57,11 +58,10 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
         whose = "no file of {} could be read" if draft.failed else "no reader claims any file of {}"
         session.say(f"{whose.format(folder)}: the draft names them, and what would help")
     elif draft.unused:
-        more = f" and {len(draft.unused) - _SAID} more" if len(draft.unused) > _SAID else ""
-        named = ", ".join(one_line(path) for path in draft.unused[:_SAID])
+        named = with_count(map(one_line, draft.unused), _SAID)
         session.say(
             f"{len(draft.unused)} of {counted(made.seen, 'file')} {'is' if len(draft.unused) == 1 else 'are'} "
-            f"not used ({named}{more}): the end "
+            f"not used ({named}): the end "
             f"of {made.campaign.name} says why"
         )
     session.say(

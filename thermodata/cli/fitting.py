@@ -22,6 +22,7 @@ from thermodata.report.fit_text import (
 from thermodata.report.table import table
 
 if TYPE_CHECKING:
+    from thermodata.schema.result import FitResult
     from thermodata.store import Store
 
 
@@ -178,17 +179,21 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     store = session.store()
     with counting_line() as tell, watched(tell):
         result = add(store, resolve(store, model), candidate, plain=plain)
-    session.answer(
-        result,
-        lambda: in_units_of(
-            session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
-        ),
-    )
-    for note in result.notes:
-        session.say(note)
+    _answer_version(session, result)
     worse = made_worse(result, response_units(store, result.responses, result.campaigns))
     if worse is not None:
         session.say(worse)
+
+
+def _answer_version(session: Session, result: FitResult) -> None:
+    """A version beside the one before it, and what to know of it."""
+
+    def text() -> str:
+        return in_units_of(session, result.response, f"{before_after_text(result)}\n\n{fit_text(result, scores=False)}")
+
+    session.answer(result, text)
+    for note in result.notes:
+        session.say(note)
 
 
 @command("remove")
@@ -207,14 +212,7 @@ def remove_command(session: Session, model: str, effect: str) -> None:
     store = session.store()
     with counting_line() as tell, watched(tell):
         result = remove(store, resolve(store, model), effect)
-    session.answer(
-        result,
-        lambda: in_units_of(
-            session, result.response, "\n\n".join([before_after_text(result), fit_text(result, scores=False)])
-        ),
-    )
-    for note in result.notes:
-        session.say(note)
+    _answer_version(session, result)
 
 
 @command("history")

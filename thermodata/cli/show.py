@@ -13,7 +13,8 @@ from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
-from thermodata.report.words import MOST_NAMED, duration, listed, number, probability_text
+from thermodata.report.words import MOST_NAMED, duration, number, probability_text
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

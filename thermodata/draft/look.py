@@ -22,7 +22,7 @@ from thermodata.schema.quantity import canonical, linear_conversion
 
 _MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
 _MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond
-_BARS = "▁▂▃▄▅▆▇█"
+_BARS, _WIDTH = "▁▂▃▄▅▆▇█", 32
 
 
 @dataclass(slots=True)
@@ -185,14 +185,14 @@ def _canonical(column: Array, quantity: str, unit: str | None) -> Array:
     return column if (factor, shift) == (1.0, 0.0) else np.asarray(column * factor + shift)
 
 
-def sparkline(column: Array, width: int = 32) -> str | None:
-    """A signal in one line of text, '▁▂▅█': means of `width` stretches between its extremes; None for text."""
+def sparkline(column: Array) -> str | None:
+    """A signal in one line of text, '▁▂▅█': means of 32 stretches between its extremes; None for text."""
     if column.dtype.kind not in "biuf" or not column.size:
         return None
     x = column.astype(np.float64)
     x[~np.isfinite(x)] = np.nan
-    edges = np.linspace(0, x.size, min(width, x.size) + 1).astype(int)
-    means = x if x.size <= width else np.array([_mean(x[a:b]) for a, b in pairwise(edges)])
+    edges = np.linspace(0, x.size, min(_WIDTH, x.size) + 1).astype(int)
+    means = x if x.size <= _WIDTH else np.array([_mean(x[a:b]) for a, b in pairwise(edges)])
     if np.isnan(means).all():
         return " " * means.size
     low, span = float(np.nanmin(means)), float(np.nanmax(means) - np.nanmin(means))

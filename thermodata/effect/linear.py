@@ -116,7 +116,7 @@ def lag_filter(tau_s: float) -> Filter:
 
 
 def partial_fractions(
-    numerator: Float1D, denominator: Float1D, sample_s: float, where: str | None = None, poles: Complex1D | None = None
+    numerator: Float1D, denominator: Float1D, sample_s: float, poles: Complex1D | None = None
 ) -> Filter:
     """num(w) / den(w), w = 1/z, coefficients in rising powers of w, as a filter. poles: where they are known better
     than the denominator tells them. UsageError where poles coincide: their parts can't be told apart."""
@@ -157,14 +157,13 @@ def partial_fractions(
     if not np.all(np.isfinite(residues)) or np.abs(made - told).max() > 1e-7 * max(1e-12, np.abs(told).max()):
         raise UsageError(
             "two poles of a transfer function coincide: its parts can't be told apart",
-            where=where,
             got=", ".join(_text(p) for p in found),
             hint="identify it with one time constant fewer",
         )
     return Filter(direct, tuple(late), tuple(modes))
 
 
-def partial_fractions_of_s(numerator: Float1D, denominator: Float1D, time_s: float, where: str | None = None) -> Filter:
+def partial_fractions_of_s(numerator: Float1D, denominator: Float1D, time_s: float) -> Filter:
     """num(s) / den(s), coefficients in rising powers of s, time in time_s [s], as a filter."""
     num, den = np.trim_zeros(np.asarray(numerator, float), "b"), np.trim_zeros(np.asarray(denominator, float), "b")
     poles = np.roots(den[::-1]).astype(complex)
@@ -174,7 +173,7 @@ def partial_fractions_of_s(numerator: Float1D, denominator: Float1D, time_s: flo
         rest = den[-1] * np.prod(p - np.delete(poles, i))
         residue = np.polyval(num[::-1], p) / rest if rest else np.inf
         if not np.isfinite(residue):
-            raise UsageError("two poles of a transfer function coincide", where=where, got=_text(complex(p)))
+            raise UsageError("two poles of a transfer function coincide", got=_text(complex(p)))
         if p.imag >= 0:
             weight, s = -residue / p, p / time_s
             modes.append(

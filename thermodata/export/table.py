@@ -30,7 +30,7 @@ class Exported:
 
 
 def export_test(
-    view: StoreView, campaign: str, test: str, out: Path, *, step: str = "30 s", kind: str | None = None
+    view: StoreView, campaign: str, test: str, out: Path, *, step: str, kind: str | None = None
 ) -> Exported:
     """Write `binned(campaign, test, step)` to `out`; kind None: by its suffix. step 'logged' (MAT and MDF4): each
     source at its own times, with its flags. UsageError on unknown names; ThermodataError where `out` can't be

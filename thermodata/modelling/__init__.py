@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
     from thermodata.modelling.fit.model import fit_model
@@ -10,19 +12,7 @@ if TYPE_CHECKING:
     from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 
 __all__ = ["FittedModel", "FittedResponse", "FittedTerm", "fit_model"]
-
-
-def __getattr__(name: str) -> Any:
-    if name == "fit_model":
-        from thermodata.modelling.fit.model import fit_model
-
-        return fit_model
-    if name == "FittedModel":
-        from thermodata.modelling.terms.fitted import FittedModel
-
-        return FittedModel
-    if name in __all__:
-        from thermodata.modelling.terms import fitted_response
-
-        return getattr(fitted_response, name)
-    raise AttributeError(name)
+__getattr__ = on_demand(
+    __name__,
+    {"fit.model": "fit_model", "terms.fitted": "FittedModel", "terms.fitted_response": "FittedResponse FittedTerm"},
+)

@@ -8,16 +8,15 @@ calls bad is kept and flagged as not measuring for as long as it holds.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Generic, TypeVar
 
 import numpy as np
 
-from thermodata.plugin import Array, Block, Bool1D, Int1D, Signal
+from thermodata.plugin import Array, Block, Bool1D, Int1D
 from thermodata.schema.flag import Flag
 
 Value = float | str | None
-Event = tuple[int, str, Value]
 Stamp = TypeVar("Stamp", int, str)
 
 NAT = np.iinfo(np.int64).min
@@ -169,29 +168,6 @@ def _cell(value: Value, dtype: str) -> Value:
     if dtype == "str":
         return None if value is None else str(value)
     return np.nan if value is None else float(value)
-
-
-def held_blocks(
-    events: Iterable[Event], signals: Sequence[Signal], stream: str, rows: int = 100_000
-) -> Iterator[Block]:
-    """Blocks with one row for each time at which anything changed, in the order of the events.
-
-    events: (t_ns, signal name, value); None means that the source says it has no value. Signals of other streams are
-    left out; names that are none of `stream` raise KeyError.
-    """
-    held = HeldRows[int]({s.name: s.dtype for s in signals if s.stream == stream}, stream)
-    for t_ns, name, value in events:
-        # a block ends only between two times, so that no row is torn
-        if len(held) >= rows and t_ns != held.last:
-            yield from _taken(held)
-        held.add(t_ns, name, value)
-    yield from _taken(held)
-
-
-def _taken(held: HeldRows[int]) -> Iterator[Block]:
-    block, _ = held.take(lambda stamps: np.array(stamps, np.int64))
-    if block is not None:
-        yield block
 
 
 def fill_forward(values: Array, written: Bool1D) -> Array:

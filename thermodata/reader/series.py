@@ -13,6 +13,7 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Signal
 from thermodata.reader.interleaved import Parting, series_columns, words_of
 from thermodata.reader.unit_words import holds_units
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_dots
 
 SERIES = "series"  # the property of a signal that says which it is of
 NEVER = "none"  # declared: rows are of one series
@@ -103,7 +104,7 @@ class Series:
 
     def note(self) -> str:
         """What was done, for whoever reads the recording's notes."""
-        shown = ", ".join(list(self.held)[:4]) + (", ..." if len(self.held) > 4 else "")
+        shown = with_dots(self.held, 4)
         told = " and ".join(f"'{tag}'" for tag in self.tags)
         return f"{told} names {len(self.held)} series whose rows stand below each other ({shown}): each is a stream"
 
@@ -193,7 +194,7 @@ def find_series(
     block: Block,
     *,
     absolute: bool,
-    declared: Declaration | None = None,
+    declared: Declaration,
     pieces: Int1D | None = None,
     taken: Collection[str] = (),
     stream_of: Callable[[str], str] = str,
@@ -203,7 +204,6 @@ def find_series(
     """The series in the first rows of a stream. absolute: of its times; pieces: see `series_columns`; taken: streams
     that others have; stream_of: a series' stream by its name; kept: signals that each series has, though they are not
     in the block."""
-    declared = Declaration() if declared is None else declared
     parting = declared.parting(block, absolute, pieces)
     doubts = tuple(declared.doubts(parting))
     if not parting.tags:

@@ -7,7 +7,8 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import listed, number
+from thermodata.report.words import number
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate

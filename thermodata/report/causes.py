@@ -7,6 +7,8 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
+from thermodata.schema.listed import with_count
+
 T = TypeVar("T")
 MOST_PLACES = 3  # named beside the first
 _QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"")
@@ -32,7 +34,7 @@ class Cause(Generic[T]):
         return self.members[0]
 
 
-def cause_of(text: str, names: Collection[str] = ()) -> str:
+def cause_of(text: str, names: Collection[str]) -> str:
     """A text without what differs from place to place: numbers, what is quoted, paths, and these names."""
     known = set(names)
     text = _WORD.sub(lambda word: "~" if word.group() in known else word.group(), _QUOTED.sub("~", text))
@@ -127,7 +129,7 @@ def _heads(notes: Sequence[str]) -> set[str]:
 
 def _place(loss: Mapping[str, Any]) -> str:
     sources = ", ".join(loss.get("sources") or [s for s in [loss.get("source")] if s])
-    tests = _listed(loss.get("tests") or [t for t in [loss.get("test")] if t])
+    tests = with_count(loss.get("tests") or [t for t in [loss.get("test")] if t], MOST_PLACES)
     told = (tests or None, sources or None, loss.get("file"), loss.get("where"))
     parts = [str(part) for part in told if part is not None]
     share = f", {100 * loss['fraction']:.2g} % of the file" if loss.get("fraction") else ""
@@ -139,9 +141,4 @@ def _short(loss: Mapping[str, Any]) -> str:
 
 
 def _others(places: Sequence[str]) -> str:
-    return f"; also in {_listed(places)}" if places else ""
-
-
-def _listed(places: Sequence[str]) -> str:
-    more = f" and {len(places) - MOST_PLACES} more" if len(places) > MOST_PLACES else ""
-    return f"{', '.join(places[:MOST_PLACES])}{more}"
+    return f"; also in {with_count(places, MOST_PLACES)}" if places else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import number, percent
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
@@ -32,7 +33,7 @@ def could_be(found: Diagnosis) -> str:
     ]
     shown = list(dict.fromkeys(names))
     told = [*shown[:MOST], f"{len(shown) - MOST} more"] if len(shown) > MOST else shown
-    return " or ".join(filter(None, [", ".join(told[:-1]), *told[-1:]]))
+    return listed(told, "or")
 
 
 def may_act_instead(found: Diagnosis) -> str:

@@ -11,9 +11,10 @@ from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS
 from thermodata.report.verdict import claims_of
-from thermodata.report.words import LITTLE, base_role, listed, pooled, tests_of_role
+from thermodata.report.words import LITTLE, base_role, pooled, tests_of_role
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.listed import listed
 from thermodata.schema.result import Score
 
 MOSTLY = 0.5

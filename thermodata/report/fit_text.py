@@ -10,7 +10,8 @@ from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.glossary import IN_SAMPLE, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table
-from thermodata.report.words import base_role, change, duration, listed, number, pooled, tests_of_role
+from thermodata.report.words import base_role, change, duration, number, pooled, tests_of_role
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -7,9 +7,10 @@ from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, hea
 from thermodata.report.lost import lost_sentence
 from thermodata.report.of_response import of_response
 from thermodata.report.verdict import causes, claims_of, verdict_sentence
-from thermodata.report.words import change, in_unit, listed, number
+from thermodata.report.words import change, in_unit, number
 from thermodata.schema.begins_on import IF_SO
 from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.listed import listed
 
 
 def headline(data: ReportData) -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_count
 
 if TYPE_CHECKING:
     from thermodata.report.data import Version
@@ -76,5 +77,4 @@ def lost_of_compared(models: Mapping[str, Sequence[Score]]) -> str:
 
 
 def _some(names: Sequence[str]) -> str:
-    more = f", and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    return ", ".join(names[:_NAMED]) + more
+    return with_count(names, _NAMED, ", and")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import listed, percent
+from thermodata.report.words import percent
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis

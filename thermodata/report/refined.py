@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.candidate_errors import left_out_errors
-from thermodata.report.words import listed, number
+from thermodata.report.words import number
+from thermodata.schema.listed import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis
 
 
-def weak_spots_of(loaded: Loaded, diagnoses: Iterable[Diagnosis | None] = ()) -> dict[str, list[WeakSpot]]:
+def weak_spots_of(loaded: Loaded, diagnoses: Iterable[Diagnosis | None]) -> dict[str, list[WeakSpot]]:
     """Response -> weak spots, costliest first. diagnoses: of the model or its ancestors, for the noise they found.
 
     Tests that are not locked only.

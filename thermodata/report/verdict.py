@@ -9,7 +9,8 @@ from thermodata.report.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import as_of_nothing, left_over, on_left_out
 from thermodata.report.refined import can_be_refined, named, told_with_errors
-from thermodata.report.words import listed, number, percent
+from thermodata.report.words import number, percent
+from thermodata.schema.listed import listed
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:

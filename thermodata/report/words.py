@@ -6,8 +6,10 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
+from thermodata.schema.listed import listed, with_count
+
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping
 
     from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
     from thermodata.schema.result import Score
@@ -134,8 +136,7 @@ def heat_lines(heat: MissingHeat) -> list[tuple[str, str]]:
 def _companions(found: list[HeatCompanion]) -> str:
     """What runs and rests first, for it tells more than a temperature does."""
     ordered = sorted(found, key=lambda c: c.follows is not None)
-    more = f", and {len(ordered) - COMPANIONS} more" if len(ordered) > COMPANIONS else ""
-    return ", ".join(_companion(c) for c in ordered[:COMPANIONS]) + more
+    return with_count(map(_companion, ordered), COMPANIONS, ", and")
 
 
 def percent(share: float) -> str:
@@ -150,11 +151,6 @@ def _companion(one: HeatCompanion) -> str:
     if off > on:
         return f"{one.channel} (on in {percent(off)} while it is off, {percent(on)} else)"
     return f"{one.channel} (on in {percent(on)} while it runs, {percent(off)} else)"
-
-
-def listed(names: Sequence[str]) -> str:
-    """'a', 'a and b', 'a, b and c'."""
-    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
 
 
 def tests_of_role(scores: Iterable[Score], role: str) -> str:

@@ -37,7 +37,5 @@ INVALID = (
     | Flag.DUPLICATE_TIME
     | Flag.FOREIGN
 )
-# What a campaign file may overrule: what rests on a sensor's values, never what rests on its clock.
-OVERRULABLE = ("held", "stuck", "saturated", "spike", "out_of_range", "offset", "foreign")
 OVERRULED = "overruled: "  # begins the detail of an event that was; its reason follows
 CONSTANT = "; by a constant, so what counts from the test's start is sound"  # ends the detail of such an offset

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from thermodata.schema.listed import with_count
+
 NOT_USED = "# not used: "
 CANT_READ = "claims it and can't read it"
 _SHOWN = 6
@@ -23,7 +25,7 @@ def left_out_for_a_fault(text: str, used: Collection[str]) -> str | None:
     left = [path for path in paths if path not in used]
     if not left:
         return None
-    shown = ", ".join(left[:_SHOWN]) + (f" and {len(left) - _SHOWN} more" if len(left) > _SHOWN else "")
+    shown = with_count(left, _SHOWN)
     them = "them" if len(left) > 1 else "it"
     return (
         f"in no test, for the draft could not read {them}: {shown}; the end of the campaign file says why: mend it and "

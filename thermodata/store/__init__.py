@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
     from thermodata.store.catalogue.store import Store
 
 __all__ = ["Store"]
-
-
-def __getattr__(name: str) -> Any:
-    if name == "Store":
-        from thermodata.store.catalogue.store import Store
-
-        return Store
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = on_demand(__name__, {"catalogue.store": "Store"})

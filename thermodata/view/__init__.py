@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
     from thermodata.view.dataset import ChannelInfo, Dataset, TestData
@@ -10,18 +12,6 @@ if TYPE_CHECKING:
     from thermodata.view.store_view import StoreView
 
 __all__ = ["ChannelInfo", "Dataset", "StoreView", "TestData", "load_dataset"]
-_HOME = {
-    "ChannelInfo": "dataset",
-    "Dataset": "dataset",
-    "TestData": "dataset",
-    "StoreView": "store_view",
-    "load_dataset": "load",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name in _HOME:
-        from importlib import import_module
-
-        return getattr(import_module(f"thermodata.view.{_HOME[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = on_demand(
+    __name__, {"dataset": "ChannelInfo Dataset TestData", "load": "load_dataset", "store_view": "StoreView"}
+)

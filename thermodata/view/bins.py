@@ -14,6 +14,7 @@ from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value, held_sums
 from thermodata.store.views.wide import file_list
+from thermodata.view.floats import floats
 
 if TYPE_CHECKING:
     import duckdb
@@ -51,7 +52,7 @@ def bin_tests(
     campaigns: Sequence[str],
     step_s: float,
     wanted: Callable[[str], bool],
-    shifted: Collection[tuple[str, str, str]] = (),
+    shifted: Collection[tuple[str, str, str]],
 ) -> dict[Key, Binned]:
     """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included. shifted:
     (campaign, test, channel) of sensors that are off by one number through the test: as they read."""
@@ -110,7 +111,7 @@ def _bin_group(
         f"from {rows} r group by 1, 2 order by 1, 2"
     ).fetchnumpy()
     numbers = {
-        name: np.ma.filled(array.astype(float), np.nan)
+        name: floats(array)
         if name not in ("file__index", "bin__k", "zero__ns")
         else np.ma.getdata(array).astype(np.int64)
         for name, array in result.items()

@@ -12,6 +12,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.store.base.connection import fetch
 from thermodata.store.views.wide import file_list
+from thermodata.view.floats import floats
 
 if TYPE_CHECKING:
     import duckdb
@@ -46,7 +47,7 @@ def predictions(store: Store, model: str, campaign: str, test: str) -> list[Pred
     with store.reader() as con:
         for response, path in _paths(con, store.path, model, [(campaign, test)]).get((campaign, test), ()):
             got = con.execute(f"select * from read_parquet({file_list([path])}) order by t_s").fetchnumpy()
-            columns = {name: _numbers(values) for name, values in got.items() if name != "valid"}
+            columns = {name: floats(values) for name, values in got.items() if name != "valid"}
             found.append(
                 Prediction(
                     campaign,
@@ -108,7 +109,7 @@ def residual_courses(store: Store, model: str, keys: Sequence[Key]) -> dict[tupl
             "select file_index as i, case when valid then residual end as residual "
             f"from read_parquet({file_list(p for *_, p in listed)}) order by file_index, t_s"
         ).fetchnumpy()
-    values, which = _numbers(got["residual"]), np.asarray(got["i"])
+    values, which = floats(got["residual"]), np.asarray(got["i"])
     edges = np.searchsorted(which, np.arange(len(listed) + 1))
     return {(c, t, r): values[edges[i] : edges[i + 1]] for i, (c, t, r, _) in enumerate(listed)}
 
@@ -130,10 +131,6 @@ def _paths(
         if key in set(keys) and (folder / row["path"]).is_file():
             found.setdefault(key, []).append((row["response"], row["path"]))
     return found
-
-
-def _numbers(column: np.ndarray) -> Float1D:
-    return np.ma.filled(np.ma.asarray(column).astype(np.float64), np.nan)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.errors import unknown_name
 from thermodata.plugin import Float1D
 from thermodata.store.base.connection import quoted
+from thermodata.view.floats import floats
 from thermodata.view.predictions import Prediction, predictions
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def against(store: Store, parts: Sequence[Prediction], channel: str, bins: int =
                 f"select t_s, {quoted(channel)} as v from binned(?, ?, ?) where {quoted(channel)} is not null",
                 [p.campaign, p.test, f"{float(np.median(np.diff(p.t_s))):g} s"],
             ).fetchnumpy()
-            t_s, v = (np.ma.filled(np.ma.asarray(got[n]).astype(float), np.nan) for n in ("t_s", "v"))
+            t_s, v = (floats(got[n]) for n in ("t_s", "v"))
             if not len(t_s):
                 continue
             counts = p.valid & np.isfinite(p.residual)

@@ -14,7 +14,7 @@ _UNITS = """select distinct channel, unit from channel
 where list_contains($names, channel) and ($campaigns is null or list_contains($campaigns, campaign)) order by all"""
 
 
-def measured_units(store: Store, names: Sequence[str], campaigns: Collection[str] | None = None) -> dict[str, str]:
+def measured_units(store: Store, names: Sequence[str], campaigns: Collection[str] | None) -> dict[str, str]:
     """channel -> its unit, of those that the campaigns (None: any) have."""
     given = {"names": list(names), "campaigns": None if campaigns is None else list(campaigns)}
     with store.reader() as con:

@@ -14,7 +14,7 @@ def shared_samples(
     return next(iter(shared_spans(one, other, channel, theirs)), None)
 
 
-def shared_spans(one: TestData, other: TestData, channel: str, theirs: str | None = None) -> list[tuple[float, float]]:
+def shared_spans(one: TestData, other: TestData, channel: str, theirs: str | None) -> list[tuple[float, float]]:
     """The same for each recording that they share: a test may be read from several files. Another signal of a file is
     another measurement."""
     mine, its = one.recorded.get(channel), other.recorded.get(theirs or channel)

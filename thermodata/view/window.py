@@ -16,6 +16,7 @@ from thermodata.plugin import Float1D
 from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import damaged_file, fetch, quoted
 from thermodata.store.views.wide import file_list
+from thermodata.view.floats import floats
 
 if TYPE_CHECKING:
     import duckdb
@@ -181,7 +182,7 @@ def _window(
     # few samples, also where a logger that was fast elsewhere promised many: these themselves
     columns = ", ".join(f"cast({v} as double) as {quoted(n)}" for n, v in values.items())
     got = con.execute(f"select t_s as t__s, {columns} from {table} where {where} order by t_s").fetchnumpy()
-    return Window(_filled(got["t__s"]), {n: _filled(got[n]) for n in names}, True)
+    return Window(floats(got["t__s"]), {n: floats(got[n]) for n in names}, True)
 
 
 def _binned(
@@ -208,14 +209,10 @@ def _binned(
     out = {}
     for n in values:
         both = np.full((bins, 2), np.nan)
-        both[at, 0], both[at, 1] = _filled(got[n + "__low"]), _filled(got[n + "__high"])
+        both[at, 0], both[at, 1] = floats(got[n + "__low"]), floats(got[n + "__high"])
         out[n] = both.ravel()
     return Window(t_s, out, False), int(np.sum(got["bin__n"]))
 
 
 def _nothing(names: Sequence[str]) -> Window:
     return Window(np.empty(0), {n: np.empty(0) for n in names}, True)
-
-
-def _filled(column: np.ndarray) -> Float1D:
-    return np.ma.filled(np.ma.asarray(column).astype(np.float64), np.nan)

@@ -5,31 +5,16 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
     from thermodata.virtual.binned import dataset
     from thermodata.virtual.catalogue import HIDEABLE
     from thermodata.virtual.world import World, make_world
     from thermodata.virtual.writing import Truth, simulate
-
-_WHERE = {
-    "HIDEABLE": "catalogue",
-    "Truth": "writing",
-    "simulate": "writing",
-    "World": "world",
-    "dataset": "binned",
-    "make_world": "world",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _WHERE:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-    value = getattr(import_module(f"{__name__}.{_WHERE[name]}"), name)
-    globals()[name] = value
-    return value
-
-
 __all__ = ["HIDEABLE", "Truth", "World", "dataset", "make_world", "simulate"]
+__getattr__ = on_demand(
+    __name__, {"binned": "dataset", "catalogue": "HIDEABLE", "world": "World make_world", "writing": "Truth simulate"}
+)

@@ -40,15 +40,13 @@ class Trial:
         return asdict(self)
 
 
-def benchmark(
-    hides: Iterable[str], seeds: Iterable[int], *, logged: bool = True, step_s: float = 60.0
-) -> Iterator[Trial]:
+def benchmark(hides: Iterable[str], seeds: Iterable[int], *, logged: bool) -> Iterator[Trial]:
     """Diagnose every combination; the worlds' truth is used for marking only."""
     library = effects()
     for seed in seeds:
         for hide in hides:
             world = make_world(hide, seed, measured=logged)
-            data, spec = to_dataset(world, step_s), world.baseline()
+            data, spec = to_dataset(world, 60.0), world.baseline()
             family = true_family(hide, world.axis, library)
             start = perf_counter()
             found = answer(fit_model(spec, data, uncertainty=False), data, library, "benchmark").diagnosis

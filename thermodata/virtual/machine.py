@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 
@@ -280,8 +279,3 @@ def _growth(b: Builder, size: int, r: Draw, length: Float1D, start: Float1D, hom
     add("hydraulics", "foot", np.full(3, 0.15))
     add("probe_temperature", "probe", np.full(4, 0.035))
     return out
-
-
-def rod_time_constant(length_m: float) -> float:
-    """The slowest time constant of a steel rod that is heated at one end and insulated elsewhere [s]."""
-    return float(4 * length_m**2 * RHO_C / (pi**2 * CONDUCTIVITY))

@@ -108,13 +108,6 @@ class Network:
         """Temperatures at rest [degC]. sources: shape (n, k) [W]; boundary: shape (boundaries, k)."""
         return np.asarray(splu(self.conduction).solve(sources + self.exchange @ boundary))
 
-    def outflow(self, temperature: Float2D, boundary: Float2D) -> Float1D:
-        """Heat that leaves to the boundaries, shape (k,) [W]."""
-        total = np.zeros(temperature.shape[1])
-        for k in self.outside:
-            total += k.w_per_k * (temperature[k.a] - boundary[k.b])
-        return total
-
 
 class Stepper:
     """Backward Euler at a constant step [s]."""

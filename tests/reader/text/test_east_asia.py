@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from thermodata.errors import FormatError
 from thermodata.reader.text import decode
 from thermodata.reader.text.file.east_asia import east_asian
-from thermodata.reader.text.file.encoding import decode_head, file_encoding
+from thermodata.reader.text.file.encoding import decode_head, find_encoding
 
 _JAPANESE = [
     "時刻,①変位Z(μm),②主軸前部軸受温度(℃),№3 室温(℃)",
@@ -118,10 +116,9 @@ def test_a_head_of_a_japanese_logger_tells_by_its_own_words(encoding: str) -> No
         assert told[0] == encoding
 
 
-def test_what_shift_jis_lacks_is_answered_with_cp932(tmp_path: Path) -> None:
+def test_what_shift_jis_lacks_is_answered_with_cp932() -> None:
     data = (_JAPANESE[0] + _ROWS).encode("cp932")
     with pytest.raises(FormatError, match="does not decode") as error:
         decode(data, "shift_jis")
     assert "cp932" in (error.value.hint or "")
-    (tmp_path / "a.csv").write_bytes(data)
-    assert file_encoding(tmp_path / "a.csv")[0] == "cp932"
+    assert find_encoding(data)[0] == "cp932"

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from thermodata.draft.campaign.parts import DraftSource
 from thermodata.draft.folder.sources import Group
+from thermodata.schema.listed import with_dots
 
 _SHOWN = 4
 _FIRST = re.compile(r"(?P<what>[^?;:(]+)[?:]")  # "timezone" of "timezone? it logs local times"
@@ -33,7 +34,7 @@ def asked_once(sources: Sequence[DraftSource], groups: Sequence[Group]) -> tuple
             return question
         if source.name in others[key] and (match := _FIRST.match(question)) is not None:
             return f"{match['what']}? as in '{first[key]}'"
-        shown = ", ".join(others[key][:_SHOWN]) + (", ..." if len(others[key]) > _SHOWN else "")
+        shown = with_dots(others[key], _SHOWN)
         return f"{question}; the same in each of {shown}"
 
     return tuple(replace(s, questions=tuple(told(s, q) for q in s.questions)) for s in sources)

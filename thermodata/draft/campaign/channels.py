@@ -31,6 +31,7 @@ from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
@@ -94,7 +95,7 @@ def channels_of(
         note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     if beside:
-        shown = ", ".join(beside[:4]) + (f" and {len(beside) - 4} more" if len(beside) > 4 else "")
+        shown = with_count(beside, 4)
         notes.append(
             f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
         )

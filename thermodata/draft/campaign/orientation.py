@@ -15,6 +15,7 @@ from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words
 from thermodata.plugin import Signal
+from thermodata.schema.listed import with_dots
 
 _SHOWN_STEPS = 12
 
@@ -36,7 +37,7 @@ def reads_a_length(one: OneSignal) -> bool:
     return all(unit is not None and converts(unit, "displacement") for unit in units)
 
 
-def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], behind: Sequence[str] = ()) -> str:
+def why_idle(path: str, jumps: Sequence[JumpTest], used: Sequence[DraftJump], behind: Sequence[str]) -> str:
     """Why a jump test is not used; where another one of the same probe is, with the steps of both. behind: the tests
     that were recorded after it and that one."""
     own = next(j for j in jumps if str(j.file.path) == path)
@@ -71,8 +72,7 @@ def _is_turned(here: Sequence[float], there: Sequence[float]) -> bool:
 
 
 def _listed(steps: Sequence[float]) -> str:
-    more = ", ..." if len(steps) > _SHOWN_STEPS else ""
-    return ", ".join(f"{s:+.3g}" for s in steps[:_SHOWN_STEPS]) + more
+    return with_dots([f"{s:+.3g}" for s in steps], _SHOWN_STEPS)
 
 
 def _height(steps: Sequence[float]) -> float:

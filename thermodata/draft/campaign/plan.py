@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -88,17 +88,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.source,
             g.reader,
             g.template,
-            tuple(
-                q
-                for q in (
-                    *(hinted(a, g, groups) for a in g.asks),
-                    *_of_clocks(g, groups, aligned),
-                    *g.questions,
-                    *one_or_many(g, groups, table.rows if table else ()),
-                    *packed_pieces(g, found.ignored),
-                )
-                if q
-            ),
+            tuple(filter(None, _questions(g, groups, aligned, table, found))),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -119,29 +109,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
     known = [j for of_source in of_probes.values() for j in of_source]
     left_out += tuple((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle)
-    like = [f for f in found.logs if f.like]
-    if like:
-        notes.append(
-            f"{counted(len(like), 'file', 'was', 'were')} not opened (the folder's time was up): taken to be "
-            "like others of their name, "
-            f"e.g. {like[0].path} like {like[0].like}"
-        )
-    unseen = [f for f in found.logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]
-    if unseen:
-        notes.append(
-            f"{counted(len(unseen), 'file', 'was', 'were')} opened, and no values looked at (the folder's time "
-            "was up): their "
-            f"tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
-        )
-    hurried = [f for f in found.logs if f.sample.hurried]
-    if hurried:
-        notes.append(
-            f"{counted(len(hurried), 'file', 'was', 'were')} looked at in the first rows only (the time for "
-            "each was up): what their "
-            f"tests did later is not in this draft, e.g. {hurried[0].path} after "
-            f"{counted(hurried[0].sample.rows, 'row')}; check "
-            "these lines"
-        )
+    notes += _hardly_looked_at(found.logs)
     return Draft(
         campaign,
         tuple(every_source),
@@ -155,6 +123,26 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         tuple(x for x in found.failed if table is None or x[0] != table.file),
         tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
+
+
+def _hardly_looked_at(logs: Sequence[RawFile]) -> Iterator[str]:
+    """What is told of files for which there was no time, or not enough."""
+    if like := [f for f in logs if f.like]:
+        yield (
+            f"{counted(len(like), 'file', 'was', 'were')} not opened (the folder's time was up): taken to be like "
+            f"others of their name, e.g. {like[0].path} like {like[0].like}"
+        )
+    if unseen := [f for f in logs if not (f.like or f.sample.whole or f.sample.rows or f.sample.losses)]:
+        yield (
+            f"{counted(len(unseen), 'file', 'was', 'were')} opened, and no values looked at (the folder's time was "
+            f"up): their tests are drafted from their names alone, e.g. {unseen[0].path}; check these lines"
+        )
+    if hurried := [f for f in logs if f.sample.hurried]:
+        yield (
+            f"{counted(len(hurried), 'file', 'was', 'were')} looked at in the first rows only (the time for each was "
+            f"up): what their tests did later is not in this draft, e.g. {hurried[0].path} after "
+            f"{counted(hurried[0].sample.rows, 'row')}; check these lines"
+        )
 
 
 def _behind(path: str, used: Sequence[DraftJump], found: Scan, groups: Sequence[Group]) -> list[str]:
@@ -230,6 +218,17 @@ def _test(
     if window is not None and len(files) > 1:
         doubts.append("window: it is counted in one log, and meant since the start of the first of several")
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
+
+
+def _questions(
+    group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment], table: TestTable | None, found: Scan
+) -> Iterator[str | None]:
+    """What is asked of a source."""
+    yield from (hinted(a, group, groups) for a in group.asks)
+    yield from _of_clocks(group, groups, aligned)
+    yield from group.questions
+    yield from one_or_many(group, groups, table.rows if table else ())
+    yield from packed_pieces(group, found.ignored)
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:

@@ -13,6 +13,7 @@ from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D, Int1D
+from thermodata.schema.listed import with_count
 from thermodata.schema.places import is_spindle
 from thermodata.schema.quantity import canonical, linear_conversion
 from thermodata.store.tidy.on_change import come_at_no_rate
@@ -63,8 +64,7 @@ class Moved:
 
 def _rpm(speeds: tuple[float, ...]) -> str:
     """'3000, 6000 rpm', no more than four of them."""
-    more = f" and {len(speeds) - 4} more" if len(speeds) > 4 else ""
-    return ", ".join(f"{s:g}" for s in speeds[:4]) + f"{more} rpm"
+    return f"{with_count([f'{s:g}' for s in speeds], 4)} rpm"
 
 
 def moved_in(files: Sequence[RawFile]) -> Moved:

@@ -147,7 +147,7 @@ def not_as_series(
     ThermodataError where it cannot be read at all.
     """
     plain = described_file(who, full, path, encoding, {"series": NEVER})
-    found = by_tests(who, full, plain, {"series": NEVER}, left_s)
+    found = by_tests(who, full, plain, left_s, {"series": NEVER})
     if len(found) > 1 or whole is None:
         return found if len(found) > 1 else None
     return [replace(whole, asked=(*whole.asked, *(a for a in found[0].asked if a not in plain.asked)))]
@@ -159,7 +159,7 @@ def is_of_series(file: RawFile) -> bool:
 
 
 def by_tests(
-    who: Reader, full: Path, file: RawFile, declare: Mapping[str, Any] = _NOTHING, left_s: float = _PATIENCE_S
+    who: Reader, full: Path, file: RawFile, left_s: float, declare: Mapping[str, Any] = _NOTHING
 ) -> list[RawFile]:
     """A file whose rows name their test, as a part with a sample for each; any other as it is, and with a question
     where its words or times are in another order, where times without a date begin anew with each test, and where not

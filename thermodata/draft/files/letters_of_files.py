@@ -18,7 +18,7 @@ _PLAIN = "utf-8"
 _DECLARED = re.compile(r"""^[^#\n]*\bencoding:\s*["']?([\w.-]+)""", re.MULTILINE)
 
 
-def letters_of(path: Path, declared: str | None = None) -> str | None:
+def letters_of(path: Path, declared: str | None) -> str | None:
     """An encoding of East Asia, or the declared one for a text that is no UTF-8; 'utf-8' for what needs none, None
     for plain ASCII and for what is no text."""
     with path.open("rb") as file:

@@ -117,7 +117,7 @@ def described_file(
     who: Reader,
     full: Path,
     path: PurePosixPath,
-    encoding: str | None = None,
+    encoding: str | None,
     table: Mapping[str, Any] | None = None,
 ) -> RawFile:
     """A file as its reader describes it, with what it leaves open. encoding: what somebody declared for texts that are
@@ -133,11 +133,10 @@ def described_files(
     who: Reader,
     full: Path,
     path: PurePosixPath,
-    encoding: str | None = None,
     table: Mapping[str, Any] | None = None,
 ) -> list[RawFile]:
     """The same; a workbook whose sheets are alike sheet by sheet."""
-    return sheet_by_sheet(who, full, described_file(who, full, path, encoding, table))
+    return sheet_by_sheet(who, full, described_file(who, full, path, None, table))
 
 
 def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:

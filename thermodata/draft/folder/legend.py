@@ -15,6 +15,7 @@ from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
+from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import is_unit
 
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
@@ -49,12 +50,8 @@ class Legend:
     says: Mapping[str, Said]
 
     def note(self) -> str:
-        shown = ", ".join(
-            f"{s.name} is '{s.described}'" + (f" in {s.unit}" if s.unit else "")
-            for s in list(self.says.values())[:_SHOWN]
-        )
-        more = f" and {len(self.says) - _SHOWN} more" if len(self.says) > _SHOWN else ""
-        return f"{self.file} says what signals are: {shown}{more}"
+        said = [f"{s.name} is '{s.described}'" + (f" in {s.unit}" if s.unit else "") for s in self.says.values()]
+        return f"{self.file} says what signals are: {with_count(said, _SHOWN)}"
 
 
 def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:

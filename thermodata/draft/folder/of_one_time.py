@@ -8,6 +8,7 @@ from dataclasses import replace
 from thermodata.draft.files.raw_file import Asked, RawFile
 from thermodata.draft.files.sheets import recordings_in
 from thermodata.draft.folder.one_or_many import told_apart
+from thermodata.schema.listed import with_dots
 
 _NAMED = 4
 
@@ -44,6 +45,6 @@ def in_every_file(apart: Mapping[str, tuple[RawFile, Sequence[RawFile]]]) -> dic
 
 
 def _asked(whole: RawFile, found: Sequence[RawFile], why: str) -> RawFile:
-    named = ", ".join(f"'{f.sheet}'" for f in found[:_NAMED]) + (", ..." if len(found) > _NAMED else "")
+    named = with_dots([f"'{f.sheet}'" for f in found], _NAMED)
     asked = f"{named} {why}: loggers or rates of one test, or a test each? then table: {{sheet: '{{test}}'}}"
     return replace(whole, asked=(*whole.asked, Asked(asked, {})))

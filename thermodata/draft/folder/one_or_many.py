@@ -12,6 +12,7 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import without_part
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.reader.rotated import age, unrotated
+from thermodata.schema.listed import with_dots
 
 _NAMED = 4
 # what programs call a sheet that nobody named, and what anything is called
@@ -130,4 +131,4 @@ def _end_at_once(files: Sequence[RawFile]) -> bool:
 
 
 def _shown(names: Collection[str]) -> str:
-    return ", ".join(f"'{n}'" for n in list(names)[:_NAMED]) + (", ..." if len(names) > _NAMED else "")
+    return with_dots([f"'{n}'" for n in names], _NAMED)

@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 
 from thermodata.draft.folder.sources import Group
 from thermodata.reader.rotated import age, unrotated
+from thermodata.schema.listed import with_dots
 
 _PACKED = (".gz", ".bz2", ".xz", ".zst")
 _SHOWN = 4
@@ -36,7 +37,7 @@ def packed_pieces(group: Group, ignored: Sequence[tuple[str, str]]) -> list[str]
 
 def _asked(packed: list[PurePosixPath], one: str, several: str) -> str:
     packed.sort(key=lambda p: (age(p.with_suffix("")), p))
-    shown = ", ".join(f"'{p}'" for p in packed[:_SHOWN]) + (", ..." if len(packed) > _SHOWN else "")
+    shown = with_dots([f"'{p}'" for p in packed], _SHOWN)
     are = f"is {one}" if len(packed) == 1 else f"are {several}"
     return f"{shown} {are}, packed and not read: unpack and draft again, or leave that time out"
 

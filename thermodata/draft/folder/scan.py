@@ -59,32 +59,13 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
         full = folder / path
-        if not is_text(str(path)):
-            ignored.append((str(path), "its name is no UTF-8: no campaign file can say it; give it another name"))
-            continue
-        if path in copies:
-            ignored.append((str(path), f"a copy of {copies[path]}: their bytes are equal"))
-            continue
-        if path in beginnings:
-            said = f"the beginning of {beginnings[path]}, byte by byte: an earlier state of it, and no test of its own"
+        if (said := _is_no_log(path, copies, beginnings, unfinished)) is not None:
             ignored.append((str(path), said))
-            continue
-        if path in unfinished:
-            ignored.append((str(path), f"by its name a half-written copy of {unfinished[path]}, which is there"))
             continue
         try:
             like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
             if like is not None and like.part is None:
-                logs[str(path)] = RawFile(
-                    path,
-                    like.reader,
-                    _without_start(like.recording),
-                    full.stat().st_size,
-                    like=str(like.path),
-                    asked=like.asked,
-                    table=like.table,
-                    letters=like.letters,
-                )
+                logs[str(path)] = _as_like(like, path, full)
                 continue
             who, why = claimant(full)
             if who is None:
@@ -94,10 +75,8 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
                 whole = described_file(who, full, path, encoding)
                 found = sheet_by_sheet(who, full, whole)
                 looked = Watch()
-                if len(found) == 1 and is_of_series(whole):
-                    found = _not_as_series(who, full, path, encoding, whole, _SAMPLES_S - spent) or found
-                elif len(found) == 1:
-                    found = by_tests(who, full, whole, left_s=_SAMPLES_S - spent)
+                if len(found) == 1:
+                    found = _by_rows(who, full, path, encoding, whole, _SAMPLES_S - spent) or found
                 spent += looked.spent_s
             except _UNREAD as error:
                 tests = _not_as_series(who, full, path, encoding, None, _SAMPLES_S - spent)
@@ -145,6 +124,47 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     )
 
 
+def _is_no_log(
+    path: PurePosixPath,
+    copies: Mapping[PurePosixPath, PurePosixPath],
+    beginnings: Mapping[PurePosixPath, PurePosixPath],
+    unfinished: Mapping[PurePosixPath, PurePosixPath],
+) -> str | None:
+    """Why a file is not even asked about: by its name, or another one that holds the same; None where it is."""
+    if not is_text(str(path)):
+        return "its name is no UTF-8: no campaign file can say it; give it another name"
+    if path in copies:
+        return f"a copy of {copies[path]}: their bytes are equal"
+    if path in beginnings:
+        return f"the beginning of {beginnings[path]}, byte by byte: an earlier state of it, and no test of its own"
+    if path in unfinished:
+        return f"by its name a half-written copy of {unfinished[path]}, which is there"
+    return None
+
+
+def _as_like(like: RawFile, path: PurePosixPath, full: Path) -> RawFile:
+    """A file that nobody opened, as one of the same kind is; when it began is not known."""
+    return RawFile(
+        path,
+        like.reader,
+        Recording(like.recording.signals, like.recording.clock, None, None, ()),
+        full.stat().st_size,
+        like=str(like.path),
+        asked=like.asked,
+        table=like.table,
+        letters=like.letters,
+    )
+
+
+def _by_rows(
+    who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile, left_s: float
+) -> list[RawFile] | None:
+    """The parts of a file that are tests, by its series or by words in its rows."""
+    if is_of_series(whole):
+        return _not_as_series(who, full, path, encoding, whole, left_s)
+    return by_tests(who, full, whole, left_s)
+
+
 def _not_as_series(
     who: Reader, full: Path, path: PurePosixPath, encoding: str | None, whole: RawFile | None, left_s: float
 ) -> list[RawFile] | None:
@@ -187,10 +207,6 @@ def _spread(paths: Sequence[PurePosixPath]) -> list[PurePosixPath]:
         seen[shape] = seen.get(shape, 0) + 1
         ranked.append((seen[shape], i, path))
     return [path for _, _, path in sorted(ranked)]
-
-
-def _without_start(recording: Recording) -> Recording:
-    return Recording(recording.signals, recording.clock, None, None, ())
 
 
 def _damage(file: RawFile) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from statistics import median
 
 from thermodata.draft.signals.values import Values
+from thermodata.schema.listed import with_count
 from thermodata.store.ingest.other_units import APART_K, ZERO_K
 
 THOUSAND = (300.0, 3000.0)  # of how much the rows differ: um and mm, W and kW
@@ -41,5 +42,5 @@ def _asked(some: list[str], known: Mapping[str, Values], what: str) -> str | Non
     others = [v for name, v in known.items() if name not in some]
     if not some or not others:
         return None
-    shown = ", ".join(some[:_SHOWN]) + (f" and {len(some) - _SHOWN} more" if len(some) > _SHOWN else "")
+    shown = with_count(some, _SHOWN)
     return f"unit: in {shown} values {known[some[0]].span()}, else {others[0].span()}: {what}?"

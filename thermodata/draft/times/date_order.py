@@ -17,6 +17,7 @@ from thermodata.draft.times.named_days import day_of_name
 from thermodata.errors import ThermodataError
 from thermodata.reader.guard import described
 from thermodata.reader.registry import reader
+from thermodata.schema.listed import with_count
 
 _ORDERS = ("dmy", "mdy")
 _EITHER = "format of the dates: dmy or mdy?"
@@ -89,10 +90,7 @@ def _out_of_place(group: Group, order: str) -> bool:
 
 def _either_way(files: Sequence[RawFile]) -> str:
     """Which files alone leave the order open."""
-    shown = ", ".join(f.path.name for f in files[:_SHOWN]) + (
-        f" and {len(files) - _SHOWN} more" * (len(files) > _SHOWN)
-    )
-    return f"; {shown} alone may be either"
+    return f"; {with_count([f.path.name for f in files], _SHOWN)} alone may be either"
 
 
 def _contradicts(folder: Path, file: RawFile, order: str) -> str | None:

@@ -26,7 +26,7 @@ def said_s(text: str) -> float | None:
     return float(match[1].replace(",", ".")) * (60.0 if match[2].lower() == "min" else 3600.0)
 
 
-def hinted(ask: str, group: Group, groups: Sequence[Group] = ()) -> str:
+def hinted(ask: str, group: Group, groups: Sequence[Group]) -> str:
     """A question, with what the names of the files say to it where it is for the unit of a time or a period; with what
     other sources say of the same tests where it is for the order of day and month of a start."""
     if ask.startswith("start: dmy or mdy"):

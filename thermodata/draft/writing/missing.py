@@ -6,6 +6,7 @@ import re
 
 from thermodata.draft.writing.baseline import responses_of
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.listed import with_count
 
 _ASKED = re.compile(r"^  (?:# )?(\w+): \{(?=[^#]*\b(?:source|signal): )(.*?)# \? (.*)$", re.MULTILINE)
 _MOST = 6
@@ -47,5 +48,4 @@ def _lines(text: str) -> list[tuple[str, str, str]]:
 
 
 def _named(channels: list[str]) -> str:
-    more = f" and {len(channels) - _MOST} more" if len(channels) > _MOST else ""
-    return ", ".join(channels[:_MOST]) + more
+    return with_count(channels, _MOST)

@@ -8,7 +8,7 @@ from thermodata.export.control.program import Program
 from thermodata.export.control.statements import Variable
 
 
-def c_files(program: Program, real: str = "LREAL") -> dict[str, str]:
+def c_files(program: Program, real: str) -> dict[str, str]:
     """{name.h: ..., name.c: ...}. real: REAL is float (states in two words), LREAL is double."""
     single = real == "REAL"
     body = make_body(program, compensated=single)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from thermodata.effect import law
-from thermodata.export.control.printer import Printer, Words
+from thermodata.export.control.printer import Printer
 from thermodata.export.control.program import Program
+from thermodata.export.control.python import PYTHON
 
 SCHEMA = "thermodata/control/1"
 
@@ -128,23 +130,5 @@ def _plain(value: complex) -> float | list[float]:
 
 
 def _formula(node: law.Node) -> str:
-    words = Words(
-        equal="==",
-        unequal="!=",
-        both=" and ",
-        either=" or ",
-        no="not ",
-        true="1",
-        false="0",
-        absolute="abs({})",
-        power="({} ** {})",
-        assign="",
-        if_="",
-        else_="",
-        end_if=None,
-        fill=(),
-        comment="",
-        real=repr,
-        choose="({} if {} else {})",
-    )
+    words = replace(PYTHON, true="1", false="0", real=repr, choose="({} if {} else {})")
     return Printer(words, lambda name: name).text(node)

@@ -12,7 +12,6 @@ from thermodata.effect import law
 from thermodata.export.control.statements import Assign, Body, Fill, If, Say, Statement, Whole
 
 _RANK = {"+": 4, "-": 4, "*": 5, "/": 5, "**": 6}
-_COMPARED, _LOGIC = 3, {"not": 2, "and": 1, "or": 0}
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
 

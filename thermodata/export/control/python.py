@@ -29,30 +29,31 @@ if __name__ == "__main__":
     main(sys.stdin, sys.stdout)
 '''
 
+PYTHON = Words(
+    equal="==",
+    unequal="!=",
+    both=" and ",
+    either=" or ",
+    no="not ",
+    true="True",
+    false="False",
+    absolute="abs({})",
+    power="({} ** {})",
+    assign="{} = {}",
+    if_="if {}:",
+    else_="else:",
+    end_if=None,
+    fill=("{ring}[:] = [{value}] * {length}",),
+    comment="# {}",
+    real=lambda value: digits(value, False),
+)
+
 
 def python_module(program: Program) -> str:
     """The module: class Model with step, state and restore; as a program it reads CSV from stdin."""
     body = make_body(program, compensated=False)
     held = {v.name: v.held for v in body.variables}
-    words = Words(
-        equal="==",
-        unequal="!=",
-        both=" and ",
-        either=" or ",
-        no="not ",
-        true="True",
-        false="False",
-        absolute="abs({})",
-        power="({} ** {})",
-        assign="{} = {}",
-        if_="if {}:",
-        else_="else:",
-        end_if=None,
-        fill=("{ring}[:] = [{value}] * {length}",),
-        comment="# {}",
-        real=lambda value: digits(value, False),
-    )
-    printer = Printer(words, lambda text: f"self.{text}" if held.get(text) in ("out", "kept") else text)
+    printer = Printer(PYTHON, lambda text: f"self.{text}" if held.get(text) in ("out", "kept") else text)
     inputs = [i.name for i in program.inputs]
     kept = [v for v in body.variables if v.held in ("out", "kept")]
     start = {"real": "0.0", "int": "0", "bool": "False"}

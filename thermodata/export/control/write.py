@@ -14,8 +14,6 @@ from thermodata.export.control.python import python_module
 from thermodata.export.control.st import structured_text
 from thermodata.store.base.files import whole_file
 
-REALS = ("real", "lreal")
-
 
 @dataclass(frozen=True)
 class Target:

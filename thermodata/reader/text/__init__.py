@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from thermodata.reader.text.cells.number import decimal_mark
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.file.encoding import decode, decode_head, file_encoding, find_encoding
+from thermodata.reader.text.file.encoding import decode, decode_head, find_encoding
 from thermodata.reader.text.file.lines import last_line_is_whole
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.zone import local_to_utc_ns
@@ -27,7 +27,6 @@ __all__ = [
     "decimal_mark",
     "decode",
     "decode_head",
-    "file_encoding",
     "find_encoding",
     "last_line_is_whole",
     "local_to_utc_ns",

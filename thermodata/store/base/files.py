@@ -172,12 +172,6 @@ def write_text(target: Path, text: str) -> None:
         part.unlink(missing_ok=True)
 
 
-def sha256_of(path: Path) -> str:
-    """The SHA-256 of a file's bytes, in hexadecimal."""
-    with path.open("rb") as handle:
-        return hashlib.file_digest(handle, "sha256").hexdigest()
-
-
 def key_of(*parts: str) -> str:
     """A content key of texts: 32 hexadecimal digits."""
     told = [x for data in map(str.encode, parts) for x in (b"%d:" % len(data), data)]

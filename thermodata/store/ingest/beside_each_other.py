@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Float2D
+from thermodata.schema.listed import listed
 
 LEAST_S = 120.0  # by which both ends are off; people switch two loggers on within it,
 APART = 10.0  # and so many times what the ends of the other tests differ by
@@ -44,7 +45,7 @@ class OddClock:
         minutes = self.shift_s / 60
         late, early = f"{self.late}: {-self.shift_s:.0f} s", f"{self.early}: {self.shift_s:.0f} s"
         one = len(self.tests) == 1
-        names = " and ".join(filter(None, [", ".join(f"'{t}'" for t in self.tests[:-1]), f"'{self.tests[-1]}'"]))
+        names = listed([f"'{t}'" for t in self.tests])
         return (
             f"test{'' if one else 's'} {names}: source '{self.late}' begins and ends {minutes:.3g} min later beside "
             f"'{self.early}' than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? "

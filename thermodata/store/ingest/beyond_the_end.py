@@ -7,7 +7,7 @@ from thermodata.schema.campaign import Test
 _MORE = 1.001  # an end that is written as it was planned is not behind the end
 
 
-def beyond_the_end(test: Test, duration_s: float | None, step_s: float = 0.0) -> list[str]:
+def beyond_the_end(test: Test, duration_s: float | None, step_s: float) -> list[str]:
     """Sentences for the summary of an ingest. duration_s: of the test [s]; None where nothing tells it. step_s: from
     one sample to the next, as the last one stands for what follows [s]."""
     if not duration_s:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_count
 from thermodata.store.ingest.left_alone import TestNote
 from thermodata.store.ingest.losses import Losses, loss_row
 from thermodata.store.tidy.derive import names
@@ -62,4 +63,4 @@ def _nothing_derived(campaign: Campaign, tests: Mapping[str, TestNote], having: 
 
 
 def _some(tests: list[str]) -> str:
-    return ", ".join(tests[:3]) + (f" and {len(tests) - 3} more" if len(tests) > 3 else "")
+    return with_count(tests, 3)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.calibration.quality_levels import Levels
+from thermodata.schema.listed import with_count
 from thermodata.store.ingest.losses import Losses, loss_row
 
 ZERO_K = 273.15
@@ -34,12 +35,11 @@ def other_units(tests: Sequence[Levels]) -> Losses:
 
 
 def _said(test: str, shifts: dict[str, float]) -> str:
-    names, more = list(shifts)[:6], len(shifts) - 6
-    listed = ", ".join(names) + (f" and {more} more" if more > 0 else "")
     size = float(np.median(list(shifts.values())))
     unit = "K" if size > 0 else "degC"
+    shown = with_count(shifts, 6)
     return (
-        f"{listed}: in {test} the readings are {size:+.0f} degC from those of the other tests, as kelvins are from "
+        f"{shown}: in {test} the readings are {size:+.0f} degC from those of the other tests, as kelvins are from "
         f"degrees. If that file is in {unit}, write its unit into the file, or give each channel a twin: the one "
         f"missing_in: [{test}], the other only_in: [{test}] with unit: {unit}"
     )

@@ -6,6 +6,7 @@ from __future__ import annotations
 from thermodata.errors import nearest
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.campaign_channels import Calibration, Channel
+from thermodata.schema.listed import with_count
 from thermodata.schema.places import PLACES, called_here, is_known
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
@@ -79,4 +80,4 @@ def _grows_unsaid(calibration: Calibration) -> bool:
 
 
 def _listed(names: list[str]) -> str:
-    return ", ".join(names[:_SHOWN]) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
+    return with_count(names, _SHOWN)

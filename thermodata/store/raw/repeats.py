@@ -62,7 +62,7 @@ class Repeats:
         return tuple(notes)
 
 
-def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *, held: bool = False) -> Repeats:
+def find_repeats(times: Times, keys: Keys, n: int, begins: Sequence[int] = (), *, held: bool) -> Repeats:
     """Looks for stretches behind a step back in time whose rows were all there before, with the same values.
 
     keys: a number for the values of each row (see `keys_of`); begins: rows with which a file begins. Where nothing

@@ -197,7 +197,7 @@ def levels_of(
     powered: Container[str],
     around: Container[str],
     files: Sequence[tuple[str, Mapping[str, Any]]],
-    warm: bool = False,
+    warm: bool,
 ) -> tuple[Levels, dict[str, Reading]] | None:
     """What a test's channels were like, and how they read, as its tidy files tell; None where nothing is kept.
 

@@ -28,7 +28,7 @@ def make_timeline(
     *,
     suspect: bool,
     resets_allowed: bool,
-    notes: Sequence[str] = (),
+    notes: Sequence[str],
 ) -> Timeline:
     """Puts the rows of the files of one stream in order.
 

@@ -45,6 +45,12 @@ class Activity:
 ONLY = "only while not measuring"  # detail of an event that says nothing against its channel
 
 
+def joined(channel: str | None, flag: str, events: Sequence[QualityEvent], detail: str) -> QualityEvent:
+    """Some events of a channel and flag as one, from the first to the last of them."""
+    first, last = min(e.from_ns for e in events), max(e.to_ns for e in events)
+    return QualityEvent(channel, flag, first, last, sum(e.n for e in events), detail)
+
+
 def join_while_not_measuring(
     events: Sequence[QualityEvent],
     activity: Mapping[str, Activity],
@@ -69,14 +75,5 @@ def join_while_not_measuring(
         else:
             idle.setdefault((event.channel, event.flag), []).append(event)
     for (channel, flag), some in idle.items():
-        kept.append(
-            QualityEvent(
-                channel,
-                flag,
-                min(e.from_ns for e in some),
-                max(e.to_ns for e in some),
-                sum(e.n for e in some),
-                ONLY,
-            )
-        )
+        kept.append(joined(channel, flag, some, ONLY))
     return sorted(kept, key=lambda e: (e.from_ns, e.channel or ""))

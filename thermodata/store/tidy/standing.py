@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.calibration.quality import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
-from thermodata.store.tidy.not_measuring import ONLY
+from thermodata.store.tidy.not_measuring import ONLY, joined
 from thermodata.store.tidy.series import TestSeries
 
 _POINTS = 20  # of an event, at which the speed is asked
@@ -33,22 +33,13 @@ def join_while_standing(events: Sequence[QualityEvent], series: TestSeries) -> l
         return list(events)
     while_standing = {id(e) for e in held if _stands(e, series)}
     kept = [e for e in events if id(e) not in while_standing]
-    joined: dict[tuple[str | None, str], list[QualityEvent]] = {}
+    of_each: dict[tuple[str | None, str], list[QualityEvent]] = {}
     for event in held:
         if id(event) in while_standing:
-            joined.setdefault((event.channel, event.flag), []).append(event)
-    for (channel, flag), some in joined.items():
+            of_each.setdefault((event.channel, event.flag), []).append(event)
+    for (channel, flag), some in of_each.items():
         count = f"{len(some)} stretches, the first: " if len(some) > 1 else ""
-        kept.append(
-            QualityEvent(
-                channel,
-                flag,
-                min(e.from_ns for e in some),
-                max(e.to_ns for e in some),
-                sum(e.n for e in some),
-                f"while the spindle stands: {count}{some[0].detail}",
-            )
-        )
+        kept.append(joined(channel, flag, some, f"while the spindle stands: {count}{some[0].detail}"))
     return sorted(kept, key=lambda e: (e.from_ns, e.channel or ""))
 
 

@@ -60,9 +60,7 @@ class TidyResult:
     filled: set[str] = field(default_factory=set)  # channels that have a value at all
 
 
-def write_member(
-    series: TestSeries, member: Member, columns: Columns, key: str, verdict: Verdict | None = None
-) -> TidyResult:
+def write_member(series: TestSeries, member: Member, columns: Columns, key: str, verdict: Verdict) -> TidyResult:
     """Makes the tidy files of one stream of a test, one row group in memory at a time.
 
     columns: (channel, is text) of the campaign's stream, in the campaign's order; one that this test lacks is NULL.
@@ -81,7 +79,7 @@ def write_member(
     result.notes += _as_written(series, member, here, line.rows)
     result.notes += driven_before(series, member, here, rows.start, rows.stop)
     result.notes += finer_than_declared(series, here, rows.start, rows.stop)
-    verdict = (verdict or Verdict()).of(b.name for b in here)
+    verdict = verdict.of(b.name for b in here)
     rules = rules_of(series.plan.campaign, series.plan.test.id)
     flagged = Flagged(series, member, here, rows.history, rows.stop, result.problems, verdict)
     sampler = Sampler(here, rows.start, rows.stop)

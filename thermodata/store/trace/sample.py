@@ -35,7 +35,7 @@ def find_sample(
     test: str,
     channel: Mapping[str, Any],
     t_s: float,
-    again: Again | None = None,
+    again: Again | None,
 ) -> Answer:
     """The sample of a channel nearest to t_s [s from the test's start], and where it stands in the source files.
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from thermodata.schema.listed import with_count
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Group
 from thermodata.store.views.wide import file_list
@@ -79,6 +80,6 @@ def dispatcher(
 def refuse(before: str, parameter: str, after: str, choices: Iterable[str]) -> str:
     """An `error` call that names the choices."""
     names = list(choices)
-    shown = ", ".join(names[:_SHOWN]) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
+    shown = with_count(names, _SHOWN)
     tail = f"'{after}; there is: {shown or 'none'}"
     return f"error({literal(before + chr(39))} || coalesce(cast({parameter} as varchar), 'NULL') || {literal(tail)})"

@@ -66,7 +66,7 @@ _MADE = "made_from"
 _HERE = "not internal and database_name = current_database() and schema_name = current_schema()"
 
 
-def regenerate(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> None:
+def regenerate(con: duckdb.DuckDBPyConnection, folder: Path | None) -> None:
     """Brings all views and macros to what the tables say, inside the caller's transaction: those whose text is another
     are made anew, those that are no more are dropped. StoreError where a listed Parquet file can't be read.
 

@@ -192,7 +192,7 @@ _IDENTIFIED = {
 }
 
 
-def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None = None) -> Iterator[str]:
+def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None) -> Iterator[str]:
     """The statements that make the views over tables, and `residual` over the prediction files."""
     yield from (PHASE, QUALITY, GAP, SCORE, WEAK_SPOT, CANDIDATE, ARTEFACT, DIAGNOSIS, HISTORY, PORTABILITY)
     paths = [path for (path,) in con.execute("select distinct path from prediction order by path").fetchall()]

@@ -17,11 +17,11 @@ VERDICTS: tuple[str, ...] = get_args(Diagnosis.model_fields["verdict"].annotatio
 WITH_A_CAUSE, WITHOUT = "all with a cause", "all without"
 
 
-def wilson(hits: int, of: int, z: float = 1.96) -> tuple[float, float] | None:
+def wilson(hits: int, of: int) -> tuple[float, float] | None:
     """The interval of 95 % of a share, by Wilson's score (Wilson 1927); None of none."""
     if of == 0:
         return None
-    p = hits / of
+    p, z = hits / of, 1.96
     middle = (p + z * z / (2 * of)) / (1 + z * z / of)
     half = z / (1 + z * z / of) * (p * (1 - p) / of + z * z / (4 * of * of)) ** 0.5
     return max(middle - half, 0.0), min(middle + half, 1.0)

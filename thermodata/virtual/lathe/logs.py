@@ -26,8 +26,8 @@ LOGGERS = ("plc", "logger", "hall", "probes")
 
 def simulate_lathe(
     folder: Path,
-    stratum: str = "strong",
-    seed: int = 0,
+    stratum: str,
+    seed: int,
     *,
     hide: str | None = None,
     hours: float = 9.0,

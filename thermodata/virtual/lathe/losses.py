@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.plugin import Float1D
-
 FloatND = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 MEAN_DIAMETER_MM = 92.0
@@ -44,22 +42,17 @@ def motor_w(speed_rpm: float, cutting_kw: float) -> float:
     return float(190.0 * (speed_rpm / 4000) ** 1.4 + 0.11 * min(torque, 90.0) ** 2)
 
 
-def film_coefficient(T: Float1D, air: Float1D | float, air_speed: float, size_m: float = 0.5) -> Float1D:
-    """Heat transfer of a wall to the hall [W/m2/K]: free and forced convection, and radiation.
-
-    The free part grows with the fourth root of the difference (laminar plate), the forced one with the speed of the
-    air to 0.8, and they add as cubes, as textbooks of heat transfer have it.
-    """
-    return film_of(T, air, forced_cubed(air_speed), size_m)
-
-
 def forced_cubed(air_speed: float) -> float:
     """The cube of what forced convection gives alone, at an air speed [m/s]."""
     return float((6.2 * air_speed**0.8) ** 3)
 
 
 def film_of(T: FloatND, air: FloatND | float, forced: FloatND | float, size_m: float = 0.5) -> FloatND:
-    """`film_coefficient` for any shape; forced: of `forced_cubed`."""
+    """Heat transfer of a wall to the hall [W/m2/K], of any shape: free and forced convection, and radiation.
+
+    The free part grows with the fourth root of the difference (laminar plate), the forced one with the speed of the
+    air to 0.8, and they add as cubes, as textbooks of heat transfer have it. forced: of `forced_cubed`.
+    """
     free = 1.4 * np.sqrt(np.sqrt(np.abs(T - air) / size_m + 1e-6))
     radiated = 4 * 0.6 * 5.67e-8 * ((T + air) / 2 + 273.15) ** 3
     return np.asarray(np.cbrt(free**3 + forced) + radiated)

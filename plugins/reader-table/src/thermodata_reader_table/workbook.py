@@ -111,21 +111,8 @@ class Read:
 def read(path: Path, source: Source) -> Read:
     """FormatError where no sheet is a table (the reason of the first), or some have dates and others not."""
     book = _book(path, source)
-    tables: dict[str, Layout] = {}
-    refused: dict[str, ThermodataError] = {}
-    for sheet, rows in book.sheets.items():
-        try:
-            if not (source.table or {}).get("time"):
-                refuse_sideways(rows, f"{path.name} sheet '{sheet}'")
-            tables[sheet] = find(rows[:500], source.table, f"{path.name} sheet '{sheet}'")
-        except ThermodataError as error:
-            refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
-    # a list of numbers may be no recording; a time without its unit is one
-    asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
-    if asked or not tables:
-        raise next(iter(asked or refused.values()))
+    tables, notes = _layouts(path, source, book)
     several = len(tables) > 1
-    notes = [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
     if several:
         notes.append(
             f"{len(tables)} sheets are tables, each a stream; signals are called SHEET/NAME; for one alone "
@@ -158,22 +145,34 @@ def read(path: Path, source: Source) -> Read:
     streams = [s for made in found.values() for s in made]
     groups = [g for sheet in found for g in tables[sheet].groups]
     for kind, count in book.odd.items():
+        they = "it is" if count == 1 else "they are"
         if count and kind == "hidden":
-            notes.append(
-                f"{counted(count, 'hidden row')}: {'it is' if count == 1 else 'they are'} read like the others"
-            )
+            notes.append(f"{counted(count, 'hidden row')}: {they} read like the others")
         elif count:
-            losses.append(
-                Loss(
-                    f"{path.name}",
-                    None,
-                    None,
-                    None,
-                    f"{counted(count, 'cell')} of the workbook {kind}: {'it is' if count == 1 else 'they are'} empty",
-                )
-            )
+            reason = f"{counted(count, 'cell')} of the workbook {kind}: {they} empty"
+            losses.append(Loss(path.name, reason=reason))
     clock, start_ns = one_clock([s.times for s in streams], groups, path.name)
     return Read(streams, list(dict.fromkeys(notes)), losses, clock, start_ns)
+
+
+def _layouts(path: Path, source: Source, book: Book) -> tuple[dict[str, Layout], list[str]]:
+    """(how each sheet that is a table lies, notes on the others); the reason of the first where none is, and what one
+    leaves open."""
+    tables: dict[str, Layout] = {}
+    refused: dict[str, ThermodataError] = {}
+    for sheet, rows in book.sheets.items():
+        where = f"{path.name} sheet '{sheet}'"
+        try:
+            if not (source.table or {}).get("time"):
+                refuse_sideways(rows, where)
+            tables[sheet] = find(rows[:500], source.table, where)
+        except ThermodataError as error:
+            refused[sheet] = _naming(sheet, error) if len(book.sheets) > 1 else error
+    # a list of numbers may be no recording; a time without its unit is one
+    asked = [e for e in refused.values() if isinstance(e, QuestionError) and "period" not in e.declare.get("time", {})]
+    if asked or not tables:
+        raise next(iter(asked or refused.values()))
+    return tables, [f"sheet '{s}' is not read as a table: {e.what}" for s, e in refused.items()]
 
 
 def _streams(

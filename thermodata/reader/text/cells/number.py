@@ -117,6 +117,11 @@ def to_float(cell: str, decimal: str = ".", declared: bool = False) -> float | N
     return None if truth is None else float(truth)
 
 
+def of_either_mark(cell: str) -> float | None:
+    """The number in a cell of a header or a status, where no decimal mark is declared: a comma is one."""
+    return to_float(cell, "," if "," in cell else ".")
+
+
 def why_none(cell: str, kind: str, decimal: str = ".") -> str:
     """Why a cell is no value of its column, for a loss: "expected a number, got 'x'"."""
     text, shown = _PADDED_SIGN.sub(r"\1", cell.strip()), cell[:40]

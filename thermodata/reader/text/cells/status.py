@@ -10,7 +10,7 @@ from typing import Any
 
 from thermodata.errors import QuestionError
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.text.cells.number import to_bool, to_float
+from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.schema.flag import Flag
 
 BAD = int(Flag.NOT_MEASURING)
@@ -42,7 +42,7 @@ def _code(text: str) -> int | None:
     if text[:2].lower() == "0x":
         code = int(text, 16) if _HEX.fullmatch(text) else None
     else:
-        number = None if to_bool(text) is not None else to_float(text, "," if "," in text else ".")
+        number = None if to_bool(text) is not None else of_either_mark(text)
         code = None if number is None or not math.isfinite(number) else int(number)
     return code % 2**32 if code is not None and code < 0 else code  # a signed 32-bit status code
 
@@ -53,7 +53,7 @@ def tells_quality(name: str) -> int | None:
     return next((k for k, pattern in enumerate(_NAMES) if pattern.fullmatch(name)), None)
 
 
-def are_qualities(statuses: Iterable[str], name: str = "quality") -> bool:
+def are_qualities(statuses: Iterable[str], name: str) -> bool:
     """Whether cells under a bare "Quality" are the codes or words of one, some of them good: no index or per cent, and
     no 0 and 1 of a machine that stands and runs under a bare "StatusCode", for no status of OPC UA is 1."""
     none = frozenset({1}) if "status" in name.casefold() else frozenset()

@@ -95,7 +95,7 @@ def when(number: float, unit: str) -> str:
     return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
 
 
-def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: bool = True) -> None:
+def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: bool) -> None:
     """FormatError where most numbers are longer than any time in their unit, as days counted from a date are. Where
     the file says that unit and no declaration does (`declared`), a QuestionError once their size tells what they are.
     """

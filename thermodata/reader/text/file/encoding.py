@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import codecs
 import re
-from pathlib import Path
 
 from thermodata.errors import FormatError
 from thermodata.reader.text.file.east_asia import ENCODINGS, east_asian
@@ -120,33 +119,6 @@ def find_encoding(data: bytes, declared: str | None = None) -> tuple[str, str | 
         _refuse_unproven(unproven)
         _try(data, name)
         return name, f"not UTF-8 (byte {error.start}); read as {name}: declare encoding if that is wrong"
-
-
-def file_encoding(path: Path, declared: str | None = None) -> tuple[str, str | None]:
-    """find_encoding() of a whole file in constant memory: UTF-8 is checked to its last byte, the single-byte
-    encodings by the first bytes that are not UTF-8 and what surrounds them."""
-    with path.open("rb") as file:
-        start = file.read(_PART)
-        if declared is not None or start.startswith(tuple(mark for mark, _ in _BOMS)) or b"\0" in start[:4096]:
-            return (
-                find_encoding(start[: len(start) // 2 * 2] if len(start) == _PART else start, declared)
-                if len(start) < _PART or declared is None
-                else (declared, None)
-            )
-        decoder = codecs.getincrementaldecoder("utf-8")()
-        part = start
-        while part:
-            try:
-                decoder.decode(part)
-            except UnicodeDecodeError:
-                encoding, note = find_encoding(start if part is start else start + part)
-                return (encoding, note) if encoding != "utf-8" else ("cp1252", "not UTF-8; read as cp1252")
-            part = file.read(_PART)
-        try:
-            decoder.decode(b"", final=True)
-        except UnicodeDecodeError:
-            return "utf-8", "the file ends inside a character"
-    return "utf-8", None
 
 
 def _try(data: bytes, encoding: str) -> str:

@@ -40,7 +40,7 @@ def names_and_units(
     return _read(rows, width, units_row)[:3]
 
 
-def place_of_names(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None = None) -> int | None:
+def place_of_names(rows: Sequence[Sequence[Cell]], width: int, units_row: int | None) -> int | None:
     """Which of the rows before the data that of the names is; None where none is."""
     return _read([r[:width] for r in rows], width, units_row)[3]
 

@@ -39,7 +39,7 @@ def line_up(
     rows: Sequence[Sequence[Cell]],
     width: int,
     units_row: int | None,
-    blanks: bool = False,
+    blanks: bool,
 ) -> tuple[list[list[Cell]], Fit | None]:
     """The rows above the data with their cells over their columns, and how they were put there; None where they stand
     so, or nothing tells where they belong. rows: of data; width: their cells; blanks: part them, so that a sentence is

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.names.header_rows import rows_between, texts_of
 from thermodata.schema.unit_scale import with_power_of_ten
 
@@ -47,7 +47,7 @@ def lines_between(
 
 def _numbers(cells: Sequence[str]) -> list[float | None]:
     """The numbers behind the first cell; None where there is none."""
-    return [to_float(c, "," if "," in c else ".") if c else None for c in cells[1:]]
+    return [of_either_mark(c) if c else None for c in cells[1:]]
 
 
 def _scales(cells: Sequence[str]) -> bool:

@@ -40,7 +40,7 @@ def refuse_misfit(
     skip: int,
     delimiter: str,
     where: str,
-    told: bool = False,
+    told: bool,
 ) -> str | None:
     """FormatError where the names are fewer or more than the columns, or as many while the time takes columns more than
     names; but a note where the last name alone is too many and the others stand over their columns by the cells of the

@@ -21,6 +21,7 @@ from thermodata.reader.set_values import are_set
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.no_value import EMPTY
 from thermodata.reader.text.names.header import split_unit
+from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import normal_unit
 
 KEY = "stands"  # of a table's layout
@@ -120,7 +121,7 @@ def find_standing(columns: Mapping[str, Sequence[str]]) -> tuple[frozenset[str],
     wordless = [k for k in gaps if not any(c.strip().casefold() in EMPTY for c in columns[names[k]] if c.strip())]
     stands = [names[k] for k in wordless if whole or verdicts[k] == "stands"]
     if stands:
-        shown = ", ".join(stands[:_SHOWN]) + (f" and {len(stands) - _SHOWN} more" if len(stands) > _SHOWN else "")
+        shown = with_count(stands, _SHOWN)
         note = f"{shown}: written where they change: each value stands over the empty cells behind it"
         return frozenset(
             names if whole and len(stands) == len(gaps) else stands

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number
+from thermodata.schema.listed import with_dots
 
 _STATISTIC = re.compile(
     r"(?i)(min|max)(imum|imal|\.)?([ -]?(value|wert))?|mean|average|avg|mittel(wert)?|mw|durchschnitt|median|"
@@ -39,6 +40,5 @@ def footer_notes(lines: Iterable[Sequence[str]]) -> list[str]:
     called = list(dict.fromkeys(next(c for c in cells if c.strip()).strip() for cells in lines if is_footer(cells)))
     if not called:
         return []
-    more = ", ..." if len(called) > _NOTED else ""
-    shown = ", ".join(f"'{name}'" for name in called[:_NOTED])
-    return [f"lines of statistics or of the end of the table are not read: {shown}{more}"]
+    shown = with_dots([f"'{name}'" for name in called], _NOTED)
+    return [f"lines of statistics or of the end of the table are not read: {shown}"]

@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.interleaved import bare_header
-from thermodata.reader.text.cells.number import to_bool, to_float
+from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, is_no_fault, tells_quality, zero_is_good
 from thermodata.reader.text.names.header import split_unit
@@ -74,7 +74,7 @@ def qualities(
 
 
 def second_pairs(
-    columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str] = ()
+    columns: Mapping[str, Sequence[str]], pairs: Pairs, told: Told, measured: Collection[str]
 ) -> dict[str, tuple[str, bool]]:
     """The same of values that have a quality in `pairs`, and their faults, or a quality of the whole row, too."""
     faults = {value: (name, True) for value, name in _beside(columns, "fault", measured).items()}
@@ -142,7 +142,7 @@ def _codes(cells: Sequence[str]) -> list[str]:
 
 def _is_a_reading(text: str) -> bool:
     """Whether a cell holds a fraction, or a number below 0."""
-    number = None if to_bool(text) is not None else to_float(text, "," if "," in text else ".")
+    number = None if to_bool(text) is not None else of_either_mark(text)
     return number is not None and not _WHOLE.match(text)
 
 

@@ -18,7 +18,7 @@ from thermodata.schema.unit_spelling import spelled
 _SHOWN = 120  # letters of a line
 
 
-def another_header(table: Table, lines: Iterable[tuple[int, str]], repeated: int = -1) -> tuple[int, str] | None:
+def another_header(table: Table, lines: Iterable[tuple[int, str]], repeated: int) -> tuple[int, str] | None:
     """(number, what to tell) of the first line that begins another table. lines: those that are no rows of it;
     repeated: the number of the last line before them that repeats the header."""
     for number, text in lines:

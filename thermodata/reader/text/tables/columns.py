@@ -46,6 +46,19 @@ def dtype_of(cells: Sequence[str], name: str = "", unit: str | None = None) -> s
     return "float64"
 
 
+def kind_of(cells: Sequence[str], name: str, unit: str | None) -> str | None:
+    """The dtype of a column that is no time; None of the empty one of rows that end with a delimiter."""
+    if name.startswith("column ") and unit is None and not any(map(clean, cells)):
+        return None
+    return dtype_of(cells, name, unit)
+
+
+def dtype_of_counts(cells: Sequence[str]) -> str:
+    """The dtype of counts since a date: of nanoseconds or ticks they are too long for a float64."""
+    whole = [c for c in map(clean, cells) if c.lstrip("-").isdecimal()]  # a few cells may be torn
+    return "int64" if 2 * len(whole) > len(cells) and dtype_of(whole) == "int64" else "float64"
+
+
 def find_decimal(columns: Iterable[Sequence[str]], delimiter: str, where: str) -> str | None:
     """The decimal mark of the number cells of some columns; None where none has a fraction.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -21,10 +21,17 @@ from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
 from thermodata.reader.text.page.second_header import second_header
-from thermodata.reader.text.preamble.begin import NOT_TAKEN, declared_start, find_begin, first_times, unused_start
+from thermodata.reader.text.preamble.begin import (
+    NOT_TAKEN,
+    Begin,
+    declared_start,
+    find_begin,
+    first_times,
+    unused_start,
+)
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
-from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of, find_decimal
+from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
 from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
@@ -145,19 +152,14 @@ def find_table(
     quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality), *worded(cells_of, of_rows)}
     times = {
-        i: TIME if g.formats else _number_of_time(g, cells_of[layout.names[i]]) for g in groups for i in g.group.time
+        i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
+        for g in groups
+        for i in g.group.time
     }
-    kinds: list[str | None] = []
-    for i, (name, unit) in enumerate(zip(layout.names, layout.units, strict=True)):
-        column = cells_of[name]
-        if i in times:
-            kinds.append(times[i])
-        elif name in forced:
-            kinds.append("str")
-        elif name.startswith("column ") and unit is None and not any(map(clean, column)):
-            kinds.append(None)  # rows that end with a delimiter
-        else:
-            kinds.append(dtype_of(column, name, unit))
+    kinds = [
+        times[i] if i in times else "str" if name in forced else kind_of(cells_of[name], name, layout.units[i])
+        for i, name in enumerate(layout.names)
+    ]
     if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
         raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
     words = [n for i, n in enumerate(layout.names) if kinds[i] == "str" and i not in times and n not in forced]
@@ -177,18 +179,8 @@ def find_table(
         kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
-    begin, doubt = None, None
-    if not any(g.absolute for g in groups):
-        above = [[line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first]]
-        timed = groups[0]
-        first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
-        begin, doubt = find_begin(above, first_rows, declared_start(said), where)
-        if begin is not None and len({g.of_day for g in groups}) > 1:
-            above_rows = f"'{begin.text[:60]}' stands above the rows"
-            doubt = f"{above_rows}, {NOT_TAKEN}: some columns count from a start, others tell times of day"
-            begin = None
-    else:
-        doubt = unused_start(declared_start(said))
+    above = ([line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first])
+    begin, doubt = _begin(groups, above, body, declared_start(said), where)
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
     found = [
         first.note,
@@ -276,12 +268,19 @@ def _timed(
     return TimedGroup(name, group, forms, stated_zone(names), once and have_days(forms))
 
 
-def _number_of_time(timed: TimedGroup, cells: Sequence[str]) -> str:
-    """The dtype of times that are numbers: counts of nanoseconds or ticks since a date are too long for a float64."""
-    if timed.group.epoch is None:
-        return "float64"
-    whole = [c for c in map(clean, cells) if c.lstrip("-").isdecimal()]  # a few cells may be torn
-    return "int64" if 2 * len(whole) > len(cells) and dtype_of(whole) == "int64" else "float64"
+def _begin(
+    groups: Sequence[TimedGroup], above: Iterable[list[str]], body: Sequence[list[str]], said: str | None, where: str
+) -> tuple[Begin | None, str | None]:
+    """(when the rows began, as a line above them says; a note where one is not taken). said: what is declared of it."""
+    if any(g.absolute for g in groups):
+        return None, unused_start(said)
+    timed = groups[0]
+    first_rows = first_times(timed.group.time, timed.group.seconds, timed.formats, body)
+    begin, doubt = find_begin(list(above), first_rows, said, where)
+    if begin is None or len({g.of_day for g in groups}) == 1:
+        return begin, doubt
+    stands = f"'{begin.text[:60]}' stands above the rows, {NOT_TAKEN}"
+    return None, f"{stands}: some columns count from a start, others tell times of day"
 
 
 def _notes(layout: Layout, kinds: Sequence[str | None], groups: Sequence[TimedGroup]) -> Iterator[str]:

@@ -10,6 +10,7 @@ from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.schema.listed import with_dots
 
 _FEWEST_ROWS = 10
 _MOST_NAMES = 200  # that one column may hold
@@ -34,7 +35,6 @@ def refuse_long(
     rows: Sequence[Sequence[str]],
     where: str,
     times: Sequence[int] = (),
-    hint: str = _HINT,
 ) -> None:
     """FormatError for a table in which a column names what another one holds the value of: by its header, where that
     column has several names, or by its rows, where each time comes once for each of several names."""
@@ -51,8 +51,8 @@ def refuse_long(
         "a long table: each row names what it measures",
         where=where,
         expected="a column a signal",
-        got=f"'{names[tag]}' holds " + ", ".join(list(said)[:4]) + (", ..." if len(said) > 4 else ""),
-        hint=hint,
+        got=f"'{names[tag]}' holds " + with_dots(said, 4),
+        hint=_HINT,
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Source
 from thermodata.reader.text.cells import time_pattern
-from thermodata.reader.text.cells.number import is_empty, to_float
+from thermodata.reader.text.cells.number import is_empty, of_either_mark, to_float
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
 from thermodata.reader.zone import NAT
@@ -135,7 +135,7 @@ def _step(cells: Sequence[str], decimal: str) -> float | None:
 def _number(text: str | None, where: str) -> float | None:
     if not text:
         return None
-    value = to_float(text, "," if "," in text else ".")
+    value = of_either_mark(text)
     if value is None and not is_empty(text):
         raise FormatError("a header value is no number", where=where, expected="a number", got=text[:40])
     return value if value is not None and np.isfinite(value) else None

@@ -40,7 +40,7 @@ class Group:
     too_far: int = 0
 
 
-def groups_of(frame: Frame, taken: Iterable[str] = ()) -> list[Group]:
+def groups_of(frame: Frame, taken: Iterable[str]) -> list[Group]:
     """The groups of a frame's signals. taken: streams of other frames, whose names are not used again."""
     groups: dict[tuple[bool, str], Group] = {}
     seen: dict[str, int] = {}

@@ -21,6 +21,7 @@ from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
+from thermodata.schema.listed import with_count
 from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows
 from thermodata_reader_cnc.twincat.scope_header import Header, read_header
 
@@ -112,9 +113,8 @@ def describe(path: Path, source: Source) -> Recording:
     notes = [first.note] if first.note else []
     scaled = [f"'{c.name}' ({c.scaling})" for c in channels if c.scaling]
     if scaled:
-        more = f" and {len(scaled) - _SOME} more" if len(scaled) > _SOME else ""
         notes.append(
-            f"the header names a scaling for {', '.join(scaled[:_SOME])}{more}; whether the values were "
+            f"the header names a scaling for {with_count(scaled, _SOME)}; whether the values were "
             "exported with it, the file does not say: they are kept as they stand"
         )
     return Recording(

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.number import is_empty, is_number, to_bool, to_float, to_int
+from thermodata.reader.text.cells.number import is_empty, is_number, of_either_mark, to_bool, to_int
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.time_units import EPOCHS, to_ns
 
@@ -193,7 +193,7 @@ def _is_number(cell: str) -> bool:
 
 def _fastest(rows: dict[str, list[str]], names: list[str]) -> float:
     cells = [cell for cell in rows.get("sampletime[ms]", [])[: len(names)] if is_number(cell)]
-    times = [to_float(cell, "," if "," in cell else ".") for cell in cells]
+    times = map(of_either_mark, cells)
     return min((t for t in times if t is not None and 0 <= t < 1e9), default=0.0)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D, Int1D, Source
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.rows.grid import Rows
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.lvm.header import Header, Packet
@@ -79,7 +79,7 @@ class Times:
         text = self.packet.key(key, channel)
         if not text:
             return default
-        value = to_float(text, "," if "," in text else ".")
+        value = of_either_mark(text)
         if value is None or not abs(value) <= 9e9:
             self._say(f"line {self.packet.line}: {key} '{text[:30]}' is no number; taken as {default:g}")
             return default

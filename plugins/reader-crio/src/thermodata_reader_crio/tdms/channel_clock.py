@@ -39,6 +39,10 @@ class _ClockPieces:
     def time(self, row: int) -> int:
         return self.base[-1] + self.sample(row) * self.waves[-1].step.numerator // self.waves[-1].step.denominator
 
+    def clock(self, absolute: bool) -> Clock:
+        row, base, origin = (np.array(part, np.int64) for part in (self.row, self.base, self.origin))
+        return Clock(row, base, origin, tuple(w.step for w in self.waves), np.array(self.suspect, bool), absolute)
+
 
 def clock_of(index: Index, column: Column, own: Mapping[str, Any], known: dict[Any, Clock | None]) -> Clock | None:
     """The clock that a channel's waveform properties give it; None where it has no increment. known: those of other
@@ -78,14 +82,7 @@ def _clock(index: Index, column: Column) -> Clock | None:
             made.start(row, wave, made.time(row), 0, made.suspect[-1])
     if not made.row:
         return None
-    return Clock(
-        np.array(made.row, np.int64),
-        np.array(made.base, np.int64),
-        np.array(made.origin, np.int64),
-        tuple(w.step for w in made.waves),
-        np.array(made.suspect, bool),
-        made.waves[0].start_ns is not None,
-    )
+    return made.clock(made.waves[0].start_ns is not None)
 
 
 def counted_clock(index: Index, column: Column, step_s: float) -> Clock:
@@ -94,14 +91,7 @@ def counted_clock(index: Index, column: Column, step_s: float) -> Clock:
     made.start(0, Waveform(None, 0, clock.steps[0]), 0, 0, False)
     for hole in index.holes:
         _skip(made, index, column, hole, column.row_at(hole.piece))
-    return Clock(
-        np.array(made.row, np.int64),
-        np.array(made.base, np.int64),
-        np.array(made.origin, np.int64),
-        tuple(w.step for w in made.waves),
-        np.array(made.suspect, bool),
-        False,
-    )
+    return made.clock(False)
 
 
 def _events(index: Index, path: str) -> list[tuple[int, dict[str, Any] | Hole]]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 MOST = 1 << 48  # values or bytes a chunk; more is damage, and would overflow
-STRING, BOOL, TIMESTAMP, DAQMX = 0x20, 0x21, 0x44, 0xFFFFFFFF
+STRING, BOOL, TIMESTAMP = 0x20, 0x21, 0x44
 
 # TDMS type -> numpy's name; a timestamp is 16 bytes (fraction of 2^-64 s, seconds since 1904)
 NUMPY = {

@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Block, Loss, Recording, Source
 from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.listed import with_count
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.file import File, open_file
 from thermodata_reader_crio.tdms.losses import losses
@@ -31,8 +32,7 @@ def describe(path: Path, source: Source) -> Recording:
     if absolute:
         relative = [s.name for s in file.streams if not s.absolute]
         if relative:
-            shown = ", ".join(relative[:5]) + (f" and {len(relative) - 5} more" if len(relative) > 5 else "")
-            notes.append(f"no date in {shown}: counted from the start of the others")
+            notes.append(f"no date in {with_count(relative, 5)}: counted from the start of the others")
     if file.index.damage:
         notes.append(file.index.damage)
     return Recording(

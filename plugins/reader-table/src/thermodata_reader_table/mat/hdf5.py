@@ -91,9 +91,7 @@ class _Walk:
                 with damaged(f"{self.where} variable '{name}'"):
                     variables[name] = self.node(_own(self.file, name), 0)
             except FormatError as error:
-                losses.append(
-                    Loss(f"{self.where} variable '{name}'", None, None, None, f"a damaged variable: {error.got}")
-                )
+                losses.append(Loss(f"{self.where} variable '{name}'", reason=f"a damaged variable: {error.got}"))
         return Tree(variables, tuple(losses), True if not losses else None)
 
     def node(self, item: Any, depth: int) -> Node:

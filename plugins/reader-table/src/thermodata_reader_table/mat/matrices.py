@@ -40,10 +40,7 @@ def sort_matrices(plan: Plan, scope: Scope) -> None:
             plan.losses.append(
                 Loss(
                     f"{plan.where} variable '{path}'",
-                    None,
-                    None,
-                    None,
-                    "the file is cut, and the names of its columns may stand in what is lost",
+                    reason="the file is cut, and the names of its columns may stand in what is lost",
                 )
             )
             continue

@@ -196,7 +196,7 @@ def listed_of(name: str, known: Collection[str]) -> str:
     return alike[0] if len(alike) == 1 else "" if squeezed(other) in _GENERAL else other
 
 
-def names_time_unit(name: str, unit: str | None = None) -> bool:
+def names_time_unit(name: str, unit: str | None) -> bool:
     """Whether a variable holds the unit of the time; T_unit, with a large T, only where that is a unit of time, for it
     may be that of a temperature. unit: what it holds."""
     if squeezed(name) in ("timeunit", "timeunits", "unittime", "xunit"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Source
+from thermodata.schema.listed import with_count
 from thermodata_reader_table.mat.files import opened
 from thermodata_reader_table.mat.timed_streams import Clocked
 from thermodata_reader_table.timed_rows import nth_timed_row
@@ -22,6 +23,4 @@ def locate(path: Path, source: Source, stream: str, row: int) -> str | None:
         at = nth_timed_row((found.times(a, a + _ROWS) for a in range(0, found.time.length, _ROWS)), row)
         if at is None:
             return None
-        names = [c.name for c in found.columns]
-        more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-        return f"index {at + 1} of {', '.join(names[:_NAMED])}{more}"
+        return f"index {at + 1} of {with_count([c.name for c in found.columns], _NAMED)}"

@@ -18,7 +18,7 @@ from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, 
 def lose_object(plan: Plan, path: str, node: Odd) -> None:
     """A loss for an object of MATLAB's; functions are no data, and nothing is lost with them."""
     if node.kind != "function_handle":
-        plan.losses.append(Loss(f"{plan.where} variable '{path}'", None, None, None, refusal(node.kind)))
+        plan.losses.append(Loss(f"{plan.where} variable '{path}'", reason=refusal(node.kind)))
 
 
 def sort_variable(plan: Plan, scope: Scope, name: str, node: Node, inner: list[tuple[str, Struct]]) -> None:
@@ -108,13 +108,7 @@ def _cells(plan: Plan, scope: Scope, path: str, node: Text | Cells, inner: list[
             scope.columns.append(Column(f"{path}{{{i}}}", None, item.dtype, item.size, item.vector))
     elif items:
         plan.losses.append(
-            Loss(
-                f"{plan.where} variable '{path}'",
-                None,
-                None,
-                None,
-                "a cell array of mixed content: save its columns as vectors",
-            )
+            Loss(f"{plan.where} variable '{path}'", reason="a cell array of mixed content: save its columns as vectors")
         )
 
 

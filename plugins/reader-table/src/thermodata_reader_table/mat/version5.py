@@ -66,7 +66,7 @@ def read(path: Path) -> Tree:
             continue
         name, node = found
         if name in variables:
-            losses.append(Loss(where, None, None, None, f"a second variable '{name}': the first is kept"))
+            losses.append(Loss(where, reason=f"a second variable '{name}': the first is kept"))
             continue
         variables[name] = node
     return Tree(variables, tuple(losses), False if cut else None)

@@ -59,7 +59,7 @@ class File:
                 self.notes.append(f"group '{name}' holds no rows")
                 continue
             if not self._timed(group, index):
-                self.losses.append(Loss(f"{where} group '{name}'", None, None, None, "it has no time"))
+                self.losses.append(Loss(f"{where} group '{name}'", reason="it has no time"))
                 continue
             stream = unique([*used, name])[-1]
             used.append(stream)
@@ -105,7 +105,7 @@ class File:
                 with damage_as_format_error(where):
                     made = self._channel(channel, index, i, piece, stream, name)
             except FormatError as error:
-                self.losses.append(Loss(where, None, None, None, f"it cannot be read: {error.got}"))
+                self.losses.append(Loss(where, reason=f"it cannot be read: {error.got}"))
                 continue
             for one in made:
                 own = unique([*taken, one.signal.name])[-1]
@@ -124,10 +124,7 @@ class File:
             self.losses.append(
                 Loss(
                     f"{self.where} channel '{stream}/{name}'",
-                    None,
-                    None,
-                    None,
-                    f"an array of shape {values.shape[1:] or values.dtype} in each row",
+                    reason=f"an array of shape {values.shape[1:] or values.dtype} in each row",
                 )
             )
             return []

@@ -56,4 +56,4 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
         for group in file.groups:
             yield from group_blocks(file, group, int(rows) if rows is not None else None)
     if cut:
-        yield Loss(path.name, None, None, None, cut)
+        yield Loss(path.name, reason=cut)
