@@ -1,4 +1,4 @@
-"""A table of tests in a workbook, where nothing is installed that opens workbooks."""
+"""A table of tests in a workbook, where nothing is installed that opens workbooks, or nothing may."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from thermodata import workbook_check
 from thermodata.draft.campaign.plan import plan
 from thermodata.draft.folder.scan import scan
-from thermodata.draft.folder.table import closed_workbooks
+from thermodata.draft.folder.table import closed_workbooks, grids_of
 
 from .labs import LABS
 
@@ -23,3 +24,12 @@ def test_the_draft_says_what_to_install(tmp_path: Path, monkeypatch: pytest.Monk
     assert note.startswith("test_plan.xlsx was not opened")
     assert "try: pip install 'thermodata[workbook]'" in note
     assert note in plan("shop", tmp_path, found).notes
+
+
+def test_a_stray_cell_far_off_takes_no_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sheet of its last row and column is 550 GB once somebody lays it out: the process would be gone."""
+    LABS["workbooks"](tmp_path)
+    table = tmp_path / "test_plan.xlsx"
+    assert list(grids_of(table, 1000))
+    monkeypatch.setattr(workbook_check, "MAX_CELLS", 2)
+    assert not list(grids_of(table, 1000))

@@ -7,12 +7,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import SpecError, ThermodataError, nearest
+from thermodata.errors import FormatError, SpecError, ThermodataError, nearest
 from thermodata.schema.campaign import Campaign, Test, TestsFrom
 from thermodata.schema.explain import validate
 from thermodata.schema.lines import Document, Place
 from thermodata.schema.quantity import split_value
 from thermodata.schema.refer import inside
+from thermodata.workbook_check import check_size
 
 _FIELD = re.compile(r"\{([A-Za-z_][A-Za-z0-9_]*)\}")
 
@@ -197,12 +198,14 @@ def _read_table(spec: TestsFrom, folder: Path, document: Document, place: Place)
     try:
         if path.suffix.lower() in (".xlsx", ".xls", ".ods"):
             sheet = spec.table.sheet
+            if path.suffix.lower() == ".xlsx":
+                check_size(path)
             frame = pd.read_excel(
                 path, sheet_name=sheet - 1 if isinstance(sheet, int) else sheet or 0, dtype=object, engine="calamine"
             )
         else:
             frame = pd.read_csv(path, sep=_delimiter(path), dtype=str, keep_default_na=False, encoding="utf-8-sig")
-    except (OSError, ValueError, ImportError) as error:
+    except (OSError, ValueError, ImportError, FormatError) as error:
         raise SpecError(
             "cannot read the table of tests",
             where=document.where((*place, "table", "file")),

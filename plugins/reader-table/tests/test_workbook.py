@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from thermodata_reader_table import Reader, workbook_check
+from thermodata_reader_table import Reader
 
+from thermodata import workbook_check
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Source
 from thermodata.testing.reader import load
@@ -52,7 +53,7 @@ def bomb(path: Path, members: dict[str, bytes]) -> Path:
 def test_a_workbook_of_too_many_rows_is_refused_before_they_are_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sheets: int, tag: str
 ) -> None:
-    from thermodata_reader_table import workbook_check
+    from thermodata import workbook_check
 
     def made(rows: int) -> Path:
         path = tmp_path / f"{rows}.xlsx"

@@ -15,6 +15,7 @@ from thermodata.draft.words.naming import plain, words
 from thermodata.draft.words.vocabulary import quantities_in, says
 from thermodata.errors import ThermodataError
 from thermodata.reader.text import decode, split_unit
+from thermodata.workbook_check import check_size
 
 LARGEST = 4_000_000
 _ROWS_A_TEST = 4  # a table of tests has about a row a test; what has hundreds of rows for a few tests is a log
@@ -102,6 +103,7 @@ def grids_of(path: Path, most: int, tests: Set[str] = frozenset()) -> Iterator[l
         try:
             from python_calamine import SheetVisibleEnum, load_workbook
 
+            check_size(path)
             book = load_workbook(str(path))
             shown = [s.name for s in book.sheets_metadata if s.visible == SheetVisibleEnum.Visible]
             for name in [n for n in shown if normal(n) not in tests][:5]:

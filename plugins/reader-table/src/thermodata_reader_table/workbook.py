@@ -24,7 +24,7 @@ from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
-from thermodata_reader_table.workbook_check import check_size
+from thermodata.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import percent_columns
 from thermodata_reader_table.workbook_related import with_related
 from thermodata_reader_table.workbook_series import taken_apart

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from thermodata.errors import FormatError
-from thermodata_reader_table.workbook_check import inflate
+from thermodata.workbook_check import inflate
 
 ROWS = 100_000  # of all sheets together
 _LEAST_ROWS, _LEAST_BYTES = 500, 1 << 18  # of each
