@@ -189,7 +189,6 @@ def block(parts: Parts, name: str = "t0", step_s: float = STEP_S) -> Block:
         none if parts.slack is None else parts.slack,
         np.zeros(n, np.int64),
         np.arange(n),
-        np.ones(n),
         n,
     )
 

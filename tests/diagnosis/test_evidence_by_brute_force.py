@@ -23,11 +23,13 @@ from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import Known, known, likeliest
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.on_locked import _with, foretell
+from thermodata.diagnosis.weigh import evidence as weighing
 from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.evidence import (
     Columns,
     columns,
     each_left_out,
+    each_moments,
     moments,
     of_each_series,
     others_of_each,
@@ -424,6 +426,24 @@ def test_what_is_kept_of_a_noise_changes_nothing(room: int, monkeypatch: pytest.
         assert np.allclose(first.known[i].reshape(w.shape[1], -1), w.T @ base.white[i], atol=1e-12)
     for name in ("own", "known", "response"):
         assert np.array_equal(getattr(first, name), getattr(again, name))
+
+
+@pytest.mark.parametrize(("room", "at_once"), [(0, 1), (0, 1 << 30), (20_000, 30), (1 << 30, 1 << 30)])
+def test_several_candidates_at_once_are_weighed_as_each_by_itself(
+    room: int, at_once: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(discrepancy, "KEPT_BYTES", room)
+    monkeypatch.setattr(weighing, "AT_ONCE", at_once)
+    base, some = known(replace(small(), kept={}), NOISE), [made(small()) for _ in range(4)]
+    some = [replace(one, blocks=tuple((i + 1.0) * b for b in one.blocks)) for i, one in enumerate(some)]
+    moments(base, some[1])
+    for _ in range(2):
+        for one, found in zip(some, each_moments(base, some), strict=True):
+            alone = moments(known(replace(small(), kept={}), NOISE), one)
+            for name in ("own", "known", "response"):
+                expected = getattr(alone, name)
+                np.testing.assert_allclose(getattr(found, name), expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    assert list(each_moments(base, [])) == []
 
 
 def test_the_columns_of_three_noises_are_kept_and_no_more() -> None:

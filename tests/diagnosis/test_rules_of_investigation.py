@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.question.compressed import error_of
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import base_columns, otherwise, owners
 from thermodata.diagnosis.question.problem import Problem
@@ -340,7 +341,7 @@ def test_an_unlucky_zero_is_no_error(data: Dataset, fitted: FittedModel) -> None
     tests = [replace(t, values={**t.values, "dZ": t.values["dZ"] + first}) for t in fitted_tests(data)]
     response = replace(fitted.responses[0], calibrate=frozenset())
     assert np.abs(np.mean(response.residual(tests[0]))) > 40.0
-    assert investigating._error_of(response, tests) == pytest.approx(50.0 * np.sqrt(5 / 360), rel=0.05)
+    assert error_of(response, tests) == pytest.approx(50.0 * np.sqrt(5 / 360), rel=0.05)
 
 
 def fitted_tests(data: Dataset) -> list[Any]:

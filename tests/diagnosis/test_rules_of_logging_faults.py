@@ -10,6 +10,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     CLOCK_DROP,
     a_fault_explains,
     clock_offsets,
+    clocks_beside,
     first_of_each,
     fit_percent,
     gain_is_wrong,
@@ -17,7 +18,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_gains,
     wrong_parameters,
 )
-from thermodata.diagnosis.verdict.investigate import clocks_beside, gains_are_wrong_only_where_nothing_is_missing
+from thermodata.diagnosis.verdict.investigate import gains_are_wrong_only_where_nothing_is_missing
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.diagnosis import Artefact

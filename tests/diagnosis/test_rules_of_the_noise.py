@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.question.discrepancy import Noise, Whitened, ascend, bounds_of, chain_of, left_over
+from thermodata.diagnosis.question.discrepancy import WIDE, Noise, Whitened, ascend, bounds_of, chain_of, left_over
 from thermodata.diagnosis.question.known import known, likeliest, likeliest_of
 from thermodata.diagnosis.question.problem import Problem, freed, start_directions
 from thermodata.diagnosis.weigh.evidence import columns
@@ -147,13 +147,14 @@ def test_the_noise_beside_each_part_is_that_of_a_problem_with_this_part_alone(n:
 @pytest.mark.parametrize(
     "noise", [Noise(0.3, 1.0, 7200.0, 0.5), Noise(0.01, 40.0, 3e5, 0.5), Noise(5.0, 0.05, 600.0, 1.0)]
 )
-def test_a_chain_is_the_factor_of_the_covariance(noise: Noise) -> None:
-    """At uneven times, two of them equal."""
+@pytest.mark.parametrize("many", [3, WIDE - 1, WIDE])
+def test_a_chain_is_the_factor_of_the_covariance(noise: Noise, many: int) -> None:
+    """At uneven times, two of them equal; of few columns, and of so many that samples are taken one by one."""
     rng = np.random.default_rng(3)
     t_s = np.cumsum(rng.uniform(10.0, 900.0, 80))
     t_s[41] = t_s[40]
     covariance = noise.slow**2 * np.exp(-np.abs(t_s[:, None] - t_s[None]) / noise.tau_s) + noise.white**2 * np.eye(80)
-    chain, columns = chain_of(t_s, noise), rng.normal(size=(80, 3))
+    chain, columns = chain_of(t_s, noise), rng.normal(size=(80, many))
     np.testing.assert_allclose(
         chain.halved(columns), np.linalg.solve(np.linalg.cholesky(covariance), columns), rtol=1e-6
     )

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates import basis as module
-from thermodata.diagnosis.candidates.basis import basis
+from thermodata.diagnosis.candidates.basis import Means, basis, sharing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.clocks.by_commands import timings
 from thermodata.diagnosis.question.known_effects import base_columns, remembered
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.steps.commanded import commands_of
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Drivers, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
+from thermodata.view.dataset import ChannelInfo
 
 from .conftest import make_data
 from .hand_made import Parts, PlainEffect, problem
@@ -80,6 +83,46 @@ def test_what_is_beyond_a_quarter_of_a_gigabyte_is_made_anew(monkeypatch: pytest
     one, candidate = task(), CandidateEffect(Scaled(), {"u": "T_a"}, "feed_x")
     monkeypatch.setattr(module, "KEPT_BYTES", basis(task(), candidate).nbytes - 1)
     assert basis(one, candidate) is not basis(one, candidate)
+
+
+@dataclass(frozen=True)
+class Counted(Scaled):
+    """The same, and how often it was asked."""
+
+    calls: list[float] = field(default_factory=list, compare=False)
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        self.calls.append(p["tau"])
+        return Scaled.basis(self, drivers, p)
+
+
+def test_what_a_candidate_does_in_a_test_is_made_once_for_all_axes() -> None:
+    effect, means = Counted(params=(TAU,)), Means()
+    one = task()
+    basis(sharing(one, means), CandidateEffect(effect, {"u": "T_a"}, "feed_x"))
+    of_one = len(effect.calls)
+    found = basis(sharing(replace(one, kept={}), means), CandidateEffect(effect, {"u": "T_a"}, "feed_x"))
+    assert len(effect.calls) == of_one > 0
+    np.testing.assert_array_equal(found.own, basis(one, CandidateEffect(Scaled(params=(TAU,)), {"u": "T_a"}, "")).own)
+
+    cut = one.split({("c", "t0"): [3000.0]})
+    offsets = basis(sharing(cut, means), CandidateEffect(effect, {"u": "T_a"}, "feed_x"))
+    assert len(effect.calls) == of_one, "offsets go out of what is shared"
+    assert not np.array_equal(offsets.own[0], found.own[0])
+
+    gap = one.split({("c", "t0"): [3000.0]}, parted_s=100.0)
+    basis(sharing(gap, means), CandidateEffect(effect, {"u": "T_a"}, "feed_x"))
+    assert len(effect.calls) == of_one * 4 // 3, "a test of other samples has its own"
+    basis(sharing(task(), means), CandidateEffect(effect, {"u": "T_a"}, "feed_x"))
+    assert len(effect.calls) == of_one * 7 // 3, "and so have other tests"
+
+
+def test_clocks_and_commands_are_asked_once_of_a_problem() -> None:
+    one = task()
+    channels = {"dZ": ChannelInfo("dZ", "displacement", "um")}
+    assert timings(one, channels) is timings(one, channels)
+    assert commands_of(one) is commands_of(one)
+    assert commands_of(replace(one, kept={})) is not commands_of(one)
 
 
 def test_a_changed_copy_of_a_test_has_its_own_columns_and_leaves_those_of_the_test_alone(spec: Model) -> None:

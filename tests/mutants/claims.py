@@ -677,7 +677,7 @@ MUTANTS = [
     diagnosis("on_locked.py", "if beside_all.holds or ", "if True or ", "a blunt member withdraws a claim"),
     diagnosis("on_locked.py", "found.noise, refining, [claim", "found.noise, kept, [claim", "asked twice"),
     diagnosis(
-        "investigate.py", "_error_of(asked_about, tests)", "_error_of(fitted, tests)", "wrong parameters go unnoticed"
+        "investigate.py", "error_of(asked_about, tests)", "error_of(fitted, tests)", "wrong parameters go unnoticed"
     ),
     diagnosis(
         "investigate.py",
@@ -685,9 +685,9 @@ MUTANTS = [
         "faults if True else",
         "a missing effect passes as a wrong gain",
     ),
-    diagnosis("investigate.py", "and s != home", "", "the response's own clock is suspected"),
+    diagnosis("logging_faults.py", "and s != home", "", "the response's own clock is suspected"),
     diagnosis(
-        "investigate.py",
+        "compressed.py",
         "[p - p.mean() for p in parts if len(p)]",
         "parts",
         "an unlucky zero passes as wrong parameters",
@@ -708,7 +708,9 @@ MUTANTS = [
     diagnosis("turned.py", "LEAST_TESTS = 3", "LEAST_TESTS = 2", "one of two tests is turned"),
     diagnosis("turned.py", "(np.sum(signs < 0) + together) >= len(signs)", "1 >= len(signs)", "most tests are turned"),
     diagnosis("turned.py", "(1, 2) if", "(1,) if", "two that are turned hide each other"),
-    diagnosis("turned.py", "lags, ridge) for ridge", "[], ridge) for ridge", "a missing effect hides a turned probe"),
+    diagnosis(
+        "turned.py", "_foretold(problem, lags)\n", "_foretold(problem, [])\n", "a missing effect hides a turned probe"
+    ),
     Mutant(
         "thermodata/diagnosis/sound.py",
         "(t.campaign, t.test) not in wrong",

@@ -113,6 +113,8 @@ def _answer(
             others=None if refused else OtherAxes(asked_of.spec, response.name, data, library),
             known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *loose, *faults),
             refused=refused,
+            fine=asked_of.fine,
+            means=asked_of.means,
         )
 
     def fits_of(locked: Sequence[TestData]) -> Fits:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from thermodata.diagnosis.candidates.basis import Means
 from thermodata.diagnosis.clocks.by_commands import timings
 from thermodata.diagnosis.clocks.by_heat import Logs, compared, late_in_one, late_logs
 from thermodata.diagnosis.clocks.by_heat import as_artefact as by_heat
@@ -19,7 +20,7 @@ from thermodata.diagnosis.clocks.timings import Timing, as_artefact
 from thermodata.diagnosis.locked.confirm import on_all_open
 from thermodata.diagnosis.question.compressed import compressed
 from thermodata.diagnosis.question.once import as_artefacts, each_once
-from thermodata.diagnosis.question.problem import TARGET_ROWS
+from thermodata.diagnosis.question.problem import TARGET_ROWS, Problem
 from thermodata.diagnosis.sensors.turned import turned_probes
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
@@ -32,7 +33,8 @@ from thermodata.view.dataset import Dataset, TestData
 @dataclass(frozen=True, slots=True)
 class Sound:
     """spec, fitted: the model, calibrated on `tests`. data: clocks that are off moved. tests: open, and sound. faults:
-    as they are told. put_right: what was mended or left out."""
+    as they are told. put_right: what was mended or left out. fine: the response in as many samples as there are, where
+    it was asked so already. means: what candidates do in the tests (`basis.sharing`)."""
 
     spec: Model
     fitted: FittedModel
@@ -40,6 +42,8 @@ class Sound:
     tests: tuple[TestData, ...]
     faults: tuple[Artefact, ...] = ()
     put_right: PutRight = field(default_factory=PutRight)
+    fine: Problem | None = None
+    means: Means = field(default_factory=dict, repr=False)
 
 
 def told(put_right: PutRight) -> PutRight | None:
@@ -68,7 +72,7 @@ def sound(
     if ends.is_met(found.put_right.clocks):  # heat tells of one test what the ends of the logs tell of all of them
         found = _clocks_right(_with_ends_right(asked, index, ends, met=found.put_right.clocks), index, ends)
     found = _with_ends_told(found, index, ends)
-    turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library)
+    turned = turned_probes(found.fitted.responses[index], found.data, found.tests, library, found.means)
     if not turned:
         return found
     wrong = {(a.campaign, a.test) for a in turned}
@@ -150,5 +154,5 @@ def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     late = [one for one in late if not word.settles(one)]
     faults += [by_heat(one, tests[0].campaign) for one in late]
     clocks += [move for one in late for move in one.moves()]
-    found = replace(found, faults=(*found.faults, *faults))
+    found = replace(found, faults=(*found.faults, *faults), fine=problem)
     return _moved(found, clocks) if clocks else found

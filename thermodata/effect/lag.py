@@ -57,10 +57,10 @@ def _banded(u: Float1D, a: float, new: float, old: float, start: float) -> Float
 
     x = np.empty(len(u))
     x[0] = start
-    np.multiply(u[1:], new, out=x[1:])
-    x[1:] += old * u[:-1]
+    later = np.multiply(u[:-1], old, out=x[1:])
+    later += new * u[1:]
     band = np.empty((2, len(u)), order="F")
-    band[0], band[1] = 1.0, -a
+    band[1] = -a  # of the diagonal, which is 1, nothing is read
     return np.asarray(dtbsv(1, band, x, lower=1, diag=1, overwrite_x=1), dtype=np.float64)
 
 

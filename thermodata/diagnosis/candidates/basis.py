@@ -1,12 +1,14 @@
 """What candidates would do, as columns: compressed, a test each, at every point of a grid, and kept between rankings.
 
-The same candidates are ranked again beside a first effect; their columns do not change with what the model can do.
+The same candidates are ranked again beside a first effect; their columns do not change with what the model can do. Nor
+do they, until what is free goes, with the axis that a probe looks along: all axes share them, where they share samples.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +18,9 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.plugin import Float2D, Param
 
 KEPT_BYTES = 256 * 2**20  # of columns; what is beyond is made anew
+
+# who acts in which test, at which points and in which samples -> (columns, shape (m, k), and whose they are)
+Means = dict[tuple[Any, ...], tuple[Any, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +38,11 @@ class Basis:
     @property
     def nbytes(self) -> int:
         return sum(a.nbytes for a in (*self.own, *self.others))
+
+
+def sharing(problem: Problem, means: Means) -> Problem:
+    """The same, beside other questions to the same tests: what candidates do in these is kept for all of them."""
+    return replace(problem, kept={**problem.kept, "means": means})
 
 
 def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
@@ -53,21 +63,38 @@ def _made(problem: Problem, candidate: CandidateEffect) -> Basis:
     held = {p.name: p.start for p in candidate.effect.params}
     points = [{**held, **p} for p in points]
     asked = [q for p in points for q in (p, *candidate.slack_params(p))]
-    full: dict[int, Float2D] = {}
-    compressed = []
-    for block in problem.blocks:
-        # parts of one test share its columns
-        whole = full.get(id(block.test))
-        if whole is None:
-            columns_at = candidate.in_test(block.test)
-            whole = full[id(block.test)] = np.concatenate([columns_at(q) for q in asked], axis=1)
-        columns = block.compress(whole)
-        compressed.append(columns.reshape(len(columns), len(points), -1, len(candidate.effect.gains)))
+    gains = len(candidate.effect.gains)
+    compressed = [
+        block.freed(mean).reshape(block.size, len(points), -1, gains)
+        for block, mean in zip(problem.blocks, _means(problem, candidate, asked), strict=True)
+    ]
     place = _first_alike(compressed)
     kept = sorted(set(place))
     own = [np.ascontiguousarray(each[:, kept, 0]) for each in compressed]
     others = [each[:, kept, 1:] - each[:, kept, :1] for each in compressed]
     return Basis([points[i] for i in kept], own, others)
+
+
+def _means(problem: Problem, candidate: CandidateEffect, asked: Sequence[Mapping[str, float]]) -> Iterator[Float2D]:
+    """What it does at each of the points asked, a block each, shape (m, columns); from what the problem keeps for other
+    responses (`sharing`), or made."""
+    kept, made = problem.kept.get("means", {}), dict[int, Float2D]()
+    who = candidate.effect if candidate.within is None else candidate
+    where = tuple(candidate.binding.items()), tuple(tuple(q.values()) for q in asked)
+    for block in problem.blocks:
+        test = block.test
+        key = id(who), id(test), where, block.group.tobytes()
+        if key in kept:
+            yield kept[key][0]
+            continue
+        # parts of one test share its columns
+        if id(test) not in made:
+            columns_at = candidate.in_test(test)
+            made[id(test)] = np.concatenate([columns_at(q) for q in asked], axis=1)
+        mean = block.mean(made[id(test)])
+        if mean.nbytes * len(kept) <= KEPT_BYTES:
+            kept[key] = mean, who, test  # an id is one's own as long as one lives
+        yield mean
 
 
 def _acting(problem: Problem, candidate: CandidateEffect) -> list[Param]:

@@ -28,7 +28,15 @@ RIDGE = 0.1  # of a column's squares: what hardly changes in the other tests mus
 
 
 def timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
-    """Of each source beside the response's own that logged commands."""
+    """Of each source beside the response's own that logged commands; kept with the problem."""
+    kept = problem.kept.setdefault("timings", {})
+    if "found" not in kept:
+        kept["found"] = _timings(problem, channels)
+    found: Timings = kept["found"]
+    return found
+
+
+def _timings(problem: Problem, channels: Mapping[str, ChannelInfo]) -> Timings:
     home = channels[problem.response].source
     sources = sorted({c.source for c in channels.values() if c.source and c.source != home})
     in_all: list[Timing] = []

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from thermodata.diagnosis.question.known_effects import otherwise, remembered
 from thermodata.diagnosis.question.problem import Base, Problem, build_problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -29,3 +31,10 @@ def compressed(
         slack=lambda test: otherwise(fitted, test),
         rows=rows,
     )
+
+
+def error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
+    """RMS residual over what counts, a free offset for each test."""
+    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
+    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
+    return float(np.sqrt(np.mean(whole**2)))

@@ -18,6 +18,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg.blas import dgemm
 from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
 
@@ -35,6 +36,7 @@ START_TAU_S = 7200.0
 
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
+WIDE = 400  # columns from which on it costs less to take samples one by one
 SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
 
@@ -66,9 +68,24 @@ class Chain:
         """L^-1 times columns, shape (m, k)."""
         if not columns.size:
             return columns
+        if columns.shape[1] >= WIDE:
+            return self._sample_by_sample(columns)
         steps = np.array(columns, dtype=np.float64, order="F")
         steps[1:] -= self.carried[:, None] * columns[:-1]
         return _sound(*dtbtrs(self.factor, steps, uplo="L", overwrite_b=1))
+
+    def _sample_by_sample(self, columns: Float2D) -> Float2D:
+        """The same for many columns, each sample of all at once: LAPACK takes one column after the other, in which each
+        sample waits for the one before."""
+        own = 1.0 / self.factor[0]
+        of_last, of_found = -self.carried * own[1:], -self.factor[1, :-1] * own[1:]
+        found, part = np.empty(columns.shape), np.empty(columns.shape[1])
+        np.multiply(columns[0], own[0], out=found[0])
+        for i, (a, b, c) in enumerate(zip(own[1:].tolist(), of_last.tolist(), of_found.tolist(), strict=True), 1):
+            row = np.multiply(columns[i], a, out=found[i])
+            row += np.multiply(columns[i - 1], b, out=part)
+            row += np.multiply(found[i - 1], c, out=part)
+        return found
 
 
 def chain_of(t_s: Float1D, noise: Noise) -> Chain:
@@ -91,12 +108,13 @@ def _sound(solution: Float2D, info: int) -> Float2D:
 
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
-    covariance, offsets included. kept: what was whitened already and is asked again beside other effects, by who asks,
-    `KEPT_BYTES` at most."""
+    covariance, offsets included. kept: what was whitened already and is asked again beside other effects, by who asks
+    and test, `KEPT_BYTES` at most. products: of these with each other, by who asks them."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
-        self.kept: dict[int, tuple[object, tuple[Float2D, ...]]] = {}
+        self.kept: dict[tuple[int, int], tuple[object, Float2D]] = {}
+        self.products: dict[int, tuple[object, NDArray[np.float64]]] = {}
         self._room = KEPT_BYTES
         self._chains: list[Chain] = []
         self._offsets: list[Float2D] = []
@@ -116,18 +134,25 @@ class Whitened:
         if not white.size:
             return white
         # in its place: it is a copy already
-        return np.asarray(dgemm(-1.0, free, free.T @ white, 1.0, white, overwrite_c=1), dtype=np.float64)
+        share = free.T @ white
+        if white.flags.f_contiguous:
+            return np.asarray(dgemm(-1.0, free, share, 1.0, white, overwrite_c=1), dtype=np.float64)
+        return np.asarray(dgemm(-1.0, share, free, 1.0, white.T, 1, 1, 1).T, dtype=np.float64)
 
-    def all_of(self, who: object, columns: Sequence[Float2D]) -> tuple[Float2D, ...]:
-        """The columns of one asker, shape (m, k) a test, in units of the noise. who: lives as long as this."""
-        found = self.kept.get(id(who))
-        if found is not None and found[0] is who:
-            return found[1]
-        white = tuple(self.of(i, c) if c.any() else np.zeros_like(c) for i, c in enumerate(columns))
-        self._room -= sum(w.nbytes for w in white)
-        if self._room >= 0:
-            self.kept[id(who)] = who, white
-        return white
+    def of_each(self, test: int, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
+        """The same of each of several askers, whitened at once. An asker lives as long as this."""
+        lacking = [(who, columns) for who, columns in asked if (id(who), test) not in self.kept]
+        made: dict[int, Float2D] = {}
+        if lacking:
+            ends = np.cumsum([columns.shape[1] for _, columns in lacking])[:-1]
+            together = self.of(test, np.hstack([columns for _, columns in lacking]))
+            made = {id(who): white for (who, _), white in zip(lacking, np.hsplit(together, ends), strict=True)}
+        for who, _ in lacking:
+            white = made[id(who)]
+            if white.nbytes <= self._room:
+                self._room -= white.nbytes
+                self.kept[id(who), test] = who, white
+        return [made[id(who)] if id(who) in made else self.kept[id(who), test][1] for who, _ in asked]
 
     def projected(self, test: int, white: Float2D) -> Float2D:
         """Columns in units of the noise, shape (m, k), without what an offset explains."""

@@ -43,12 +43,19 @@ class Block:
     slack: Float2D
     segment: Int1D
     group: Int1D
-    weight: Float1D
     size: int
 
     def compress(self, columns: Float2D) -> Float2D:
         """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k), without what is free."""
-        return freed(_group_mean(columns, self.group, self.weight, self.size), self.test, self.t_s, self.segment)
+        return self.freed(self.mean(columns))
+
+    def mean(self, columns: Float2D) -> Float2D:
+        """Columns on the full grid, shape (n, k), to this block's samples, shape (m, k)."""
+        return _group_mean(columns, self.group, self.size)
+
+    def freed(self, columns: Float2D) -> Float2D:
+        """Columns, shape (m, k), without what is free."""
+        return freed(columns, self.test, self.t_s, self.segment)
 
     def without(self, rows: Bool1D) -> Block:
         """The same as if some of its samples, shape (m,), had not been measured."""
@@ -150,14 +157,14 @@ def center(columns: Float2D, segment: Int1D) -> Float2D:
     return result
 
 
-def _group_mean(columns: Float2D, group: Int1D, weight: Float1D, size: int) -> Float2D:
+def _group_mean(columns: Float2D, group: Int1D, size: int) -> Float2D:
     """Groups follow each other in time, and none is empty."""
-    used = group >= 0
-    groups, weights = group[used], weight[used][:, None]
-    starts = np.searchsorted(groups, np.arange(size))
     if not size:
         return np.empty((0, columns.shape[1]))
-    result: Float2D = np.add.reduceat(columns[used] * weights, starts) / np.add.reduceat(weights, starts)
+    used = group >= 0
+    starts = np.searchsorted(group[used], np.arange(size))
+    many = np.diff(starts, append=np.count_nonzero(used))
+    result: Float2D = np.add.reduceat(columns[used], starts) / many[:, None]
     return result
 
 
@@ -195,8 +202,8 @@ def build_problem(
             group[keep] = group_of_kept
             empty, none = np.empty(0), np.empty((0, 0))
             segment = np.zeros(len(names), dtype=np.int64)
-            block = Block(test, empty, empty, empty, none, none, segment, group, keep.astype(float), len(names))
-            t_s = _group_mean(test.t_s[:, None], group, block.weight, block.size)[:, 0]
+            block = Block(test, empty, empty, empty, none, none, segment, group, len(names))
+            t_s = _group_mean(test.t_s[:, None], group, block.size)[:, 0]
             block = replace(block, t_s=t_s)
             y = block.compress(both)
             blocks.append(

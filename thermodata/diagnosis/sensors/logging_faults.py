@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.diagnosis import Artefact
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters
@@ -29,6 +29,12 @@ GAIN_DROP = (
 LEAST_FIT = 60.0
 LEAST_TESTS = 4  # of fewer nobody can say which one is wrong
 NOISES = 5.0  # a test with a smaller error than this many times the noise has no wrong gain
+
+
+def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], response: str) -> dict[str, str]:
+    """Driver -> source, of the drivers that were logged by another source than the response."""
+    home = channels[response].source
+    return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
 
 
 def clock_offsets(

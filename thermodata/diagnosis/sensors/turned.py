@@ -12,14 +12,14 @@ from itertools import combinations
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.basis import basis
+from thermodata.diagnosis.candidates.basis import Means, basis, sharing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
 from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.question.present import GENERIC, present
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.plugin import Effect, Float1D, Float2D, Int1D
+from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Int1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 
@@ -35,11 +35,11 @@ RIDGES, OWN_RIDGE = (1e-3, 1e-2, 1e-1, 1.0), 1e-6
 
 
 def turned_probes(
-    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect]
+    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], means: Means
 ) -> list[Artefact]:
     """Of the tests that a model is fitted to. The plainest first, and fewer than half: a sign is turned against those
     of most tests."""
-    problem = compressed(fitted, data, tests, WEIGHED_ROWS)
+    problem = sharing(compressed(fitted, data, tests, WEIGHED_ROWS), means)
     asked = candidates(library, data.channels, present(fitted), fitted.name)
     return turned(problem, [c for c in asked if c.family == GENERIC])
 
@@ -49,7 +49,7 @@ def turned(problem: Problem, lags: Sequence[CandidateEffect]) -> list[Artefact]:
     blocks = problem.blocks
     if len({b.test.key for b in blocks}) < LEAST_TESTS or not any(b.response.any() for b in blocks):
         return []
-    said = [_foretold(problem, lags, ridge) for ridge in RIDGES]
+    said = _foretold(problem, lags)
     signs, left = np.ones(len(blocks)), said[0].energy
     now = _least(said, signs)
     size = np.sqrt(left / np.array([len(b.response) for b in blocks]))
@@ -99,22 +99,31 @@ class _Foretold:
         return np.asarray(np.maximum(self.energy - 2 * signs * (self.along @ signs) + said, 0.0))
 
 
-def _foretold(problem: Problem, lags: Sequence[CandidateEffect], ridge: float) -> _Foretold:
-    columns, held = _columns(problem, lags, ridge)
+def _foretold(problem: Problem, lags: Sequence[CandidateEffect]) -> list[_Foretold]:
+    """By each of the ridges."""
+    columns, is_lag = _columns(problem, lags)
     gram = np.stack([c.T @ c for c in columns])
     cross = np.stack([c.T @ b.response for c, b in zip(columns, problem.blocks, strict=True)])
-    whole, tests = gram.sum(axis=0), len(columns)
-    along, power = np.zeros((tests, tests)), np.zeros((tests, tests, tests))
-    for i in range(tests):
-        others = cross.T.copy()
-        others[:, i] = 0.0
-        gains = np.linalg.solve(whole - gram[i] + np.diag(held), others)
-        along[i], power[i] = cross[i] @ gains, gains.T @ gram[i] @ gains
-    return _Foretold(np.array([float(b.response @ b.response) for b in problem.blocks]), along, power)
+    energy, whole, tests = (
+        np.array([float(b.response @ b.response) for b in problem.blocks]),
+        gram.sum(axis=0),
+        len(gram),
+    )
+    said = []
+    for ridge in RIDGES:
+        held = np.diag(np.where(is_lag, ridge, OWN_RIDGE))
+        along, power = np.zeros((tests, tests)), np.zeros((tests, tests, tests))
+        for i in range(tests):
+            others = cross.T.copy()
+            others[:, i] = 0.0
+            gains = np.linalg.solve(whole - gram[i] + held, others)
+            along[i], power[i] = cross[i] @ gains, gains.T @ gram[i] @ gains
+        said.append(_Foretold(energy, along, power))
+    return said
 
 
-def _columns(problem: Problem, lags: Sequence[CandidateEffect], ridge: float) -> tuple[list[Float2D], Float1D]:
-    """Of each test, shape (m, k), all of one size; what is held against each, shape (k,)."""
+def _columns(problem: Problem, lags: Sequence[CandidateEffect]) -> tuple[list[Float2D], Bool1D]:
+    """Of each test, shape (m, k), all of one size; which are of lags, shape (k,)."""
     drawn = [basis(problem, c).own for c in lags]
     own = problem.blocks[0].base.shape[1]
     whole = [
@@ -123,8 +132,7 @@ def _columns(problem: Problem, lags: Sequence[CandidateEffect], ridge: float) ->
     ]
     size = np.sqrt(sum(np.sum(w**2, axis=0) for w in whole))
     acts = size > 0
-    held = np.where(np.arange(len(size)) < own, OWN_RIDGE, ridge)
-    return [w[:, acts] / size[acts] for w in whole], held[acts]
+    return [w[:, acts] / size[acts] for w in whole], (np.arange(len(size)) >= own)[acts]
 
 
 def _least(said: Sequence[_Foretold], signs: Float1D) -> Float1D:

@@ -15,7 +15,7 @@ import numpy as np
 
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.question.problem import Block, Problem
-from thermodata.diagnosis.steps.commanded import POSITION, Commands
+from thermodata.diagnosis.steps.commanded import POSITION, commands_of
 from thermodata.diagnosis.steps.sudden import (
     beyond_slopes,
     comes_back,
@@ -90,13 +90,13 @@ def find_steps(problem: Problem) -> list[Step]:
 def places_that_tell(problem: Problem) -> list[str]:
     """The positions of axes that make steps in the residual where they go from one place to another."""
     found = {n for b in problem.blocks for n, c in b.test.channels.items() if c.quantity == POSITION}
-    commands, least = Commands(problem), least_step(problem.noise, tread_of_response(problem))
+    commands, least = commands_of(problem), least_step(problem.noise, tread_of_response(problem))
     return sorted(n for n in found if commands.make(n) >= least)
 
 
 def _steps(problem: Problem, tread: float, *, through: bool = True) -> list[Step]:
     """through: whether it was measured all the time, so that what nothing else is as sudden as stands out."""
-    commands, steps = Commands(problem), []
+    commands, steps = commands_of(problem), []
     for k, block in enumerate(problem.blocks):
         own = Asked(partial(commands.explain, k), partial(commands.change_at, k))
         steps += _steps_in(block, problem, tread, own, through)

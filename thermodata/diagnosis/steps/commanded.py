@@ -74,6 +74,7 @@ class Commands:
         self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
         found = {n: c for b in problem.blocks for n, c in b.test.channels.items()}
         self._commands: list[_Command] = []
+        self._changes: dict[tuple[int, int, int, int], tuple[Float1D, Float1D, Int1D, Int1D]] = {}
         for name, quantity in sorted((n, c.quantity) for n, c in found.items()):
             if quantity in JUMPING:
                 told = quantity in COMMANDS
@@ -139,18 +140,40 @@ class Commands:
         self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
     ) -> tuple[Float1D, Float1D]:
         """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
-        x, y = [np.empty(0)], [np.empty(0)]
-        for k, course in enumerate(command):
-            if course is None:
-                continue
-            rows = course.rows[way]
-            rows = rows[(rows + lag >= 0) & (rows + lag < len(jumps[k]))]
-            if k == block:
-                rows = rows[np.abs(rows + lag - i) > int(ELSEWHERE_S / self._step_s)]
-            there = jumps[k][rows + lag]
-            x.append(course.change[way][rows][np.isfinite(there)])
-            y.append(there[np.isfinite(there)])
-        return np.concatenate(x), np.concatenate(y)
+        key = id(command), id(jumps), lag, way
+        if key not in self._changes:
+            self._changes[key] = _everywhere(command, jumps, lag, way)
+        x, y, where, at = self._changes[key]
+        near = (where == block) & (np.abs(at - i) <= int(ELSEWHERE_S / self._step_s))
+        return x[~near], y[~near]
+
+
+def commands_of(problem: Problem) -> Commands:
+    """Kept with the problem."""
+    kept = problem.kept.setdefault("commands", {})
+    if "found" not in kept:
+        kept["found"] = Commands(problem)
+    found: Commands = kept["found"]
+    return found
+
+
+def _everywhere(
+    command: Sequence[_Course | None], jumps: Sequence[Float1D], lag: int, way: int
+) -> tuple[Float1D, Float1D, Int1D, Int1D]:
+    """All changes of a command, the jumps so many samples after each, and in which block and before which of its
+    samples these are: shape (k,) each."""
+    x, y, where, at = [np.empty(0)], [np.empty(0)], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+    for k, course in enumerate(command):
+        if course is None:
+            continue
+        after = course.rows[way] + lag
+        after = after[(after >= 0) & (after < len(jumps[k]))]
+        after = after[np.isfinite(jumps[k][after])]
+        x.append(course.change[way][after - lag])
+        y.append(jumps[k][after])
+        where.append(np.full(len(after), k))
+        at.append(after)
+    return np.concatenate(x), np.concatenate(y), np.concatenate(where), np.concatenate(at)
 
 
 def tells(jump: float, change: float, x: Float1D, y: Float1D, *, at_once: bool) -> bool:

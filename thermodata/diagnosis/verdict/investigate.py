@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis.candidates.basis import Means, sharing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
 from thermodata.diagnosis.claims.at_rest import AtRest, at_rest
 from thermodata.diagnosis.claims.detection import Limit, limits
@@ -18,7 +19,7 @@ from thermodata.diagnosis.claims.probability import at_best, limit_of, may_be_bo
 from thermodata.diagnosis.claims.refinement import Refinement
 from thermodata.diagnosis.claims.rules import failed_rules
 from thermodata.diagnosis.clocks.by_commands import timings
-from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed
+from thermodata.diagnosis.question.compressed import WEIGHED_ROWS, compressed, error_of
 from thermodata.diagnosis.question.known import Known, known, rms
 from thermodata.diagnosis.question.known_effects import owners, remembered
 from thermodata.diagnosis.question.present import present
@@ -26,6 +27,7 @@ from thermodata.diagnosis.question.problem import TARGET_ROWS, Base, Problem
 from thermodata.diagnosis.question.weak import weak_spots
 from thermodata.diagnosis.sensors.logging_faults import (
     clock_offsets,
+    clocks_beside,
     faulty_sensors,
     first_of_each,
     wrong_gains,
@@ -47,7 +49,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
 from thermodata.schema.diagnosis import Artefact, WeakSpot
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.dataset import Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]
@@ -88,17 +90,22 @@ def investigate(
     others: OtherAxes | None = None,
     known_faults: Sequence[Artefact] = (),
     refused: frozenset[str] = frozenset(),
+    fine: Problem | None = None,
+    means: Means | None = None,
 ) -> Investigation:
     """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
     about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
-    that were mended before, or left out. refused: channels; what reads these alone is not asked."""
+    that were mended before, or left out. refused: channels; what reads these alone is not asked. fine, means: what was
+    made for other questions to the same response and tests (`Sound`)."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
-    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
+    fine = compressed(fitted, data, tests, TARGET_ROWS, base) if fine is None else fine
+    means = {} if means is None else means
     found = find_steps(fine)
     steps = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
-    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
+    whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
+    problem = sharing(_without_steps(whole, steps, fine.step_s), means)
     asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -108,7 +115,7 @@ def investigate(
     asked = [c for c in asked if not (refused and refused.issuperset(c.channels))]
 
     def causes(response: FittedResponse, among: Sequence[TestData]) -> list[Scored]:
-        return causes_of(response, data, among, library, seed)
+        return causes_of(response, data, among, library, seed, means)
 
     witness = None if others is None else partial(others.say, causes=causes)
 
@@ -129,7 +136,7 @@ def investigate(
     at_floor = selection is not None and selection.left <= measure.floor
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
     if selection is not None:
-        faults += wrong_parameters(problem, _error_of(asked_about, tests), selection.left, measure.floor)
+        faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
     artefacts = [
         *first_of_each(
             [
@@ -159,13 +166,19 @@ def investigate(
 
 
 def causes_of(
-    fitted: FittedResponse, data: Dataset, tests: Sequence[TestData], library: Mapping[str, Effect], seed: int = 0
+    fitted: FittedResponse,
+    data: Dataset,
+    tests: Sequence[TestData],
+    library: Mapping[str, Effect],
+    seed: int,
+    means: Means,
 ) -> list[Scored]:
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base)
     steps = repeating.single(find_steps(fine))
-    problem = _without_steps(compressed(fitted, data, tests, WEIGHED_ROWS, base), steps, fine.step_s)
+    whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
+    problem = sharing(_without_steps(whole, steps, fine.step_s), means)
     asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
@@ -265,25 +278,12 @@ def _with_unforetold(
     return replace(selection, first=replace(selection.first, ranked=(*selection.first.ranked, *more.ranked)))
 
 
-def _error_of(fitted: FittedResponse, tests: Sequence[TestData]) -> float:
-    """RMS residual over what counts, a free offset for each test."""
-    parts = [fitted.residual(t)[fitted.mask(t)] for t in tests]
-    whole = np.concatenate([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
-    return float(np.sqrt(np.mean(whole**2)))
-
-
 def gains_are_wrong_only_where_nothing_is_missing(
     faults: list[Artefact], judgement: Judgement, at_floor: bool
 ) -> list[Artefact]:
     """A missing effect also makes one test larger or smaller than the others say, and so does what lags leave.
     at_floor: whether the model leaves no more than is left alone."""
     return faults if judgement.verdict == "none" and at_floor else [f for f in faults if f.kind != "gain"]
-
-
-def clocks_beside(channels: Mapping[str, ChannelInfo], drivers: Iterable[str], response: str) -> dict[str, str]:
-    """Driver -> source, of the drivers that were logged by another source than the response."""
-    home = channels[response].source
-    return {n: s for n in drivers if n in channels and (s := channels[n].source) and s != home}
 
 
 def _faults(fitted: FittedResponse, data: Dataset, problem: Problem, base: Base) -> list[Artefact]:

@@ -13,7 +13,7 @@ and points and sizes are averaged by their prior. A candidate with more to choos
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,6 +32,7 @@ SIZES = np.array([0.03, 0.1, 0.3, 1.0, 3.0])
 SPREAD = 0.5
 # a gain beyond what the effect can plausibly do is not cut off: ten times costs 1.3 in log evidence
 BEYOND = 0.25
+AT_ONCE = 1600  # columns of candidates that are whitened at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,21 +126,37 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 
 
 def moments(known: Known, columns: Columns) -> Moments:
-    own, with_known, with_response = [], [], []
-    points, c = columns.blocks[0].shape[1:]
-    whites = _whites(known, columns)
-    for white, both in zip(whites, known.both, strict=True):
-        by_point = white.reshape(-1, points, c).transpose(1, 0, 2)
-        own.append(by_point.transpose(0, 2, 1) @ by_point)
-        cross = (white.T @ both).reshape(points, c, -1)
-        with_known.append(cross[..., :-1])
-        with_response.append(cross[..., -1])
-    return Moments(np.stack(own), np.stack(with_known), np.stack(with_response))
+    return next(each_moments(known, [columns]))
 
 
-def _whites(known: Known, columns: Columns) -> tuple[Float2D, ...]:
-    """A test each, shape (m, points * c)."""
-    return known.space.all_of(columns, [b.reshape(len(b), -1) for b in columns.blocks])
+def each_moments(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
+    """Of each of some candidates, at the cost of few."""
+    sizes = np.cumsum([one.blocks[0][0].size for one in some])
+    for few in np.split(np.arange(len(some)), np.flatnonzero(np.diff(sizes // AT_ONCE)) + 1):
+        yield from _moments_of(known, [some[i] for i in few.tolist()])
+
+
+def _moments_of(known: Known, few: Sequence[Columns]) -> Iterator[Moments]:
+    kept = known.space.products
+    own: list[list[FloatND]] = [[] for _ in few]
+    cross: list[list[FloatND]] = [[] for _ in few]
+    # test by test: what was just whitened is near the processor
+    for i, both in enumerate(known.both):
+        for n, white in enumerate(_whites(known, few, i)):
+            cross[n].append(white.T @ both)
+            if id(few[n]) not in kept:  # the same, whatever is known
+                by_point = white.reshape(-1, *few[n].blocks[i].shape[1:]).transpose(1, 0, 2)
+                own[n].append(by_point.transpose(0, 2, 1) @ by_point)
+    for n, one in enumerate(few):
+        if own[n]:
+            kept[id(one)] = one, np.stack(own[n])
+        with_both = np.stack(cross[n]).reshape(len(one.blocks), *one.blocks[0].shape[1:], -1)
+        yield Moments(kept[id(one)][1], with_both[..., :-1], with_both[..., -1])
+
+
+def _whites(known: Known, few: Sequence[Columns], test: int) -> list[Float2D]:
+    """Of each in a test, shape (m, points * c)."""
+    return known.space.of_each(test, [(one, one.blocks[test].reshape(len(one.blocks[test]), -1)) for one in few])
 
 
 def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
@@ -201,10 +218,9 @@ def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) ->
     cross = np.zeros((len(known.precision), count))
     right: FloatND = np.zeros((*columns.blocks[0].shape[1:], count))
     products = moments(known, columns)
-    for i, (white, values) in enumerate(zip(_whites(known, columns), series, strict=True)):
+    for i, values in enumerate(series):
         cross += known.white[i].T @ values
-        if columns.blocks[i].any():
-            right += (white.T @ values).reshape(right.shape)
+        right += (_whites(known, [columns], i)[0].T @ values).reshape(right.shape)
     left, _ = beyond_known(known, products, tests)
     right -= products.known.sum(axis=0) @ solved(factor, cross)
     deviation = SIZES[:, None] * columns.width

@@ -15,6 +15,7 @@ from thermodata.diagnosis.weigh.evidence import (
     Moments,
     Weighed,
     each_left_out,
+    each_moments,
     moments,
     others_of_each,
     weigh,
@@ -38,10 +39,10 @@ class Ranked:
 def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, *, left_out: bool = True) -> Ranked:
     """The same in a given noise."""
     base = known(problem, noise)
-    weighed = []
-    for one in pool:
-        products = moments(base, one)
-        weighed.append((weigh(base, one, products, base.every), products, one))
+    weighed = [
+        (weigh(base, one, products, base.every), products, one)
+        for one, products in zip(pool, each_moments(base, pool), strict=True)
+    ]
     weighed.sort(key=lambda item: -item[0].total)
     ranked = [
         score(problem, base, one, products, w) if left_out else _seen(base, one, w)
