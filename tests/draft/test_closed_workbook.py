@@ -26,10 +26,10 @@ def test_the_draft_says_what_to_install(tmp_path: Path, monkeypatch: pytest.Monk
     assert note in plan("shop", tmp_path, found).notes
 
 
-def test_a_stray_cell_far_off_takes_no_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A sheet of its last row and column is 550 GB once somebody lays it out: the process would be gone."""
+def test_what_is_absurd_once_it_is_laid_out_is_not_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stray cell in the last row and column is 550 GB once somebody lays it out: the process would be gone."""
     LABS["workbooks"](tmp_path)
     table = tmp_path / "test_plan.xlsx"
     assert list(grids_of(table, 1000))
-    monkeypatch.setattr(workbook_check, "MAX_CELLS", 2)
+    monkeypatch.setattr(workbook_check, "MAX_ROWS", 2)
     assert not list(grids_of(table, 1000))
