@@ -7,6 +7,7 @@ from typing import Any
 from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis, Unknown
+from thermodata.schema.result import Parameter
 
 
 def candidate(rank: int, effect: str, **more: Any) -> Candidate:
@@ -97,3 +98,10 @@ def test_states_have_commas_within_and_are_parted_otherwise() -> None:
     said = text("unknown", unknown=hints)
     assert "  states: at rest, A rising; n 800 rpm, A falling" in said
     assert "  memory (its autocorrelation falls to 1/e) [h]: 1.40" in said
+
+
+def test_a_claim_has_its_parameters_and_the_command_that_takes_it_in() -> None:
+    tau = Parameter(value=49.7, unit="min", low=None, high=None)
+    said = text("effect", candidate(1, "screw", claimed=True, parameters={"tau": tau}), candidate(2, "rest"))
+    assert "screw:T: tau 49.7 min\nto have it: thermodata add m 1" in said
+    assert "add m 2" not in said

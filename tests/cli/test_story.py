@@ -206,6 +206,10 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
     told = ask("compare", base["model"], better["model"], "--contributions", "heat1").out
     assert "not in it" in told
     assert "what each effect gives to dZ in heat1" in told
+    by_prefix = [m["model"][:8] for m in (base, better)]
+    assert ask("compare", *by_prefix, "--contributions", "heat1").out == told
+    # a name is the newest version of it
+    assert data("compare", base["model"], "baseline", "--contributions", "heat1") == shares
     for words in (
         ["compare", base["model"]],
         ["compare", base["model"], better["model"]],

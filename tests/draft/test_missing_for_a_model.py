@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.draft.make import id_of
+from thermodata.draft.make import first_model, id_of
 
 from .conftest import Said
 
@@ -72,3 +72,18 @@ def test_init_says_nothing_of_a_model_that_it_wrote(tmp_path: Path, say: Say) ->
 )
 def test_a_campaign_is_called_by_a_folder_that_says_more_than_raw(tmp_path: Path, path: str, name: str) -> None:
     assert id_of(tmp_path / path) == name
+
+
+def test_sensors_that_drive_nothing_are_counted_where_not_all_are_named(tmp_path: Path) -> None:
+    places = "".join(f"  T_{i}: {{source: log, signal: T_{i}, quantity: temperature, unit: degC}}\n" for i in range(16))
+    path = tmp_path / "campaign.yaml"
+    path.write_text(
+        "schema: thermodata/campaign/1\nid: lab\nmachine: {id: m}\n"
+        'sources: {log: {reader: table, files: "raw/{test}.csv"}}\nchannels:\n'
+        "  dZ: {source: log, signal: dZ, quantity: displacement, unit: um, axis: Z, at: tcp}\n"
+        "  T_b: {source: log, signal: T_b, quantity: temperature, unit: degC, at: spindle.bearing.front}\n"
+        f"{places}tests:\n  - {{id: a, kind: mixed, role: calibration}}\n",
+        encoding="utf-8",
+    )
+    first_model(path)
+    assert "T_11 and 4 more\n" in (tmp_path / "model.yaml").read_text(encoding="utf-8")

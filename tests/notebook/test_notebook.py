@@ -210,3 +210,11 @@ def test_a_model_object_and_a_file_fit_alike(made: Path, tmp_path: Path) -> None
     assert a.id == b.id
     version = store.add("feed_screw:T_nut_Z", a.id, plain=True)
     assert version.remove("feed_screw").parameters.keys() == a.parameters.keys()
+
+
+def test_a_response_in_place_of_a_model_is_told_where_it_goes(store: OpenStore) -> None:
+    with pytest.raises(UsageError, match="is a response") as told:
+        store.diagnose("dZ")
+    assert told.value.hint == "diagnose(response='dZ')"
+    with pytest.raises(UsageError, match="no model"):
+        store.diagnose("nobody")

@@ -36,11 +36,13 @@ def answer_against(
 
 
 def answer_contributions(session: Session, store: Store, models: Sequence[str], test: str) -> None:
-    """Print what each effect gives in a test. models: as the store knows them."""
+    """Print what each effect gives in a test. models: ids, prefixes or names."""
     from thermodata.report.fit_text import contributions_text
+    from thermodata.store.catalogue.models import find_model
     from thermodata.view.contributions import contributions, open_test
     from thermodata.view.models import model_rows
 
+    models = list(dict.fromkeys(find_model(store, ref).model for ref in models))
     found = contributions(store, models, *open_test(store, models[0], test))
     names = {row.model: row.label for row in model_rows(store)}
     for model in models:

@@ -113,7 +113,7 @@ def compare_command(
         from thermodata.cli.besides import answer_contributions
 
         store = session.store()
-        answer_contributions(session, store, list(dict.fromkeys(named(store))), test_shown)
+        answer_contributions(session, store, named(store), test_shown)
         return
     if against is not None:
         from thermodata.cli.besides import answer_against

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, get_args
 
 import click
 
@@ -53,6 +53,11 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 @click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
 def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
+    from thermodata.schema.campaign import Role, TestKind
+
+    for what, word, known in (("role", role, get_args(Role)), ("kind", kind, get_args(TestKind))):
+        if word and word not in known:
+            raise unknown_name(what, word, known, where=f"--{what}")
     rows = rows_of(session, "select * from test", campaign, "campaign, test")
     if role or kind or find:
         asked = Asked(find or "", campaign or "", role or "", kind or "", per_page=max(1, len(rows)))

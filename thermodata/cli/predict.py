@@ -14,6 +14,7 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.fitting import resolve
 from thermodata.errors import UsageError
+from thermodata.report.glossary import PREDICTED_LEVEL
 from thermodata.report.table import table
 from thermodata.report.words import duration
 
@@ -129,8 +130,9 @@ def _text(rows: list[dict[str, Any]], made: list[Predicted], out: Path | None) -
         ("end", f"at the end{unit}"),
         ("known", "drivers known"),
     ]
-    columns += [("rmse", f"RMSE, where measured{unit}")] if any(r["rmse"] is not None for r in rows) else []
-    text = table(shown, columns)
+    scored = any(r["rmse"] is not None for r in rows)
+    columns += [("rmse", f"RMSE, where measured{unit}")] if scored else []
+    text = table(shown, columns) + (f"\n\n{PREDICTED_LEVEL}" if scored else "")
     return text if out is None else f"{text}\n\n{out}"
 
 

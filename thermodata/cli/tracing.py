@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from thermodata.report.table import cell, fields, table
@@ -48,7 +49,7 @@ def trace_text(found: Found) -> str:
     else:
         parts.append(fields([("channels", ", ".join(found["channels"]))]))
     if found.get("sample"):
-        parts.append(_sample(found["sample"], found["unit"]))
+        parts.append(_sample(found))
     parts.append(_files(found["files"]))
     for operand in found.get("operands", []):
         parts.append("from " + _channel(operand) + "\n\n" + _files(operand["files"]))
@@ -78,12 +79,32 @@ def _channel(found: Found) -> str:
     for step in found["calibrations"]:
         about = f"{step['calibration']} ({step['kind']})"
         gain = f", gain {step['gain']} {step['gain_unit'] or ''}".rstrip() if step.get("gain") is not None else ""
+        gain += _offset(step)
         file = "".join(f", from {f['source_path']} {f['sha256'][:12]}" for f in step["files"])
         lines.append(("calibration", about + gain + file))
     return fields([(k, v) for k, v in lines if v is not None])
 
 
-def _sample(sample: Found, unit: str) -> str:
+def _offset(step: Found) -> str:
+    if step.get("gain") is None or not step.get("offset_value"):
+        return ""
+    return f", offset {step['offset_value']} {(step['gain_unit'] or '').partition('/')[0]}".rstrip()
+
+
+def _sum(found: Found) -> list[tuple[str, Any]]:
+    """'gain * raw + offset = value', where one straight line makes the value from what the file says."""
+    sample, steps = found["sample"], [s for s in found["calibrations"] if s.get("gain") is not None]
+    raw, value = (sample["raw"] or {}).get("raw_value"), sample["value"]
+    if len(steps) != 1 or not isinstance(raw, int | float) or not isinstance(value, int | float):
+        return []
+    gain, offset = steps[0]["gain"], steps[0].get("offset_value") or 0.0
+    if not math.isclose(gain * raw + offset, value, rel_tol=1e-5, abs_tol=1e-9):
+        return []  # a unit or a scaling of the file stands between
+    return [("sum", f"{gain!r} * {raw!r} {offset:+.17g} = {value!r} {found['unit']}")]
+
+
+def _sample(found: Found) -> str:
+    sample, unit = found["sample"], found["unit"]
     lines: list[tuple[str, Any]] = [
         ("value", f"{sample['value']!r} {unit}" if isinstance(sample["value"], float) else sample["value"]),
         ("time", f"{sample['t_s']!r} s" + (f" = {sample['t']}" if sample["t"] else "")),
@@ -103,6 +124,7 @@ def _sample(sample: Found, unit: str) -> str:
         lines += [(name, where + f"{raw['raw_value']!r}"), ("  SHA-256", raw["sha256"])]
         if raw.get("again"):
             lines.append(("  read again", _again(raw["again"], raw["raw_value"])))
+    lines += _sum(found)
     return "sample (rows count from 1)\n" + fields(lines)
 
 

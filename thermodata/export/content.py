@@ -71,6 +71,15 @@ def check_test(view: StoreView, campaign: str, test: str) -> None:
         raise unknown_name("campaign", campaign, [str(row[0]) for row in campaigns])
     if test not in known:
         raise unknown_name("test", test, known)
+    logged = view.sql("select distinct test from file where campaign = ? and layer = 'tidy'", [campaign]).fetchall()
+    if (test,) not in logged:
+        raise UsageError(
+            f"test '{test}' has no samples",
+            where=f"campaign {campaign}",
+            expected=", ".join(sorted(str(name) for (name,) in logged)) or "a test with logs: there is none",
+            got=f"{test}, whose logs are not in the store",
+            hint="put its files where the campaign file says, then thermodata ingest",
+        )
 
 
 def read_content(view: StoreView, campaign: str, test: str, step: str) -> Content:

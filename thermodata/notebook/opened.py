@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from thermodata.errors import UsageError
 from thermodata.notebook.comparison import Comparison, compared
 from thermodata.notebook.courses import Contributions, Predictions
 from thermodata.notebook.fitted import Fit, history_of, stored_fit
@@ -61,8 +62,20 @@ class OpenStore(StoreView):
         return Listed((asdict(m) for m in model_rows(self.store)), _MODELS)
 
     def diagnose(self, model: str | None = None, response: str | None = None) -> Verdict[Fit]:
-        """Which effect a model misses."""
-        return self.model(model).diagnose(response)
+        """Which effect a model misses. response: of which, where it has several; by name, for what stands first is the
+        model."""
+        try:
+            fitted = self.model(model)
+        except UsageError as error:
+            if model is None or not any(model in row["responses"] for row in self.models()):
+                raise
+            raise UsageError(
+                f"'{model}' is a response, and diagnose of a store takes a model first",
+                expected="a model, or response=",
+                got=model,
+                hint=f"diagnose(response='{model}')",
+            ) from error
+        return fitted.diagnose(response)
 
     def add(self, candidate: str | int, model: str | None = None, *, plain: bool = False) -> Fit:
         """A new version of a model with an effect more: a rank or id of its diagnosis, or any 'effect:channels'."""

@@ -115,6 +115,12 @@ def _asked(found: Diagnosis) -> str:
     return f"{said}; --response asks of another" if said else ""
 
 
+def _claim(model: str, c: Candidate) -> str:
+    """What a claimed effect is like, and the command that takes it in."""
+    values = ", ".join(f"{name} {number(p.value)} {p.unit}".rstrip() for name, p in c.parameters.items())
+    return (f"{c.id}: {values}\n" if values else "") + f"to have it: thermodata add {model} {c.rank}"
+
+
 def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     """A diagnosis for a person."""
     left = "" if found.rmse_um is None else f"error on left-out tests {number(found.rmse_um)} um"
@@ -123,6 +129,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
         parts.append(_candidates_text(found.candidates[:top], found.rmse_um))
+        parts += [_claim(found.model, c) for c in found.candidates if c.claimed]
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))

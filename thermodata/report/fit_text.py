@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
-from thermodata.report.glossary import IN_SAMPLE, explained
+from thermodata.report.glossary import IN_SAMPLE, LEVEL, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled, tests_of_role
@@ -76,7 +76,12 @@ def scores_text(scores: list[Score], phases: bool = False) -> str:
         ("ptp_residual_um", "PTP left [um]"),
         ("n", "n"),
     ]
-    return table([s.model_dump() for s in shown], columns)
+    return _leveled(table([s.model_dump() for s in shown], columns))
+
+
+def _leveled(text: str) -> str:
+    """A table of errors with the line that says from where they count."""
+    return f"{text}\n\n{LEVEL}"
 
 
 def compare_text(results: list[FitResult]) -> str:
@@ -105,16 +110,16 @@ def compare_text(results: list[FitResult]) -> str:
         for result in fitted:
             at = next(i for i, (key, _) in enumerate(columns) if key == f"rmse {result.model}") + 2
             columns.insert(at, (f"role {result.model}", "in-sample"))
-    below = f"\n\n{explained('verification')}" if fitted else ""
-    return table(list(rows.values()), columns) + below
+    below = f"\n{explained('verification')}" if fitted else ""
+    return _leveled(table(list(rows.values()), columns)) + below
 
 
 def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     """The versions of a model, as rows of `report.history.history_rows`."""
     lost = history_lost(chain)
     head = f"{lost}\n\n" if lost else ""
-    told = f"\n\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
-    return head + table(*history_table(chain)) + told
+    told = f"\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
+    return head + _leveled(table(*history_table(chain))) + told
 
 
 def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
@@ -220,7 +225,9 @@ def before_after_text(result: FitResult) -> str:
     too = {s.test for s in result.scores if s.role != base_role(s.role)}
     fitted = tests_of_role(common[1], "calibration")
     told = f"all of calibration: {fitted}; fitted too by now, under verification: {listed(sorted(too))}" if too else ""
-    return "\n".join(filter(None, [f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}", told]))
+    return "\n".join(
+        filter(None, [f"{head}{_leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told])
+    )
 
 
 def worse_on_locked(result: FitResult) -> str:

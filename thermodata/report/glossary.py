@@ -15,7 +15,16 @@ ERRORS = {
 IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too, or hold samples of a fitted test"
 PARTS = "parts of the open tests in turn, foretold by a fit to the others"
 
-HOW = "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once."
+_FIRST = "from its first samples (zero, 10 min unless the campaign says otherwise)"
+LEVEL = f"level: the error of a calibration test is about a level fitted to it, that of any other counts {_FIRST}"
+PREDICTED_LEVEL = (
+    f"level: the error of every test counts {_FIRST}; "
+    "fit and compare take that of a calibration test about a level fitted to it"
+)
+HOW = (
+    "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once. "
+    f"{LEVEL[0].upper()}{LEVEL[1:]}."
+)
 NOISE = "between neighbouring means of {length}; an error that keeps its sign for longer is no noise"
 
 

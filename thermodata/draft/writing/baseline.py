@@ -19,6 +19,7 @@ _OFFERED = ("spindle_motor", "coolant_temperature", "hydraulics")
 _WITHOUT_SENSOR = {"spindle_bearing": "spindle_friction"}  # where only the speed is logged
 _AXES = ("Z", "Y", "X")
 _ASKED = ("temperature", "rotational_speed")
+_SHOWN = 12
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,14 +116,15 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
             *(f"#{line}" for line in offered),
             *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
             *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
-            *(
-                [f"# ? drive nothing until their place ('at') is answered: {', '.join(nowhere[:12])}"]
-                if nowhere
-                else []
-            ),
+            *([f"# ? drive nothing until their place ('at') is answered: {_some(nowhere)}"] if nowhere else []),
             "",
         ]
     )
+
+
+def _some(names: list[str]) -> str:
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return ", ".join(names[:_SHOWN]) + more
 
 
 def _line(effect: str, drivers: Mapping[str, str]) -> str:

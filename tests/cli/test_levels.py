@@ -1,0 +1,26 @@
+"""From where errors count, said below every table of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from .conftest import Said
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["fit", "baseline"], ["compare", "baseline"], ["compare", "baseline", "baseline"], ["history", "baseline"]],
+)
+def test_a_table_of_errors_says_from_where_they_count(
+    say: Callable[..., Said], campaign: Path, words: list[str]
+) -> None:
+    told = say("--store", campaign / "thermodata.store", *words).out
+    assert told.count("level: the error of a calibration test is about a level fitted to it") == 1
+
+
+def test_a_prediction_says_that_all_count_from_their_first_samples(say: Callable[..., Said], campaign: Path) -> None:
+    told = say("--store", campaign / "thermodata.store", "predict", "baseline", "campaign:small").out
+    assert "level: the error of every test counts from its first samples" in told
