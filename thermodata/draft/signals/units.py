@@ -12,7 +12,7 @@ from thermodata.schema.unit_spelling import bare_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),
-    "degF": ("temperature",),
+    "degF": ("temperature", "temperature_difference"),
     "K": ("temperature", "temperature_difference"),
     "um": ("displacement",),
     "nm": ("displacement",),
