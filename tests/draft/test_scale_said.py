@@ -21,6 +21,7 @@ Say = Callable[..., Said]
     [
         ("Channel;1;2\nName;T_front;dZ\nUnit;degC;um\nGain;1;0.1\nDate/Time;CH1;CH2", "'Gain = 0.1'"),
         ("Name;T_front;dZ\nUnit;degC;um\nSlope;1;0.1\nDate/Time;CH1;CH2", "'Slope = 0.1'"),
+        ("Kanal;CH1;CH2\nName;T_front;dZ\nEinheit;degC;um\nFaktor;1;0,1\nDatum/Zeit;CH1;CH2", "'Faktor = 0,1'"),
         ("# dZ: 1 digit = 0.1 um\nTime;T_front [degC];dZ [um]", "'1 digit = 0.1'"),
         ("Time;T_front [degC];dZ [um]\nScale;1;0.1", "'Scale = 0.1'"),
     ],

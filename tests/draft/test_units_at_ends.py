@@ -43,3 +43,9 @@ def test_another_unit_at_the_end_of_a_name_is_asked(name: str, end: str) -> None
     said = guess(name, None, "float64", _seen(0.0, 90.0))
     assert not said.sure
     assert f"the name ends with '{end}'" in said.comment()
+
+
+def test_a_delta_in_an_absolute_unit_asks_and_a_rise_is_a_difference() -> None:
+    assert "quantity: temperature_difference" in guess("dT_front", "°F", "float64", _seen(0.0, 8.0)).comment()
+    assert "temperature_difference" not in guess("dT_front", "°F", "float64", _seen(68.0, 80.0)).comment()
+    assert guess("T_rise_rear", "°F", "float64", _seen(0.0, 8.0)).quantity == "temperature_difference"

@@ -83,7 +83,9 @@ def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
     lines = table.sample.head[: first + _SCALES_BELOW]
     rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in lines]
     above = rows[: names_at(rows[:first], names)]
-    found = {n: dict(said) for n, said in scales_said([*above, *rows[first:]], names).items()}
+    # a first row of channels names the columns, too, and scales stand between it and the last that does
+    last = max((k for k in range(first) if names_at(rows[k : k + 1], names) == 0), default=0)
+    found = {n: dict(said) for n, said in scales_said([*rows[:last], *rows[first:]], names).items()}
     for name, line in units_said(above, names).items():
         found.setdefault(name, {})[HEAD] = line
     return found
