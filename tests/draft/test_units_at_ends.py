@@ -33,7 +33,9 @@ def _seen(low: float, high: float) -> Values:
         ("spindle_speed_act", 4000, "rotational_speed", "rpm"),
     ],
 )
-def test_a_unit_of_its_quantity_at_the_end_of_a_name_decides(name: str, high: float, quantity: str, unit: str) -> None:
+def test_a_unit_of_its_quantity_at_the_end_of_a_name_decides(
+    name: str, high: float, quantity: str, unit: str | None
+) -> None:
     said = guess(name, None, "float64", _seen(high / 2, high))
     assert (said.quantity, said.unit) == (quantity, unit)
 
