@@ -19,6 +19,7 @@ from thermodata.draft.signals.head_said import with_head
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
+from thermodata.draft.signals.scale_said import with_scale_asked
 from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
@@ -159,6 +160,7 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     said = replace(said, sure=False) if where else said
     if HEAD in signal.properties:
         said, note = with_head(said, signal, note)
+    said = with_scale_asked(said, signal)
     if STATE_OF in signal.properties and said.quantity != "state":
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "

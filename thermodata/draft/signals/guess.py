@@ -14,6 +14,7 @@ from thermodata.draft.signals import units
 from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
+from thermodata.draft.signals.unit_at_end import beside, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
@@ -134,7 +135,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if not unit and not written:
         by_name = quantity_of(what, text, None, dtype, values)
         quantity = by_name.quantity if "name" in by_name.basis else None
-        written = next(filter(None, (units.beside(end, quantity, values) for end in ends)), None)
+        written = next(filter(None, (beside(end, quantity, values) for end in ends)), None)
     known = unit or written
     counts = units.counts_or_range(_last(name)) if not known else None
     if counts or (known and not is_unit(known)):
@@ -158,6 +159,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     found = _small(_place(_unit(found, text, unit, written, values), own, text), own, values)
     if not unit and units.may_be_an_inlet(_last(name)):
         asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
+        found = replace(found, sure=False, questions=(*found.questions, asked))
+    if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):
+        asked = f"unit: the name ends with '{end}': {found.unit or 'what'}, or another quantity? ({range_text(values)})"
         found = replace(found, sure=False, questions=(*found.questions, asked))
     found = with_factor_asked(found, _last(name))
     if values is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,8 @@ from thermodata.schema.unit_spelling import bare_unit, is_of_humidity
 
 NO_READING = "no reading"  # begins what is said of a column that nobody need be asked about
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'
+_DELTA = re.compile(r"(?:d|δ) ?t(?:emp)?\b")  # 'dT_front', which begins at 0
+_NO_HALL_C = 10.0  # colder than any machine that stands in a hall
 # what creeps there between 5 and 80 is a temperature
 _AIR = {"hall", "floor", "bearing", "coolant", "outside", "window"}
 
@@ -119,6 +122,13 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
         asked = (f"quantity: {other}? the unit says humidity",) if other else ()
         sure = "humidity" in named and not asked
         return Guess("humidity", unit, sure=sure, basis=("name", "unit") if sure else ("unit",), questions=asked)
+    if (
+        both[:1] == ["temperature"]
+        and _DELTA.match(own)
+        and (values is None or _in_degc(values.low, unit) < _NO_HALL_C)
+    ):
+        asked = f"quantity: temperature_difference, or temperature? the name may say a difference, in {unit}"
+        return Guess("temperature", unit, basis=("name", "unit"), questions=(asked,))
     if both and (both[0] != "voltage" or "displacement" not in both):
         return Guess(both[0], unit, sure=True, basis=("name", "unit"))
     if "displacement" in both:
@@ -149,6 +159,11 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
     if first == "position" and axis_of(own) is None:
         return Guess("position", unit, basis=("unit",), questions=("quantity: a length: position, or displacement?",))
     return Guess(first, unit, basis=("unit",))
+
+
+def _in_degc(value: float, unit: str) -> float:
+    factor, offset = units.to_degc(unit)
+    return factor * value + offset
 
 
 def _loosely(unit: str, quantity: str) -> bool:

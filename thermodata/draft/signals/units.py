@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
-from thermodata.draft.signals.values import Values
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
 from thermodata.schema.quantity import converts as converts_to
@@ -14,7 +12,7 @@ from thermodata.schema.unit_spelling import bare_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),
-    "degF": ("temperature",),
+    "degF": ("temperature", "temperature_difference"),
     "K": ("temperature", "temperature_difference"),
     "um": ("displacement",),
     "nm": ("displacement",),
@@ -58,19 +56,6 @@ _IN_NAME = re.compile(
 
 _SPELLED = {"pct": "%", "promille": "permille", "promile": "permille", "fahrenheit": "degF"}
 _COUNTS = re.compile(r"\[\s*(?P<all>\d+(?:[.,]\d+)?\s*(?P<unit>[^\W\d_][^\[\]]*|[°º%][^\[\]]*))\]\s*$")
-# units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
-# but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
-_BESIDE: Mapping[str, Mapping[str, str]] = {
-    # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
-    "power": {"kw": "kW", "hp": "hp", "w": "W"},
-    "displacement": {"m": "m", "nm": "nm"},
-    "position": {"m": "m"},
-    "temperature": {"k": "K"},
-}
-_LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
-_COLDEST_K = 250.0
-_MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
-_FURTHEST_M = 0.05  # no tool is displaced by more
 _VALUE = re.compile(r"[/.](?:value|values|val|data|reading)(?:\[\d+\])?$", re.IGNORECASE)
 _LABELS = re.compile(r"\s*\{[^{}]*\}$")
 _INCH = re.compile(r"[XYZUVW][_ ]?(?P<said>(?:ERR|POS|ACT|CMD|DEV|DISP|COMP)[A-Z_ ]*)? ?\(IN\)$")
@@ -90,22 +75,6 @@ def from_name(name: str) -> str | None:
     """The unit that a name ends with: 'x_mm' -> 'mm', 'level.mm' -> 'mm', 'F_mm_min' -> 'mm/min'; None where none."""
     match = _IN_NAME.search(name.strip())
     return _SPELLED.get(match[1].lower(), match[1].replace("_", "/")) if match else None
-
-
-def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
-    """The unit in lower case at the end of a name that says such a quantity: 'spindle_power_kw', 'probe_z_m'. None
-    where the values speak against it."""
-    match = _LOWER_AT_END.search(name.strip())
-    if match is None:
-        return None
-    unit = _BESIDE.get(quantity or "", {}).get(match[1])
-    if unit == "m" and quantity == "displacement":
-        return unit if values is not None and values.high - values.low < _FURTHEST_M else None
-    if unit == "W":
-        return unit if values is not None and values.high > _MOST_KW else None
-    if unit == "K":
-        return unit if values is not None and values.low > _COLDEST_K else None
-    return unit
 
 
 def without_value(name: str) -> str:

@@ -19,6 +19,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
+from thermodata.reader.text.preamble.scales_said import scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.rows.footer import footer_notes
 from thermodata.reader.text.rows.quality_columns import said_of_values
@@ -33,6 +34,7 @@ from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
 
 _FIRST_ROWS, _LAST_LINES = 500, 20
+_SCALES_BELOW = 2  # of which no time can be read
 _CUT = "the last line has no end and may be cut"
 
 
@@ -40,7 +42,7 @@ def signals(table: Table) -> tuple[Signal, ...]:
     """The signals of a table, in the order of its columns."""
     names, units = table.layout.names, table.layout.units
     stands = table.stands if table.series is None else frozenset[int]()
-    heads = _heads(table)
+    heads = _stated(table)
     found = tuple(
         Signal(
             names[i],
@@ -68,17 +70,25 @@ def signals(table: Table) -> tuple[Signal, ...]:
     return tuple(map(with_unit, found))
 
 
-def _said_of(table: Table, column: int, heads: Mapping[str, str]) -> dict[str, str]:
-    """heads: what lines above the names say of units."""
+def _said_of(table: Table, column: int, heads: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
+    """heads: what lines above the names say of units and of scales."""
     name = table.layout.names[column]
     of_values = said_of_values(name, table.states, table.quality, table.row_quality)
-    return {**table.layout.said_of(column), **of_values, **({HEAD: heads[name]} if name in heads else {})}
+    return {**table.layout.said_of(column), **of_values, **heads.get(name, {})}
 
 
-def _heads(table: Table) -> Mapping[str, str]:
-    lines = table.sample.head[: table.layout.first]
+def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
+    """Name of a column -> what lines above the names, and the first below them, state of its unit and scale."""
+    names, first = table.layout.names, table.layout.first
+    lines = table.sample.head[: first + _SCALES_BELOW]
     rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in lines]
-    return units_said(rows[: names_at(rows, table.layout.names)], table.layout.names)
+    above = rows[: names_at(rows[:first], names)]
+    # a first row of channels names the columns, too, and scales stand between it and the last that does
+    last = max((k for k in range(first) if names_at(rows[k : k + 1], names) == 0), default=0)
+    found = {n: dict(said) for n, said in scales_said([*rows[:last], *rows[first:]], names).items()}
+    for name, line in units_said(above, names).items():
+        found.setdefault(name, {})[HEAD] = line
+    return found
 
 
 def describe(table: Table, source: Source) -> Recording:

@@ -1,0 +1,40 @@
+"""A scale that a file states beside a signal and nobody applies, `Scale = 0.1`: asked, for values may have it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from thermodata.draft.signals.quantity import Guess
+from thermodata.plugin import Signal
+from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.preamble.scales_said import FACTOR, OFFSET
+from thermodata.schema.unit_scale import with_power_of_ten
+
+_TURNED = re.compile(r"(?i)(?:polarity|polarität|sign|vorzeichen|invert(?:ed)?)")
+_TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
+
+
+def with_scale_asked(found: Guess, signal: Signal) -> Guess:
+    """With a question where properties of a signal say a factor, an offset or a turned sign that nobody applies."""
+    if signal.scaling is not None or found.quantity in (None, "state", "label"):
+        return found
+    asked = "; ".join(_asked(signal.properties, found.unit))
+    return replace(found, sure=False, questions=(*found.questions, asked)) if asked else found
+
+
+def _asked(properties: Mapping[str, str], unit: str | None) -> Iterator[str]:
+    for key, text in properties.items():
+        said = f"the file says '{key} = {text}': is that in the values?"
+        number = to_float(text.strip(), "," if "," in text else ".")
+        if FACTOR.fullmatch(key) and number is not None and number not in (0.0, 1.0):
+            own = with_power_of_ten(abs(number), unit or "?")
+            way = f'unit: "{own}"' + (f", instead_of: {unit}" if unit else "") if own else None
+            yield f"{said} where they still need it: {way or f'a calibration of kind linear or scale, gain {number:g}'}"
+            if number < 0:
+                yield "it turns the sign, which is kept as it stands in the file"
+        elif OFFSET.fullmatch(key) and number:
+            yield f"{said} where they still need it: a calibration of kind linear"
+        elif _TURNED.fullmatch(key) and _TURNS.fullmatch(text.strip()):
+            yield f"{said} their sign is kept as it stands in the file"

@@ -1,0 +1,85 @@
+"""A unit at the end of a name that counts only beside the quantity that the name says: 'spindle_speed_Hz',
+'torque_kNm', 'feed_mm_s', 'probe_z_m'."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from thermodata.draft.signals import units
+from thermodata.draft.signals.values import Values
+from thermodata.schema.quantity import is_unit, normal_unit
+
+# units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
+# but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
+_BESIDE: Mapping[str, Mapping[str, str]] = {
+    # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
+    "power": {"kw": "kW", "hp": "hp", "w": "W"},
+    "displacement": {"m": "m", "nm": "nm"},
+    "position": {"m": "m"},
+    "temperature": {"k": "K"},
+}
+_LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
+_COLDEST_K = 250.0
+_MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
+_FURTHEST_M = 0.05  # no tool is displaced by more
+_SEPARATED = re.compile(
+    r"[_.\s](?:(?P<above>[^\W\d_]+3?)_(?P<below>s|min|h|m|m2)|(?P<a_second>[^\W\d_]{1,3})ps|(?P<whole>[^\W\d_]{2,}))$"
+)
+_OR_NUMBER = re.compile(r"[_.\s]1_s$")  # 'speed_1_s': turns a second, or what is set of the first
+# what two letters in lower case, or longer words, say beside a unit: 'pressure_at', the foot of a column
+_SHORT = ("hz", "cm", "uv", "kv")
+_WORDS = ("foot", "feet", "turn", "count")
+
+
+def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
+    """The unit at the end of a name that says such a quantity: 'power_kw', 'probe_z_m', 'spindle_speed_Hz'. None
+    where the values speak against it."""
+    match = _LOWER_AT_END.search(name.strip())
+    unit = _BESIDE.get(quantity or "", {}).get(match[1]) if match else None
+    if unit is None:
+        return next((u for u in _said(name) if quantity is not None and _may_be(u, quantity)), None)
+    if unit == "m" and quantity == "displacement":
+        return unit if values is not None and values.high - values.low < _FURTHEST_M else None
+    if unit == "W":
+        return unit if values is not None and values.high > _MOST_KW else None
+    if unit == "K":
+        return unit if values is not None and values.low > _COLDEST_K else None
+    return unit
+
+
+def strange(name: str, quantity: str | None) -> str | None:
+    """The end of a name that looks like a unit, though none of its quantity: 'speed_m_s' of a spindle. None where none
+    does."""
+    if quantity in (None, "state", "label"):
+        return None
+    if quantity == "rotational_speed" and _OR_NUMBER.search(name.strip()):
+        return "1_s"
+    return next((u for u in _said(name) if quantity and not _may_be(u, quantity) and _is_written_as_unit(u)), None)
+
+
+def _said(name: str) -> Iterator[str]:
+    """What the end of a name may say as a unit, the longest first."""
+    match = _SEPARATED.search(name.strip())
+    if match is None:
+        return
+    if match["above"]:
+        made = f"{match['above']}/{match['below']}"
+    else:
+        made = f"{match['a_second']}/s" if match["a_second"] else match["whole"]
+    short = match["whole"] is not None and made.islower() and len(made) == 2 and made not in _SHORT
+    if not short and made.lower() not in _WORDS and is_unit(made):
+        yield made
+
+
+def _is_written_as_unit(text: str) -> bool:
+    """With a stroke, or in small letters and capitals as no word is: 'kNm', 'MPa'."""
+    return "/" in text or (not text.islower() and not text.isupper() and not text.istitle())
+
+
+def _may_be(unit: str, quantity: str) -> bool:
+    if quantity in ("tilt", "angle"):
+        return units.is_inclination(unit)
+    if quantity in ("load", "humidity"):
+        return normal_unit(unit) in units.SHARES
+    return quantity not in ("state", "label") and units.converts(unit, quantity)
