@@ -24,7 +24,7 @@ from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
-from thermodata_reader_mcap.signals.stamps_apart import apart, unit_of
+from thermodata_reader_mcap.signals.stamps_apart import apart, rushed, unit_of
 from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, readers
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
@@ -145,11 +145,16 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     if relative:
         notes.append("log times count from the start of the recording")
-    elif chosen_options.time == LOG:
+    if chosen_options.time == LOG:
+        notes += rushed(used) if not relative else []
         notes += [
             note
             for topic in found.topics.values()
-            if (note := apart(topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}))
+            if (
+                note := apart(
+                    topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}, relative
+                )
+            )
         ]
     stamped = {}
     different = {c.topic for c, b in batches.items() if not _same(b)}
