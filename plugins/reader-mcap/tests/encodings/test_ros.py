@@ -207,7 +207,7 @@ def test_a_recording_in_both_byte_orders(tmp_path: Path, write: Any, read: Any, 
     np.testing.assert_array_equal(times["/m"], T0 + np.arange(60) * 1_000_000_001)
     assert values["/m.count"] == [2**63 + k for k in range(60)]
     assert values["/m.prog"] == [f"MPF{k % 5}" for k in range(60)]
-    np.testing.assert_array_equal(values["/m.probes[0].um"], [k / 4 if k % 2 else np.nan for k in range(60)])
+    np.testing.assert_array_equal(values["/m.probes.a.um"], [k / 4 if k % 2 else np.nan for k in range(60)])
     assert [f == 0 for f in flags["/m.load[1]"]] == [k % 3 == 2 for k in range(60)]
 
 

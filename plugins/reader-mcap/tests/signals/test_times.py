@@ -180,3 +180,20 @@ def test_the_zero_of_a_clock_that_counts_from_zero_is_a_time(tmp_path: Path, wri
     _, times, _, _, losses = read(path, Source(options={"time": "t", "time_unit": "ms"}))
     assert times["/m"].tolist() == [k * STEP for k in range(30)]
     assert not losses
+
+
+def test_stamps_with_dates_are_offered_where_log_times_count_from_boot(tmp_path: Path, write: Any, read: Any) -> None:
+    messages = [
+        ("/t", 5 * 10**9 + k * 10**9, {"header": {"stamp": {"sec": T0 // 10**9 + k, "nanosec": 0}}, "T": 20 + k / 8})
+        for k in range(60)
+    ]
+    recording = read(write(tmp_path / "a.mcap", messages))[0]
+    assert any("header.stamp has dates" in n and "options: {time: header.stamp}" in n for n in recording.notes)
+
+
+def test_publish_times_are_offered_where_log_times_are_of_a_conversion(tmp_path: Path, write: Any, read: Any) -> None:
+    messages = [("/t", T0 + k * 10**6, {"T": 20 + k / 8}) for k in range(60)]
+    path = write(tmp_path / "a.mcap", messages, publish=lambda t: T0 - 86_400 * 10**9 + (t - T0) * 60_000)
+    assert any("options: {time: publish_time}" in n for n in read(path)[0].notes)
+    late = write(tmp_path / "b.mcap", messages, publish=lambda t: t - 5)
+    assert not any("publish_time}" in n for n in read(late)[0].notes)

@@ -18,6 +18,7 @@ from thermodata_reader_mcap.container.messages import LATEST_NS, Content
 from thermodata_reader_mcap.encodings.columns import MISSING, Columns, Wrong, merged
 from thermodata_reader_mcap.encodings.decoder import Decoder, UnsupportedError
 from thermodata_reader_mcap.encodings.decoders import columns, decoder
+from thermodata_reader_mcap.encodings.named_elements import NamedDecoder
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.header_stamps import stamps
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH
@@ -102,7 +103,10 @@ class Writer:
         made = self.plan.readers.get(channel)
         if made is None and channel.topic not in self._why:
             try:
-                made = self.plan.readers[channel] = decoder(channel, self.plan.options.enums)
+                made = decoder(channel, self.plan.options.enums)
+                if channel.topic in self.plan.naming:
+                    made = NamedDecoder(made, self.plan.naming[channel.topic])
+                self.plan.readers[channel] = made
             except UnsupportedError as error:
                 self._why[channel.topic] = str(error)
         return made

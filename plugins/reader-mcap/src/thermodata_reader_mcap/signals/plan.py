@@ -20,11 +20,12 @@ from thermodata_reader_mcap.container.messages import LATEST_NS, Content, collec
 from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
+from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
-from thermodata_reader_mcap.signals.stamps_apart import apart, unit_of
-from thermodata_reader_mcap.signals.topic_discovery import discover, readers
+from thermodata_reader_mcap.signals.stamps_apart import apart, rushed, unit_of
+from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, readers
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
 _SEARCHED = 64 << 20  # the same, of a file whose chunks do not say which topics they hold
@@ -44,6 +45,7 @@ class Plan:
     unsupported: dict[str, str]
     stamped: dict[str, str]
     series: dict[str, Series]
+    naming: dict[str, Naming]
     start_ns: int | None
     relative: bool
     complete: bool
@@ -143,11 +145,16 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     if relative:
         notes.append("log times count from the start of the recording")
-    elif chosen_options.time == LOG:
+    if chosen_options.time == LOG:
+        notes += rushed(used) if not relative else []
         notes += [
             note
             for topic in found.topics.values()
-            if (note := apart(topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}))
+            if (
+                note := apart(
+                    topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}, relative
+                )
+            )
         ]
     stamped = {}
     different = {c.topic for c, b in batches.items() if not _same(b)}
@@ -167,6 +174,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         found.unsupported,
         stamped,
         series,
+        {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
         int(times.min()) if times.size else None,
         relative,
         is_complete(view) and not damaged,
@@ -191,6 +199,7 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
     for topic, channels in by_topic.items():
         samples = {c: batches[c].payloads for c in channels}
         made, problems = readers(channels, samples, chosen, source.encoding, notes)
+        made = by_name(made, samples)
         found = discover(topic, made, samples, whole, budget, notes) if made else None
         if problems:
             result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))

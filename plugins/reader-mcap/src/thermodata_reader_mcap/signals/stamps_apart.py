@@ -20,19 +20,26 @@ from thermodata_reader_mcap.signals.options import STAMPS
 _LOOKED_AT = 200  # messages of a topic
 _APART_NS = 1_000_000_000  # that a latency changes by less than
 _NEAR_NS = 7 * 86_400 * 10**9  # of the log times a stamp of its message is; another date is of something else
+_DATED_NS = 940_000_000 * 10**9  # from 1999 on
+_RUSHED = 2  # times that publish times span log times, which no recorder's delays do
 _RISING = 0.9  # of the steps from message to message, in a stamp of theirs; a job's start stands still
 _MOST = 2**63  # beyond which a whole number is no time, and may be no float: JSON's have as many digits as they like
 _UNITS = {"unix": "s", "unix_ms": "ms", "unix_us": "us", "unix_ns": "ns"}
 
 
-def apart(topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
-    """A note where a topic's stamps do not keep one distance from its log times; None where they do, or are none."""
+def apart(
+    topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], relative: bool = False
+) -> str | None:
+    """A note where a topic's stamps do not keep one distance from its log times, or these count from a start (relative)
+    and the stamps have a date; None where neither is so, or there are none."""
     paths = [leaf.path for leaf in topic.leaves if leaf.dtype != "str"]
     rows = list(_messages(batches, made))
     found = _stamp(paths)
     name, unit, away = ("", None, list[float]()) if found is None else _of_pair(*found, rows)
     if found is None:
-        name, unit, away = _of_numbers(paths, rows)
+        name, unit, away = _of_numbers(paths, rows, relative)
+    if relative:
+        return _dated(topic.name, name, unit, away)
     spread = int(np.ptp(np.array(away, np.float64))) if away else 0
     if spread <= _APART_NS:
         return None
@@ -41,6 +48,30 @@ def apart(topic: Topic, batches: Mapping[Channel, Batch], made: Mapping[Channel,
         f"topic '{topic.name}': the times that are read are log times, and {name} changes its distance from them by "
         f"{spread / 1e9:.3g} s; declare options: {{time: {declared}}} if the recorder wrote in bursts"
     )
+
+
+def _dated(topic: str, name: str, unit: str | None, away: Sequence[float]) -> str | None:
+    """A note where the stamps of a recording whose log times have no date have one."""
+    if not away or -max(away) < _DATED_NS:
+        return None
+    declared = name if unit is None else f"{name}, time_unit: {unit}"
+    return f"topic '{topic}': {name} has dates, which the log times have not; declare options: {{time: {declared}}}"
+
+
+def rushed(batches: Sequence[Batch]) -> list[str]:
+    """A note where the publish times of a recording span far more than its log times: it was converted, and the log
+    times are of the conversion."""
+    pairs = [batch.times() for batch in batches]
+    logs, published = (np.concatenate([np.empty(0, np.uint64), *(pair[k] for pair in pairs)]) for k in (0, 1))
+    if logs.size < 2 or not published.all():
+        return []
+    short, long = int(np.ptp(logs)), int(np.ptp(published))
+    if long < _RUSHED * short or long - short < _APART_NS:
+        return []
+    return [
+        f"log times span {short / 1e9:.3g} s, publish times {long / 1e9:.6g} s: the file looks converted, and its log "
+        "times are of the conversion; declare options: {time: publish_time}"
+    ]
 
 
 def unit_of(path: Path, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
@@ -84,7 +115,9 @@ def _of_pair(
     return _name(path), None, away
 
 
-def _of_numbers(paths: Sequence[Path], rows: Sequence[tuple[int, Any]]) -> tuple[str, str | None, list[float]]:
+def _of_numbers(
+    paths: Sequence[Path], rows: Sequence[tuple[int, Any]], relative: bool
+) -> tuple[str, str | None, list[float]]:
     """The same of the first field that counts from 1970 and rises from message to message, near their log times; with
     the unit that it counts in."""
     logs = np.array([log for log, _ in rows], np.float64)
@@ -98,7 +131,7 @@ def _of_numbers(paths: Sequence[Path], rows: Sequence[tuple[int, Any]]) -> tuple
         if epoch not in _UNITS or values.size != logs.size or values.size < 2:
             continue
         away: Float1D = logs - values * (EPOCHS[epoch].seconds * 1e9)
-        if float(np.abs(away).max()) < _NEAR_NS and float((np.diff(values) > 0).mean()) >= _RISING:
+        if (relative or float(np.abs(away).max()) < _NEAR_NS) and float((np.diff(values) > 0).mean()) >= _RISING:
             return _name(path), _UNITS[epoch], away.tolist()
     return "", None, []
 

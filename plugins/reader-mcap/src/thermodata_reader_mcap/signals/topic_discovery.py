@@ -12,11 +12,13 @@ from thermodata_reader_mcap.encodings.decoders import decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.json.arrow import joined
 from thermodata_reader_mcap.encodings.json.decoder import JsonDecoder
+from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, find_naming
 from thermodata_reader_mcap.encodings.topic import Declared, Hint, Topic
 from thermodata_reader_mcap.signals.field_survey import Survey, UnsureError
 from thermodata_reader_mcap.signals.field_types import find_leaves
 from thermodata_reader_mcap.signals.options import Options
 
+_NAMES_IN = 200  # messages of a channel that tell whether the elements of arrays have names
 _ROWS, _BYTES = 512, 128 << 10  # inferred at a time: each message may bring fields of its own
 
 
@@ -44,6 +46,20 @@ def readers(
             )
         made[channel] = one
     return made, problems
+
+
+def by_name(made: Mapping[Channel, Decoder], samples: Mapping[Channel, Sequence[bytes]]) -> dict[Channel, Decoder]:
+    """The decoders of a topic's channels, by the names of the elements where its arrays have some."""
+    messages: list[Any] = []
+    for channel, one in made.items():
+        payloads = samples.get(channel, ())
+        for payload in payloads[:: max(1, len(payloads) // _NAMES_IN)]:
+            try:
+                messages.append(one.decode(payload))
+            except Exception:  # whatever a decoder raises: counted and named when it is read
+                continue
+    naming = find_naming(messages)
+    return {channel: NamedDecoder(one, naming) for channel, one in made.items()} if naming else dict(made)
 
 
 def _is_utf8(payload: bytes) -> bool:
