@@ -53,7 +53,7 @@ def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
 
 def kept_diagnosis(store: Store, ref: str, response: str | None = None) -> Diagnosis | None:
     """The answer that the store holds to this question; None where model, data, effects or rules have changed since."""
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     return _kept(store, model, response, _key(model, left_on_locked(store, model)))
 
 
@@ -81,7 +81,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     from thermodata.store.catalogue.looks import count_locked_look
     from thermodata.store.catalogue.models import keep_answer, save_diagnosis
 
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
     key = _key(model, left)
     kept = _kept(store, model, response, key)
@@ -111,7 +111,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     from thermodata.store.catalogue.looks import count_locked_look, locked_looks
     from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
 
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     tests = model.fitted.tests(model.data)
     asked = load_diagnosis(store, model.identity) if response is None else None
     index = response_index(model.fitted, tests, asked.response if asked is not None else response)

@@ -34,7 +34,7 @@ def collect(store: Store, ref: str) -> ReportData:
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
-    loaded = load(store, stored.model, uncertainty=True)
+    loaded = load(store, stored.model, uncertainty=True, anew=True)
     diagnosis = load_diagnosis(store, stored.model)
     reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
     responses = tuple(r.name for r in loaded.fitted.responses)
