@@ -17,10 +17,12 @@ from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.schema.model import Model
 from thermodata.store import Store
+from thermodata.store.catalogue.looks import open_in
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.stale import stale_line
 from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset
+from thermodata.view.events import about_test
 
 from .conftest import EFFECTS, Spec
 from .test_run import stored
@@ -96,6 +98,19 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     again = run.fit(store, Model.model_validate(find_model(store, model).spec)).model
     assert again != model
     assert stale_line(store, again) is None
+
+
+def test_a_test_that_was_open_when_a_model_was_fitted_is_no_new_one_once_it_is_locked(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], world: Dataset
+) -> None:
+    store, model, edit = edited
+    assert open_in(store, ["c"]) == {}
+    edit("role: verification", "role: locked")
+    was = [t.test for t in world.tests if t.role == "verification"]
+    assert open_in(store, ["c"]) == {("c", name): [f"base {model}"] for name in was}
+    assert about_test(store, "c", was[0]).open_in == (f"base {model}",)
+    # and what is locked now stays shut in the model that saw it
+    assert {run.load(store, model).fitted.roles.role(("c", name)) for name in was} == {"locked"}
 
 
 def test_a_test_that_is_new_leaves_a_model_as_it_was_fitted(

@@ -219,7 +219,11 @@ def before_after_text(result: FitResult) -> str:
     too = {s.test for s in result.scores if s.role != base_role(s.role)}
     fitted = tests_of_role(common[1], "calibration")
     told = f"all of calibration: {fitted}; fitted too by now, under verification: {listed(sorted(too))}" if too else ""
-    return "\n".join(filter(None, [f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}", told]))
+    were = {s.test for s in result.before or [] if s.role != base_role(s.role)} - too
+    once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
+    return "\n".join(
+        filter(None, [f"{head}{table(rows, columns)}\n\n{explained('verification', 'fitted')}", told, once])
+    )
 
 
 def worse_on_locked(result: FitResult) -> str:
