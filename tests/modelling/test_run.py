@@ -174,6 +174,7 @@ def test_what_is_added_and_removed_again_is_fitted_as_before(store: Store, spec:
         (grown.model, True),
         (back.model, False),
     ]
+    assert collect(store, back.model).reason is None, "nothing was added last"
     # fitted again it stays where it is
     assert fit_named(store, back.model).model == back.model
     # what is left was chosen with the verification tests

@@ -47,7 +47,7 @@ def answer_contributions(session: Session, store: Store, models: Sequence[str], 
     names = {row.model: row.label for row in model_rows(store)}
     for model in models:
         if not any(model in part.models for part in found):
-            session.say(f"{names[model]} was not predicted in {test}: a channel that it needs is missing")
+            session.say(f"{names[model]} was not predicted in {test} when it was fitted")
     rows = [row for part in found for row in part.to_json()]
     text = "\n\n".join(contributions_text(part, names) for part in found)
     session.answer(rows, lambda: in_units_of(session, [part.response for part in found], text))

@@ -68,6 +68,7 @@ def model_command(
     from thermodata.export.control.of_model import Asked, program_of
     from thermodata.export.control.write import files_of
     from thermodata.modelling.run import load
+    from thermodata.store.catalogue.stale import stale_line
 
     store = session.store()
     loaded = load(store, resolve(store, model))
@@ -103,6 +104,7 @@ def model_command(
         "rate_per_min": program.limits.rate,
         "hold_s": program.limits.hold_s,
         "left_out": list(asked.without),
+        "stale": stale_line(store, loaded.identity),
     }
     session.answer(
         payload,

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.fitting import resolve
 from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
 
 
 @command("diagnose")
@@ -28,6 +33,7 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
 
     store = session.store()
     ref = resolve(store, model, session)
+    _say_what_was_open(store, ref)
     found = kept_diagnosis(store, ref, response)
     if found is not None:
         click.echo("from the store: model, data, effects and rules are as they were", err=True)
@@ -50,7 +56,20 @@ def confirm_command(session: Session, model: str, candidate: str, response: str 
     from thermodata.diagnosis.run import confirm_choice
 
     store = session.store()
-    result, known = confirm_choice(store, resolve(store, model), candidate, response)
+    ref = resolve(store, model)
+    _say_what_was_open(store, ref)
+    result, known = confirm_choice(store, ref, candidate, response)
     if known:
         click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
     session.answer(result, lambda: in_units_of(session, result.response, confirmed_text(result)))
+
+
+def _say_what_was_open(store: Store, ref: str) -> None:
+    """Locked tests that were open when a model was fitted: what they confirm is not new to what came of it."""
+    from thermodata.store.catalogue.looks import open_in
+    from thermodata.store.catalogue.models import find_model
+
+    found = open_in(store, find_model(store, ref).spec.campaign_ids)
+    if found:
+        told = "; ".join(f"{test} ({', '.join(models)})" for (_, test), models in found.items())
+        click.echo(f"locked now, but open when these were fitted or chosen: {told}", err=True)

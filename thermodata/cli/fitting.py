@@ -27,15 +27,19 @@ if TYPE_CHECKING:
 
 
 def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
-    """MODEL as the store knows it; where none is named, the newest one, and the session says which that is."""
+    """MODEL as the store knows it; where none is named, the newest one, and the session says which that is. Says on
+    stderr where the data of the model changed since its fit: every command that uses one comes by here."""
     from thermodata.modelling.named import model_named, newest_model
+    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.stale import stale_line
 
-    if ref is not None:
-        return model_named(store, ref)
-    newest = newest_model(store)
-    if session is not None:
-        session.say(f"of the newest model: {newest}")
-    return newest
+    found = newest_model(store) if ref is None else model_named(store, ref)
+    if ref is None and session is not None:
+        session.say(f"of the newest model: {found}")
+    stale = stale_line(store, find_model(store, found).model)
+    if stale is not None:
+        click.echo(stale, err=True)
+    return found
 
 
 @command("fit")
@@ -127,6 +131,7 @@ def compare_command(
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import find_model, load_diagnosis
+    from thermodata.store.catalogue.stale import stale_line
 
     store = session.store()
     results = compare(store, named(store))
@@ -142,6 +147,7 @@ def compare_command(
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
     apart = [] if unknown else differences_of(store, [r.model for r in results])
     payload["differences"] = apart or None
+    payload["stale"] = stale_line(store, results[0].model)
     session.answer(
         payload,
         lambda: in_units_of(

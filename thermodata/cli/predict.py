@@ -64,6 +64,7 @@ def predict_command(
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.run import load
+    from thermodata.store.catalogue.stale import stale_line
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
@@ -91,6 +92,7 @@ def predict_command(
         "file": None if out is None or not made else str(out),
         "tests": [{**row, "t_s": p.t_s, "predicted": p.predicted} for row, p in zip(rows, made, strict=True)],
         "left_out": left_out,
+        "stale": stale_line(store, loaded.identity),
     }
     session.answer(payload, lambda: _text(rows, made, out))
     return 3 if left_out else 0

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from thermodata.cli.common import Session, command
+from thermodata.cli.fitting import resolve
 from thermodata.report.table import table
 from thermodata.report.words import number
 
@@ -25,7 +26,8 @@ def profiles_command(session: Session, model: str, curves: bool) -> None:
     """
     from thermodata.modelling.run import profiles
 
-    found = profiles(session.store(), model)
+    store = session.store()
+    found = profiles(store, resolve(store, model))
     session.answer(found.to_json(), lambda: _text(found, curves))
 
 

@@ -42,6 +42,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
     from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.stale import stale_line
 
     if png is not None and png.suffix.lower() != ".png":
         raise UsageError("a picture is a PNG", expected="FILE.png", got=str(png))
@@ -62,6 +63,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
         "picture": None if png is None else str(png),
         "responses": [_payload(s) for s in seen],
         "stored": None,
+        "stale": stale_line(store, loaded.identity),
     }
 
     def text() -> str:
@@ -76,6 +78,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
     from thermodata.cli.common import plain
     from thermodata.modelling.model_file.not_installed import as_stored
     from thermodata.report.fit_text import fit_text
+    from thermodata.store.catalogue.stale import stale_line
 
     warnings.warn(as_stored(lacking, stored.name), stacklevel=2)
     payload = {
@@ -84,6 +87,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
         "picture": None,
         "responses": [],
         "stored": plain(stored.result),
+        "stale": stale_line(session.store(), stored.model),
     }
     session.answer(payload, lambda: fit_text(stored.result))
 

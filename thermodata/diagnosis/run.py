@@ -53,7 +53,7 @@ def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
 
 def kept_diagnosis(store: Store, ref: str, response: str | None = None) -> Diagnosis | None:
     """The answer that the store holds to this question; None where model, data, effects or rules have changed since."""
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     return _kept(store, model, response, _key(model, left_on_locked(store, model)))
 
 
@@ -81,7 +81,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     from thermodata.store.catalogue.looks import count_locked_look
     from thermodata.store.catalogue.models import keep_answer, save_diagnosis
 
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
     key = _key(model, left)
     kept = _kept(store, model, response, key)
@@ -105,13 +105,14 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     """(what the locked tests say of an effect that the user chose, whether that was known already).
 
     candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. response: by default that of the stored
-    diagnosis. Opening the lock is counted, but for an answer that the store holds. UsageError: no such candidate, a
+    diagnosis. Opening the lock is counted, but for an answer that the store holds, and for what a diagnosis of the same
+    data opened it for. UsageError: no such candidate, a
     rank of another response's diagnosis, or no locked test that both models can predict.
     """
-    from thermodata.store.catalogue.looks import count_locked_look, locked_looks
-    from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
+    from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looked_for
+    from thermodata.store.catalogue.models import find_model, keep_answer, kept_answer, load_diagnosis
 
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     tests = model.fitted.tests(model.data)
     asked = load_diagnosis(store, model.identity) if response is None else None
     index = response_index(model.fitted, tests, asked.response if asked is not None else response)
@@ -122,7 +123,11 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
         known = as_held(Confirmed.model_validate_json(kept))
-        return known.model_copy(update={"probability": _claimed_with(store, model.identity, of.name, name)}), True
+        now = {
+            "probability": _claimed_with(store, model.identity, of.name, name),
+            "looks": max(locked_looks(store, t.campaign, t.test) for t in known.tests),
+        }
+        return known.model_copy(update=now), True
     usable = [t for t in tests if of.can_predict(t)]
     ends = ends_of_logs(store, model)
     asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
@@ -141,7 +146,11 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         )
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
-    count_locked_look(store, model.identity, [t.key for t in locked], f"confirming {name}, by choice")
+    # what the diagnosis opened for the same, on the same data, is no new look
+    same = find_model(store, model.identity).data_version == model.data.data_version
+    seen = looked_for(store, model.identity, name) if same else set()
+    fresh = [t.key for t in locked if t.key not in seen]
+    count_locked_look(store, model.identity, fresh, f"confirming {name}, by choice")
     put_right, shape = asked_of.put_right, confirmation.where_it_acts
     if shape is not None and not shape.holds:
         fits = Fits(model.fitted.spec, index, asked_of.data, asked_of.tests, locked, asked_of.fitted)

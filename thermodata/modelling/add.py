@@ -27,7 +27,7 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     from thermodata.store.catalogue.models import find_model, load_diagnosis
 
     parent = find_model(store, ref)
-    old = load(store, parent.model)
+    old = load(store, parent.model, anew=True)
     if isinstance(candidate, EffectSpec):
         grown = with_effect(parent.spec, candidate)
         name = None

@@ -39,7 +39,7 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     # an id that stands there by itself is not written
     bare = [e.model_copy(update={"id": None}) if e.id == e.effect else e for e in kept]
     effects = bare if term_ids(bare) == [e.id for e in kept] else kept
-    old = load(store, parent.model)
+    old = load(store, parent.model, anew=True)
     before = make_result(old.fitted, old.data, parent.model).scores
     spec, notes = parent.spec.model_copy(update={"effects": effects}), [f"removed: {', '.join(gone)}"]
     earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]

@@ -21,6 +21,7 @@ from thermodata.modelling.model_file.transfer import NAME
 from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
+from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
@@ -32,22 +33,30 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Loaded:
-    """A model of the store, fitted again to the store's data (the fit is exact and takes milliseconds)."""
+    """A model of the store and its data as they are now. kept: they changed, and the parameters are those stored."""
 
     identity: str
     parent: str | None
     fitted: FittedModel
     data: Dataset
+    kept: bool = False
 
 
-def load(store: Store, ref: str, *, uncertainty: bool = False) -> Loaded:
-    """ref: an id, a unique prefix, or a name (its newest version)."""
+def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = False) -> Loaded:
+    """ref: an id, a unique prefix, or a name (its newest version). On the data of its fit it is fitted again, which
+    gives the same and takes milliseconds; where they changed its parameters are those that the store holds. anew: the
+    fit to the data as they are now is what is asked for."""
     from thermodata.store.catalogue.models import find_model
 
     stored = find_model(store, ref)
     refuse_not_installed(stored.spec, stored.model)
     data = load_data(store, stored.spec)
-    return Loaded(stored.model, stored.parent, fit_alone(stored.spec, data, uncertainty=uncertainty), data)
+    kept = stored.data_version != data.data_version and not anew
+    if kept:
+        fitted = as_kept(stored.spec, stored.result, data)
+    else:
+        fitted = fit_alone(stored.spec, data, uncertainty=uncertainty)
+    return Loaded(stored.model, stored.parent, fitted, data, kept)
 
 
 def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
@@ -129,8 +138,8 @@ def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
-    """Each model's parameters, scores and checks on the store's data as it is now; as its fit stored them, with a note,
-    where an effect of it is not installed."""
+    """Each model's parameters, scores and checks; as its fit stored them where its data changed since, and where an
+    effect of it is not installed, which a note says. Tests that are new to a model are scored too."""
     from thermodata.store.catalogue.models import find_model
 
     results = []
@@ -140,14 +149,21 @@ def compare(store: Store, refs: Sequence[str]) -> list[FitResult]:
             note = as_stored(lacking, stored.name)
             results.append(stored.result.model_copy(update={"notes": [*stored.result.notes, note]}))
             continue
+        if stored.stale:
+            results.append(stored.result)
+            continue
         model = load(store, ref, uncertainty=True)
-        results.append(make_result(model.fitted, model.data, model.identity, parent=model.parent))
+        found = make_result(model.fitted, model.data, model.identity, parent=model.parent)
+        results.append(found.model_copy(update={"parameters": stored.result.parameters}) if model.kept else found)
     return results
 
 
 def differences_of(store: Store, refs: Sequence[str]) -> list[TestDifference]:
-    """Each model's error less that of the first, test by test on the data as they are now; none for one model."""
-    if len(refs) < 2:
+    """Each model's error less that of the first, test by test; none for one model, and none where the data of one
+    changed since its fit."""
+    from thermodata.store.catalogue.models import find_model
+
+    if len(refs) < 2 or any(find_model(store, ref).stale for ref in refs):
         return []
     loaded = [load(store, ref) for ref in refs]
     return differences([(m.identity, m.fitted, m.data) for m in loaded])
@@ -229,7 +245,7 @@ def _with_open_orders(effect: EffectSpec, method: str | None) -> EffectSpec:
 
 def profiles(store: Store, ref: str) -> Profiles:
     """The interval of every time constant of a stored model by its profile, and what the tests can't tell apart."""
-    model = load(store, ref)
+    model = load(store, ref, anew=True)
     return profiles_of(model.fitted, model.data)
 
 

@@ -34,11 +34,12 @@ def collect(store: Store, ref: str) -> ReportData:
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
-    loaded = load(store, stored.model, uncertainty=True)
+    loaded = load(store, stored.model, uncertainty=True, anew=True)
     diagnosis = load_diagnosis(store, stored.model)
     reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
     responses = tuple(r.name for r in loaded.fitted.responses)
     units = chain_units(store, chain)
+    last = versions(chain, units)[-1]
     # curves, scores and parameters are of one fit; what was kept may be of data that have changed since
     result = make_result(loaded.fitted, loaded.data, stored.model)
     lacking = {m.model: some for m in chain[:-1] if (some := not_installed(m.spec))}
@@ -66,7 +67,7 @@ def collect(store: Store, ref: str) -> ReportData:
         versions=versions(chain, units, scores),
         units=units,
         diagnosis=diagnosis,
-        reason=reason,
+        reason=None if last.removed and not last.added else reason,
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, [m.model for m in chain]),

@@ -225,8 +225,10 @@ def before_after_text(result: FitResult) -> str:
     too = {s.test for s in result.scores if s.role != base_role(s.role)}
     fitted = tests_of_role(common[1], "calibration")
     told = f"all of calibration: {fitted}; fitted too by now, under verification: {listed(sorted(too))}" if too else ""
+    were = {s.test for s in result.before or [] if s.role != base_role(s.role)} - too
+    once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
     return "\n".join(
-        filter(None, [f"{head}{_leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told])
+        filter(None, [f"{head}{_leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told, once])
     )
 
 

@@ -34,10 +34,14 @@ class About:
     phases: dict[str, tuple[float, float]]
     flagged: tuple[Flagged, ...]
     looks: int
+    open_in: tuple[str, ...] = ()
 
 
 def about_test(store: Store, campaign: str, test: str) -> About:
-    """looks: how often its lock was opened."""
+    """looks: how often its lock was opened. open_in: models that were fitted to it, or checked on it, while it was
+    open."""
+    from thermodata.store.catalogue.looks import open_in
+
     own = [campaign, test]
     with store.reader() as con:
         row = fetch(con, "select * from test where campaign = ? and test = ?", own)[0]
@@ -65,4 +69,5 @@ def about_test(store: Store, campaign: str, test: str) -> About:
             for e in events
         ),
         int(looks[0]) if looks else 0,
+        tuple(open_in(store, [campaign]).get((campaign, test), ())),
     )

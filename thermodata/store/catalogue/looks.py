@@ -26,6 +26,17 @@ def count_locked_look(
         insert(con, "locked_look", rows)
 
 
+def looked_for(store: Store, model: str, candidate: str) -> set[tuple[str, str]]:
+    """The locked tests that were opened for a candidate of a model, by a claim or by choice."""
+    with store.reader() as con:
+        rows = con.execute(
+            "select campaign, test from locked_look where model = $1 and list_contains(string_split("
+            "regexp_extract(reason, '^confirming (.*?)(, by choice)?$', 1), ', '), $2)",
+            [model, candidate],
+        ).fetchall()
+    return {(c, t) for c, t in rows}
+
+
 def locked_looks(store: Store, campaign: str, test: str) -> int:
     """How often the lock of a test was opened."""
     with store.reader() as con:
@@ -33,3 +44,19 @@ def locked_looks(store: Store, campaign: str, test: str) -> int:
             "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
         ).fetchone()
     return int(row[0]) if row else 0
+
+
+def open_in(store: Store, campaigns: Iterable[str]) -> dict[tuple[str, str], list[str]]:
+    """Each locked test of the campaigns that a model was fitted to or checked on while it was open -> 'name id' of
+    those models, the first of them first."""
+    with store.reader() as con:
+        rows = con.execute(
+            "select distinct s.campaign, s.test, m.name, m.model, m.created_at from score_row s join test t using "
+            "(campaign, test) join model m on m.model = s.model where list_contains($1, s.campaign) "
+            "and t.role = 'locked' and s.role not in ('locked', 'none') order by s.campaign, s.test, m.created_at",
+            [list(campaigns)],
+        ).fetchall()
+    found: dict[tuple[str, str], list[str]] = {}
+    for campaign, test, name, model, _ in rows:
+        found.setdefault((campaign, test), []).append(f"{name} {model}")
+    return found

@@ -23,10 +23,12 @@ if TYPE_CHECKING:
     import duckdb
     import pyarrow as pa
 
+STALE = "stale"  # the kind of finding that says what changed in a test since the fit
+
 
 @dataclass(frozen=True, slots=True)
 class StoredModel:
-    """A version of a model. stale: its data changed since it was fitted."""
+    """A version of a model. stale: its data changed since it was fitted; data_version: of what it was fitted to."""
 
     model: str
     name: str
@@ -34,6 +36,7 @@ class StoredModel:
     spec: Model
     result: FitResult
     stale: bool
+    data_version: str = ""
 
 
 def save_fit(
@@ -61,6 +64,7 @@ def save_fit(
         for table in ("fit", "score_row", "prediction"):
             con.execute(f"delete from {table} where model = ?", [result.model])
         con.execute("delete from model where model = ?", [result.model])
+        con.execute("delete from finding where model = ? and kind = ?", [result.model, STALE])
         insert(
             con,
             "model",
@@ -254,6 +258,7 @@ def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
         Model.model_validate_json(row["spec"]),
         FitResult.model_validate_json(row["result"]),
         bool(row["stale"]),
+        row["data_version"],
     )
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
+from thermodata.store.catalogue.models import STALE
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
 
 if TYPE_CHECKING:
     import duckdb
 
+Rows = Mapping[str, Mapping[str, list[Row]]]
 # what a fit reads: words about a test or a channel don't make it stale
 _WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
 
@@ -146,7 +148,28 @@ def commit(
         ],
     )
     drop_results(con, campaign, stale - set(planned.rows["test"]))
-    return mark_stale(con, campaign, stale)
+    calibrated = not same(planned.calibrations, inventory.calibrations)
+    return mark_stale(con, campaign, {t: what_changed(planned.rows, inventory.rows, t, calibrated) for t in stale})
+
+
+def what_changed(now: Rows, then: Rows, test: str, calibrated: bool) -> list[str]:
+    """In words: gone, role, description, calibration, data. calibrated: whether the campaign's calibrations differ."""
+    if not now["test"].get(test):
+        return ["gone"]
+
+    def differs(table: str, *columns: str, layer: str | None = None) -> bool:
+        one, other = (
+            sorted(repr([r[c] for c in columns]) for r in rows[table].get(test, []) if layer in (None, r.get("layer")))
+            for rows in (now, then)
+        )
+        return one != other
+
+    words = [
+        ("role", differs("test", "role")),
+        ("calibration", differs("channel", "channel", "calibration") or calibrated),
+        ("data", differs("file", "key", layer="raw")),
+    ]
+    return [word for word, holds in words if holds] or ["description"]
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
@@ -155,8 +178,9 @@ def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str])
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
 
 
-def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> list[str]:
-    """Marks the models that used any of the tests; one that names no tests used the whole campaign."""
+def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: Mapping[str, Sequence[str]]) -> list[str]:
+    """Marks the models that used any of the tests, and keeps what changed in each (test -> `what_changed`); one that
+    names no tests used the whole campaign. Returns those that were not stale before."""
     if not tests:
         return []
     rows = fetch(
@@ -164,12 +188,36 @@ def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -
         """
         with used as (select distinct model, campaign, test from score_row
                       union select distinct model, campaign, test from prediction)
-        select m.model from model m where list_contains(m.campaigns, $1) and not m.stale and (
+        select m.model, m.stale, m.result from model m where list_contains(m.campaigns, $1) and (
             exists (from used u where u.model = m.model and u.campaign = $1 and list_contains($2, u.test))
             or not exists (from used u where u.model = m.model and u.campaign = $1))""",
         [campaign, sorted(tests)],
     )
-    models = [r["model"] for r in rows]
-    for model in models:
-        con.execute("update model set stale = true where model = ?", [model])
-    return models
+    for row in rows:
+        con.execute("update model set stale = true where model = ?", [row["model"]])
+        scored = {s["test"] for s in json.loads(row["result"]).get("scores", []) if s["campaign"] == campaign}
+        _keep_what_changed(con, row["model"], campaign, {t: w for t, w in tests.items() if t in scored or not scored})
+    return [r["model"] for r in rows if not r["stale"]]
+
+
+def _keep_what_changed(
+    con: duckdb.DuckDBPyConnection, model: str, campaign: str, tests: Mapping[str, Sequence[str]]
+) -> None:
+    """Beside what changed before."""
+    insert(
+        con,
+        "finding",
+        [
+            # of no test, so that it outlasts a test that is gone
+            {
+                "campaign": campaign,
+                "test": "",
+                "model": model,
+                "kind": STALE,
+                "rank": None,
+                "payload": json.dumps({"test": test, "what": list(what)}),
+                "created_at": datetime.now(UTC).replace(tzinfo=None),
+            }
+            for test, what in tests.items()
+        ],
+    )

@@ -56,7 +56,7 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
-            stale = mark_stale(con, campaign, {test})
+            stale = mark_stale(con, campaign, {test: ["gone"]})
             for table in BY_TEST:
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})

@@ -1,0 +1,126 @@
+"""A model of the store whose data changed: its parameters stay those of its fit, and what changed is said."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from thermodata.cli.app import cli
+from thermodata.modelling import run
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.versions.as_kept import as_kept
+from thermodata.modelling.versions.result import make_result
+from thermodata.schema.model import Model
+from thermodata.store import Store
+from thermodata.store.catalogue.looks import open_in
+from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.stale import stale_line
+from thermodata.store.ingest.run import ingest
+from thermodata.view.dataset import Dataset
+from thermodata.view.events import about_test
+
+from .conftest import EFFECTS, Spec
+from .test_run import stored
+
+GROUPED = {"effect": "spindle_bearing", "gain_by": "test"}
+
+
+def function(**more: Any) -> list[dict[str, Any]]:
+    return [{"effect": "transfer_function", "drivers": {"u": "T_bearing"}, **more}]
+
+
+@pytest.mark.parametrize(
+    "effects",
+    [
+        EFFECTS,
+        [GROUPED, *EFFECTS[1:]],
+        [{**GROUPED, "one_gain": True}, *EFFECTS[1:]],
+        function(method="varpro"),
+        function(method="oe", orders=[2, 2]),
+        function(method="arx", orders=[2, 2], delay=1),
+    ],
+    ids=["named", "gain_by", "one_gain", "varpro", "oe", "arx"],
+)
+def test_what_a_result_holds_predicts_as_the_fit_did(world: Dataset, spec: Spec, effects: list[dict[str, Any]]) -> None:
+    fitted = fit_model(spec(*effects), world)
+    kept = as_kept(fitted.spec, make_result(fitted, world, "m"), world)
+    for test in fitted.tests(world):
+        one, other = fitted.responses[0], kept.responses[0]
+        if one.can_predict(test):
+            np.testing.assert_allclose(other.residual(test), one.residual(test), rtol=1e-9, atol=1e-9)
+
+
+@pytest.fixture
+def edited(world: Dataset, spec: Spec, tmp_path: Path) -> tuple[Store, str, Callable[[str, str], list[str]]]:
+    """A store with a model, and an edit of its campaign file."""
+    store = stored(world, tmp_path)
+    model = run.fit(store, spec(*EFFECTS)).model
+    path = tmp_path / "campaign.yaml"
+
+    def edit(old: str, new: str) -> list[str]:
+        assert old in path.read_text()
+        path.write_text(path.read_text().replace(old, new))
+        return ingest(store, path).stale
+
+    return store, model, edit
+
+
+def test_a_stale_model_keeps_its_parameters_and_says_so(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, edit = edited
+    was = find_model(store, model).result
+    assert stale_line(store, model) is None
+    assert edit("role: verification", "role: calibration") == [model]
+    assert run.load(store, model).fitted.parameters()["spindle_bearing.gain"].value == pytest.approx(
+        was.parameters["spindle_bearing.gain"].value, rel=1e-12
+    )
+    assert run.compare(store, [model]) == [was]
+    line = stale_line(store, model)
+    assert line is not None
+    assert model in line
+    assert "role of" in line
+    assert f"thermodata fit {model}" in line
+    for words in (
+        ["show", model],
+        ["compare", model, "--json"],
+        ["portability", model],
+        ["predict", model, "campaign:c"],
+    ):
+        said = CliRunner().invoke(cli, ["--store", str(store.path), *words])
+        assert said.stderr.count("stale:") == 1, words
+        assert said.exit_code in (0, 3), said.output
+    again = run.fit(store, Model.model_validate(find_model(store, model).spec)).model
+    assert again != model
+    assert stale_line(store, again) is None
+
+
+def test_a_test_that_was_open_when_a_model_was_fitted_is_no_new_one_once_it_is_locked(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], world: Dataset
+) -> None:
+    store, model, edit = edited
+    assert open_in(store, ["c"]) == {}
+    edit("role: verification", "role: locked")
+    was = [t.test for t in world.tests if t.role == "verification"]
+    assert open_in(store, ["c"]) == {("c", name): [f"base {model}"] for name in was}
+    assert about_test(store, "c", was[0]).open_in == (f"base {model}",)
+    # and what is locked now stays shut in the model that saw it
+    assert {run.load(store, model).fitted.roles.role(("c", name)) for name in was} == {"locked"}
+
+
+def test_a_test_that_is_new_leaves_a_model_as_it_was_fitted(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], world: Dataset, tmp_path: Path
+) -> None:
+    store, model, edit = edited
+    was = find_model(store, model).result
+    name = next(t.test for t in world.tests if t.role == "calibration")
+    (tmp_path / "raw" / "later.csv").write_text((tmp_path / "raw" / f"{name}.csv").read_text().replace("0.1", "0.3"))
+    edit("tests:\n", "tests:\n- {id: later, kind: spectrum, role: calibration}\n")
+    now = run.compare(store, [model])[0]
+    assert now.parameters == was.parameters
+    assert {s.role for s in now.scores if s.test == "later"} == {"verification"}

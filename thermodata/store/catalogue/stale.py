@@ -1,0 +1,36 @@
+"""What is said of a model whose data changed since it was fitted, in one line for all who use it."""
+
+from __future__ import annotations
+
+import json
+
+from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.models import STALE, find_model
+from thermodata.store.catalogue.store import Store
+
+_NAMED = 4  # tests of one change
+
+
+def stale_line(store: Store, model: str) -> str | None:
+    """One line on a model whose data changed since it was fitted: which, what changed, and what to do; else None."""
+    stored = find_model(store, model)
+    if not stored.stale:
+        return None
+    with store.reader() as con:
+        rows = fetch(con, "select payload from finding where model = ? and kind = ? order by rowid", [model, STALE])
+    changed: dict[str, list[str]] = {}
+    for found in (json.loads(r["payload"]) for r in rows):
+        changed[found["test"]] = list(dict.fromkeys([*changed.get(found["test"], []), *found["what"]]))
+    by_what: dict[str, list[str]] = {}
+    for test, what in changed.items():
+        by_what.setdefault(" and ".join(["gone"] if "gone" in what else what), []).append(test)
+    told = "; ".join(
+        f"{what} of {', '.join(tests[:_NAMED])}" + (f" and {len(tests) - _NAMED} more" if len(tests) > _NAMED else "")
+        if what != "gone"
+        else f"gone: {', '.join(tests)}"
+        for what, tests in by_what.items()
+    )
+    return (
+        f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}); "
+        f"thermodata fit {stored.model} fits it to them as they are now"
+    )
