@@ -127,8 +127,8 @@ def _by_unit(named: tuple[str, ...], unit: str, own: str, values: Values | None)
         and _DELTA.match(own)
         and (values is None or _in_degc(values.low, unit) < _NO_HALL_C)
     ):
-        doubt = f"quantity: temperature_difference, or temperature? the name may say a difference, in {unit}"
-        return Guess("temperature", unit, basis=("name", "unit"), questions=(doubt,))
+        which = f"quantity: temperature_difference, or temperature? the name may say a difference, in {unit}"
+        return Guess("temperature", unit, basis=("name", "unit"), questions=(which,))
     if both and (both[0] != "voltage" or "displacement" not in both):
         return Guess(both[0], unit, sure=True, basis=("name", "unit"))
     if "displacement" in both:
