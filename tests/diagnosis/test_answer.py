@@ -105,6 +105,9 @@ def test_two_missing_causes_are_claimed_at_once_or_one_after_the_other(spec: Mod
         new = {c.drivers[0]: c for c in found.candidates if c.claimed}
         assert found.verdict == "effect"
         assert new
+        assert found.rmse_um is not None
+        assert found.named_rmse_um is not None
+        assert found.named_rmse_um < found.rmse_um, "with all that is claimed"
         claimed |= set(new)
         if claimed == {"T_nut_X", "T_tank"}:
             break

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked
+from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.store.catalogue import models as catalogue
@@ -102,3 +102,17 @@ def test_it_is_known_of_a_model_that_has_all_that_was_claimed(
     monkeypatch: pytest.MonkeyPatch, effects: list[EffectSpec], diagnoses: list[Any], expected: dict[str, float]
 ) -> None:
     assert asked(monkeypatch, grown(*effects), diagnoses) == expected
+
+
+def test_the_error_with_a_free_level_is_known_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Errors on left-out tests have their level free: only the like is held against them."""
+    one = SimpleNamespace(id="lag:T_a", claimed=True, locked_rmse_um_after=3.0, locked_shape_um_after=1.0)
+    chain = [SimpleNamespace(model="0", spec=BASE), SimpleNamespace(model="last")]
+    monkeypatch.setattr(catalogue, "model_chain", lambda store, model: chain)
+    found = SimpleNamespace(response="dZ", candidates=[one])
+    monkeypatch.setattr(catalogue, "load_diagnosis", lambda store, model: found)
+    loaded: Any = SimpleNamespace(
+        identity="last", data=SimpleNamespace(channels=CHANNELS), fitted=SimpleNamespace(spec=grown(ADDED))
+    )
+    store: Any = Path("store")
+    assert (left_on_locked(store, loaded), shape_left_on_locked(store, loaded)) == ({"dZ": 3.0}, {"dZ": 1.0})

@@ -104,3 +104,11 @@ def test_where_heat_moved_what_the_ends_tell_too_nothing_is_said_of_it_twice() -
     ends = Ends((odd("t1"),))
     assert ends.artefacts("other", [move("t1", -SHIFT_S + 100.0)]) == []
     assert len(ends.artefacts("other", [])) == 1
+
+
+def test_a_hint_that_was_not_acted_upon_says_which_line_to_try() -> None:
+    odd = OddEnds("c", "feed20", "nc", "log", 2405.0, "odd ends")
+    (told,) = Ends((odd,)).artefacts("log", [])
+    assert "write clocks: {nc: -2405 s} into the line of test 'feed20'" in told.why
+    (elsewhere,) = Ends((odd,)).artefacts("third", [])
+    assert "To try it" not in elsewhere.why

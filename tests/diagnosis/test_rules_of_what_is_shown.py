@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.question.weak import describe_state, weak_spots
+from thermodata.diagnosis.tell.listed import _as_ranked, alike_both_ways
 from thermodata.diagnosis.tell.next_test import to_bear_out, to_decide, to_find, to_separate, to_tell_parts
-from thermodata.diagnosis.tell.why import in_spite_of
+from thermodata.diagnosis.tell.why import _of_all, in_spite_of, placeless_limit
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.plugin import Float1D
+from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
 
@@ -160,7 +162,10 @@ def test_a_table_that_turns_does_not_hide_that_the_spindle_rests() -> None:
     [
         ([0.0] * 25 + [3000.0] * 25, "u 0 to 3000 rpm"),  # whose median is 1500, which never was
         ([0.0] * 24 + [1500.0] + [3000.0] * 25, "u 0 to 3000 rpm"),  # a mean of 60 s over the change
-        ([0.0] * 12 + [3000.0] * 38, "u 3000 rpm"),
+        ([0.0] * 2 + [3000.0] * 48, "u 3000 rpm"),
+        ([0.0] * 12 + [3000.0] * 38, "u 3000 rpm from 62 min on"),
+        ([3000.0] * 38 + [0.0] * 12, "u 3000 rpm until 87 min"),
+        ([3000.0] * 20 + [0.0] * 10 + [3000.0] * 20, "u 3000 rpm for 80 % of the time"),
         ([0.0] * 38 + [3000.0] * 12, "spindle at rest"),
         ([2990.0] * 20 + [3000.0] * 10 + [3010.0] * 20, "u 3000 rpm"),
         ([1000.0] * 20 + [2000.0] * 15 + [6000.0] * 15, "u 1000 to 6000 rpm"),
@@ -430,3 +435,38 @@ def test_a_claim_says_what_outweighs_the_figures_against_it(after: float, spread
     assert [one for one in said if one in words] == said
     assert ("its evidence, 0.90 a sample, outweighs" in words) is bool(said)
     assert ("that its gain differs" in words) is (spread > 0.5)
+
+
+def test_errors_of_all_tests_are_told_beside_those_in_which_it_acts_where_they_differ() -> None:
+    one = scored("one", after=0.5)
+    other = replace(one, sse_before=4 * one.own_before, sse_after=one.own_after)
+    said = _of_all(one, other, "tests", "um")
+    assert said.startswith(" (over all tests, with these fitted to the other tests too, it goes 2.00 -> 0.50 um")
+    assert _of_all(one, replace(one, sse_before=one.own_before, sse_after=one.own_after), "tests", "um") == ""
+    assert _of_all(one, None, "tests", "um") == ""
+
+
+def test_a_claim_below_the_limit_of_a_declared_place_says_by_which_limit_it_stands() -> None:
+    one = scored("one", after=0.9, evidence=30.0)
+    bare = replace(one, candidate=replace(one.candidate, placeless=True))
+    assert "a claim asks 50 % in place of 65 %" in placeless_limit(bare)
+    assert placeless_limit(one) == ""
+    assert placeless_limit(replace(bare, evidence=3000.0)) == ""
+
+
+def test_what_cant_be_told_apart_says_so_of_both() -> None:
+    def row(rank: int, name: str, *twins: str) -> Any:
+        return Candidate(
+            rank=rank, id=name, effect=name, family="", drivers=[], claimed=False, p_value=None, rmse_um_before=None,
+            rmse_um_after=None, fit_before=None, fit_after=None, equivalent=list(twins),
+        )  # fmt: skip
+
+    found = alike_both_ways([row(1, "a", "b", "x"), row(2, "b"), row(3, "c", "a", "b")])
+    assert [one.equivalent for one in found] == [["b", "x"], ["a"], []]
+
+
+def test_what_was_dropped_is_alike_as_the_ranking_has_it_that_the_others_stand_in() -> None:
+    ranked = scored("one")
+    dropped = replace(ranked, shape=np.array([0.0, 1.0]))
+    assert _as_ranked(dropped, [scored("other"), ranked]) is ranked
+    assert _as_ranked(dropped, []) is dropped

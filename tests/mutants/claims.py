@@ -451,7 +451,7 @@ MUTANTS = [
     ),
     diagnosis(
         "listed.py",
-        "explained(_beside_the_model(item[0], investigation)[0])",
+        "explained(beside_the_model(item[0], investigation)[0])",
         "explained(item[0])",
         "the list contradicts the errors that stand in it",
     ),

@@ -76,7 +76,7 @@ def test_words_and_figures_agree(
         locked_shape_um_before=shape[0],
         locked_shape_um_after=shape[1],
         parameters={},
-        tests=[results.TestConfirmed(campaign="c", test="last", rmse_um_before=14.2, rmse_um_after=17.2)],
+        tests=[results.TestConfirmed(campaign="c", test="last", rmse_um_before=14.2, rmse_um_after=14.3)],
         looks=2,
     )
     text = confirmed_text(result)
@@ -129,3 +129,19 @@ def test_the_tests_that_were_asked_are_named_where_not_all_were() -> None:
         "lag:t4 holds on the locked tests in which it acts (day1, day2): 1.50 -> 0.500 um about each test's mean; from "
         "their first samples on, over all, 2.00 -> 1.00 um"
     )
+
+
+def test_a_test_that_rises_is_named_beside_what_holds_and_a_response_is_no_cause() -> None:
+    def of(campaign: str, before: float, after: float) -> results.TestConfirmed:
+        return results.TestConfirmed(campaign=campaign, test="mix2", rmse_um_before=before, rmse_um_after=after)
+
+    known = results.Confirmed(
+        model="m", response="dZ", candidate="lag:ch4", holds=True, holds_by_shape=True, locked_rmse_um_before=14.1,
+        locked_rmse_um_after=11.7, parameters={}, tests=[of("sim", 20.0, 9.0), of("tool2", 7.69, 11.6)], looks=1,
+        note="ch4 is itself a displacement",
+    )  # fmt: skip
+    text = confirmed_text(known)
+    assert "; yet from its first samples on the error rises in tool2/mix2, 7.69 -> 11.6 um\n" in text
+    assert "\nch4 is itself a displacement\n" in text
+    calm = known.model_copy(update={"tests": [of("sim", 20.0, 9.0)], "note": None})
+    assert "yet" not in confirmed_text(calm)

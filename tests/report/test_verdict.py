@@ -20,7 +20,7 @@ from thermodata.report.page import render
 from thermodata.report.refined import named
 from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.schema.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.diagnosis import ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
+from thermodata.schema.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
 from thermodata.schema.listed import listed
 
 from .conftest import diagnosis
@@ -257,10 +257,64 @@ def test_errors_beside_other_candidates_are_none_of_the_users_model_and_say_so()
     )
 
 
+def test_the_errors_of_a_headline_are_of_the_users_model_and_of_all_that_it_names() -> None:
+    """Whatever else a claim was judged beside: nobody adds that."""
+    hidden = claim("screw", rmse_um_before=3.05, rmse_um_after=1.30, beside=["lag:t2"])
+    text = verdict_sentence(found("effect", [hidden], rmse_um=1.46, named_rmse_um=1.16))
+    assert "; error on left-out tests 1.46 -> 1.16 um; " in text
+    both = verdict_sentence(found("effect", [hidden, claim("sun")], rmse_um=1.46, named_rmse_um=1.16))
+    assert "; error on left-out tests with both 1.46 -> 1.16 um; locked tests with both " in both
+    worse = verdict_sentence(found("effect", [hidden], rmse_um=1.46, named_rmse_um=1.5))
+    assert "error on left-out tests (falls where it acts only; over all: 1.46 -> 1.50 um)" in worse
+    mode = one("mode", refinement=True, beside=["oil:T"])
+    text = verdict_sentence(found("refine", [mode], rmse_um=1.46, named_rmse_um=1.16))
+    assert text.endswith("refined by mode (T), error on left-out tests 1.46 -> 1.16 um")
+
+
 def test_what_is_not_excluded_says_how_probable_it_is() -> None:
     assert verdict_sentence(found("none", [one("sun", probability=0.14)])).endswith(
         "; not excluded: sun (T), probability 14 %"
     )
+
+
+def test_what_is_as_probable_as_a_claim_and_not_excluded_says_what_stops_it_and_its_twins() -> None:
+    rungs = [
+        rung("worth", holds=False).model_copy(update={"fails": "it explains 1.8 % of the response (limit 10 %)"}),
+        rung("probability", holds=True),
+    ]
+    likely = one("motor", probability=0.71, equivalent=["screw:T_n"], rungs=rungs)
+    text = verdict_sentence(found("none", [likely]))
+    assert text.startswith("the open tests show no missing effect that may be named: ")
+    assert text.endswith(
+        "; not excluded: motor (T), probability 71 %, not told from screw (T_n), but it explains 1.8 % of the response "
+        "(limit 10 %)"
+    )
+    unlikely = likely.model_copy(update={"probability": 0.4, "rungs": [rungs[0], rung("probability", holds=False)]})
+    assert verdict_sentence(found("none", [unlikely])).endswith(", not told from screw (T_n)")
+
+
+@pytest.mark.parametrize(("shape", "said"), [(None, "0.549 um"), (0.22, ""), (0.5, "0.500 um")])
+def test_locked_and_left_out_tests_are_held_against_each_other_with_a_free_level(
+    shape: float | None, said: str
+) -> None:
+    known = found("none", [], rmse_um=0.197, locked_rmse_um=0.549, locked_shape_um=shape)
+    told = f"but an earlier claim left the locked tests with {said}"
+    assert (told in verdict_sentence(known)) is bool(said)
+    assert ("an earlier claim" in verdict_sentence(known)) is bool(said)
+    assert "on locked tests" in diagnosis_text(known)
+    assert ("about each one's mean, 0.549 um from first samples on" in diagnosis_text(known)) is (shape is not None)
+
+
+def test_nothing_is_missing_only_as_the_logs_are_dated_where_a_clock_was_not_moved() -> None:
+    hint = Artefact(kind="clock_offset", campaign="c", test="feed20", at_s=None, size_um=None, why="odd ends")
+    text = verdict_sentence(found("none", [], artefacts=[hint]))
+    assert text.startswith(
+        "the open tests show no missing effect as the logs are dated, but a clock may be off in feed20, by which "
+        "nothing was moved: "
+    )
+    moved = PutRight(clocks=[ClockMoved(source="nc", campaign="c", test="feed20", moved_s=-2405.0)])
+    assert "may be off" not in verdict_sentence(found("none", [], artefacts=[hint], put_right=moved))
+    assert "may be off in feed20" in verdict_sentence(found("refine", [one("m", refinement=True)], artefacts=[hint]))
 
 
 @pytest.mark.parametrize(

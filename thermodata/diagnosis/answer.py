@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.diagnosis.candidates.failing import without_failing
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.at_rest import AtRest as Resting
 from thermodata.diagnosis.claims.detection import LARGE, Limit
 from thermodata.diagnosis.claims.other_axes import OtherAxes
@@ -22,8 +23,16 @@ from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
-from thermodata.diagnosis.tell.listed import candidate, explainable, first_cause, listed, with_probability
+from thermodata.diagnosis.tell.listed import (
+    alike_both_ways,
+    candidate,
+    explainable,
+    first_cause,
+    listed,
+    with_probability,
+)
 from thermodata.diagnosis.tell.started_on import started_with
+from thermodata.diagnosis.tell.together import left_with_named
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -135,7 +144,13 @@ def _answer(
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
     left_out = [*asked_of.put_right.left_out, *opened.turned]
+    made = None if confirmation is None else confirmation.fitted
+
+    def refit(some: Sequence[CandidateEffect]) -> FittedResponse:
+        return made if made is not None else fits_of(()).of(some)
+
     beside = {
+        "named_rmse_um": left_with_named(investigation, judgement, refit, data, usable),
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),
@@ -225,10 +240,12 @@ def _diagnosis(
         explainable=most,
         explainable_by=most_by,
         weak_spots=investigation.spots,
-        candidates=[
-            candidate(i + 1, s, member, s is head, told_with, investigation, judgement, confirmation, data)
-            for i, (s, member) in enumerate(shown)
-        ],
+        candidates=alike_both_ways(
+            [
+                candidate(i + 1, s, member, s is head, told_with, investigation, judgement, confirmation, data)
+                for i, (s, member) in enumerate(shown)
+            ]
+        ),
         artefacts=investigation.artefacts,
         unknown=characterise(
             problem,

@@ -16,7 +16,7 @@ from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
 from thermodata.diagnosis.locked.confirm import Fits, confirm
 from thermodata.diagnosis.locked.copies import copies
 from thermodata.diagnosis.locked.held import as_held, held
-from thermodata.diagnosis.locked.left_on_locked import left_on_locked
+from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.sound import sound, told
@@ -29,7 +29,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, phases_of
+from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, note_of_response, phases_of
 from thermodata.schema.diagnosis import Confirmed, Diagnosis, TestConfirmed
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__
@@ -92,7 +92,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
         outcome = answer(
             model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends, name=response
         )
-    found = outcome.diagnosis
+    shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
+    found = outcome.diagnosis.model_copy(update={"locked_shape_um": shape})
     for look in outcome.looks:
         count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
     save_diagnosis(store, model.identity, found)
@@ -184,6 +185,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
         probability=_claimed_with(store, model.identity, of.name, name),
         put_right=told(put_right),
+        note=note_of_response(chosen.channels, model.data.channels),
     )
     result = held(found, None if shape is None else shape.holds)
     keep_answer(store, model.identity, question, key, result.model_dump_json())

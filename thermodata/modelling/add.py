@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.run import fit, load
-from thermodata.modelling.versions.candidate import with_candidate, with_effect
+from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.modelling.versions.unsound import heeding
@@ -43,6 +43,9 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
         grown, notes = refined.spec, [*notes, *refined.notes]
     had = term_ids(parent.spec.effects)
     added = [i for i in term_ids(grown.effects) if i not in had]
+    own = [e for e, i in zip(grown.effects, term_ids(grown.effects), strict=True) if i in added]
+    named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
+    notes = [*notes, *filter(None, [note_of_response(list(named), old.data.channels)])]
     result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed and c.id == name] if diagnosis is not None else []
     if not claims:

@@ -14,19 +14,29 @@ if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate
 
 
-def left_out_errors(some: Sequence[Candidate], left: float | None) -> str:
-    """What each gives on left-out tests. Over all of them an error may rise though it falls where the effect acts.
-    left: the error of the user's own model."""
+def left_out_errors(some: Sequence[Candidate], left: float | None, together: float | None = None) -> str:
+    """Of the user's own model, and with all of some added. left: the error of the former; together: of the latter. In
+    answers of older versions, which have none of these, what each gives beside the others."""
+    if left is not None and together is not None:
+        return _from_to(f"error on left-out tests{_all_of(some)}", some, left, together)
+    return _each_beside(some, left)
+
+
+def _all_of(some: Sequence[Candidate]) -> str:
+    return "" if len(some) == 1 else " with both" if len(some) == 2 else f" with all {len(some)}"
+
+
+def _each_beside(some: Sequence[Candidate], left: float | None) -> str:
     if len(some) == 1:
         others = listed(beside(some[0], left))
-        return _from_to("error on left-out tests" + (f" beside {others}:" if others else ""), some[0])
+        return _of_one("error on left-out tests" + (f" beside {others}:" if others else ""), some[0])
     ids = {c.id for c in some}
     if all(set(beside(c, left)) == ids - {c.id} for c in some):
-        each = [_from_to(c.effect, c) for c in some]
+        each = [_of_one(c.effect, c) for c in some]
         apart = len({number(c.rmse_um_after) for c in some}) > 1
         turns = " (fitted in turn, the others as they stand, so these end apart)" if apart else ""
         return f"error on left-out tests, each beside the other{'s' if len(some) > 2 else ''}: {', '.join(each)}{turns}"
-    each = [_from_to(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
+    each = [_of_one(f"{c.effect} {_beside_or_alone(beside(c, left))}", c) for c in some]
     return f"error on left-out tests: {', '.join(each)}"
 
 
@@ -51,7 +61,7 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
     before, after = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
     if before is None or after is None:
         return ""
-    all_of = "" if len(claims) == 1 else " with both" if len(claims) == 2 else f" with all {len(claims)}"
+    all_of = _all_of(claims)
     if claims[0].locked_tests_asked == 0:
         acts = "it hardly acts" if len(claims) == 1 else "they hardly act"
         of = "its" if len(claims) == 1 else "their"
@@ -69,14 +79,20 @@ def locked_errors(claims: Sequence[Candidate]) -> str:
     return f"; locked tests{all_of} (judged by their shape where it acts{by}; from their first samples on: {figures})"
 
 
-def _from_to(what: str, one: Candidate) -> str:
-    before, after = one.rmse_um_before, one.rmse_um_after
+def _of_one(what: str, one: Candidate) -> str:
+    return _from_to(what, [one], one.rmse_um_before, one.rmse_um_after)
+
+
+def _from_to(what: str, some: Sequence[Candidate], before: float | None, after: float | None) -> str:
+    """Over all tests an error may rise though it falls where an effect acts."""
     if before is None or after is None:
         return f"{what} not known"
     figures = f"{number(before)} -> {number(after)} um"
     if after < before:
         return f"{what} {figures}"
-    falls = next((r.value for r in one.rungs if r.name == "fall"), None)
-    if falls is not None and falls <= 0:
-        return f"{what} (does not fall, though the evidence speaks for it: {figures})"
-    return f"{what} (falls where it acts only; over all: {figures})"
+    falls = [next((r.value for r in one.rungs if r.name == "fall"), None) for one in some]
+    if all(fall is not None and fall <= 0 for fall in falls):
+        of = "it" if len(some) == 1 else "them"
+        return f"{what} (does not fall, though the evidence speaks for {of}: {figures})"
+    acts = "it acts" if len(some) == 1 else "they act"
+    return f"{what} (falls where {acts} only; over all: {figures})"

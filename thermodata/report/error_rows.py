@@ -85,11 +85,14 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
-    claims = _all_added(data)
+    claims, reason = _all_added(data), data.reason
+    left = reason.rmse_um if reason else None
+    if claims and reason and left is not None and reason.named_rmse_um is not None:
+        of = _of_response(data, reason)
+        return ErrorRow("left-out", left, reason.named_rmse_um, True, "", of.unit, of.response)
     # errors beside other candidates are of no model that anybody has
-    left = data.reason.rmse_um if data.reason else None
     if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
-        of = _of_response(data, data.reason)
+        of = _of_response(data, reason)
         return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "", of.unit, of.response)
     if data.diagnosis and data.diagnosis.rmse_um is not None:
         of = _of_response(data, data.diagnosis)

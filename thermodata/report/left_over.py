@@ -56,7 +56,8 @@ def otherwise(found: Diagnosis) -> str:
     instead = may_act_instead(found)
     return (
         f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
-        f"{number(fitted)} um on the open tests, so fit it to all of them, or add a second lag of what it has"
+        f"{number(fitted)} um on the open tests from their first samples on, so fit "
+        "it to all of them, or add a second lag of what it has"
         f"{f'; or {instead}' if instead else ''}{of_levels(found, told=True)}"
     )
 
@@ -73,7 +74,10 @@ def of_levels(found: Diagnosis, told: bool = False) -> str:
         if one.of_squares > LITTLE * share
     ]
     error = (
-        "" if told else f"as it is fitted the model leaves {number(found.fitted_rmse_um)} um on the open tests, and "
+        ""
+        if told
+        else f"as it is fitted the model leaves {number(found.fitted_rmse_um)} um on the open tests from their first "
+        "samples on, and "
     )
     return (
         f"; {error}{percent(share)} of the square of that error is the level of tests that may have been on before: "

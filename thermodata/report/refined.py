@@ -33,7 +33,8 @@ def told_with_errors(found: Diagnosis, advice: str = "") -> str:
     parts = []
     if worth:
         them = "it" if len(worth) == 1 else "them"
-        parts.append(f"{can_be_refined(found)}, {left_out_errors(worth, found.rmse_um)}{advice.format(them=them)}")
+        errors = left_out_errors(worth, found.rmse_um, found.named_rmse_um)
+        parts.append(f"{can_be_refined(found)}, {errors}{advice.format(them=them)}")
     return "; ".join([*parts, *map(_not_worth, others)])
 
 

@@ -97,16 +97,21 @@ def put_right(found: PutRight | None) -> str:
 def _verdict(found: Diagnosis) -> str:
     claims, refined = claims_of(found), refinements_of(found)
     if found.verdict == "effect" and claims:
-        return "; ".join(filter(None, [_missing(claims, found.rmse_um), can_be_refined(found)]))
+        return "; ".join(filter(None, [_missing(claims, found), can_be_refined(found)]))
     if found.verdict == "unknown":
         return "; ".join(filter(None, [_unclaimed(found), told_with_errors(found, ": add {them} and ask again")]))
-    far = _far_on_locked(found)
+    # left-out tests have their level free
+    far = _far_on_locked(found, found.locked_rmse_um if found.locked_shape_um is None else found.locked_shape_um)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
     open_still = "; ".join(filter(None, [there, _not_excluded(found)]))
     if found.verdict == "refine" and refined:
-        return "; ".join(filter(None, [NO_MORE, told_with_errors(found), open_still]))
+        return "; ".join(filter(None, [f"{NO_MORE}{clock_in_doubt(found)}", told_with_errors(found), open_still]))
     if found.verdict == "none":
-        return "; ".join(filter(None, [f"the open tests show no missing effect: {left_over(found)}", open_still]))
+        doubt = clock_in_doubt(found)
+        named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
+        colon = "; " if doubt else ": "
+        none = f"the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
+        return "; ".join(filter(None, [none, open_still]))
     return {
         "effect": "missing: an effect that the data point to",
         "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
@@ -114,19 +119,49 @@ def _verdict(found: Diagnosis) -> str:
     }[found.verdict]
 
 
-def _not_excluded(found: Diagnosis) -> str:
+def clock_in_doubt(found: Diagnosis) -> str:
+    """' as its logs are dated, but a clock may be off in feed20 (...)': a hint that the answer did not act upon; ''
+    where there is none."""
+    moved = [] if found.put_right is None else found.put_right.clocks
+    places = {(c.campaign, c.test) for c in moved}
+    open_still = [a for a in found.artefacts if a.kind == "clock_offset"]
+    open_still = [a for a in open_still if not places & {(a.campaign, a.test or ""), ("", ""), (a.campaign, "")}]
+    tests = list(dict.fromkeys(a.test or "all tests" for a in open_still))
+    if not tests:
+        return ""
+    return (
+        f" as the logs are dated, but a clock may be off in {listed(tests)}, by which nothing was moved: the artefact "
+        "says what to declare and try, and until then something may be missing"
+    )
+
+
+def _not_excluded_one(found: Diagnosis) -> Candidate | None:
     """The likeliest cause where none is said to be missing, if it is one in so many cases, and by another channel than
-    what is refined; else ''."""
+    what is refined."""
     first = next((c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases), None)
     if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
-        return ""
-    if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)):
-        return ""
-    return f"not excluded: {_or_elsewhere(first)}, {_how_sure(first)}"
+        return None
+    return None if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)) else first
 
 
-def _missing(claims: Sequence[Candidate], left: float | None) -> str:
-    return f"missing: {causes(claims)}; {left_out_errors(claims, left)}{locked_errors(claims)}"
+def _not_excluded(found: Diagnosis) -> str:
+    """With what stops it, where it is as probable as a claim asks."""
+    first = _not_excluded_one(found)
+    if first is None:
+        return ""
+    said = ", ".join(filter(None, [_or_elsewhere(first), _how_sure(first), _not_told_from(first)]))
+    stops = next((r.fails for r in first.rungs if not r.holds and r.fails), None)
+    return f"not excluded: {said}{f', but {stops}' if stops and _is_likely(first) else ''}"
+
+
+def _is_likely(one: Candidate | None) -> bool:
+    """Whether it is as probable as a claim asks."""
+    return one is not None and any(r.name == "probability" and r.holds for r in one.rungs)
+
+
+def _missing(claims: Sequence[Candidate], found: Diagnosis) -> str:
+    errors = left_out_errors(claims, found.rmse_um, found.named_rmse_um)
+    return f"missing: {causes(claims)}; {errors}{locked_errors(claims)}"
 
 
 def causes(claims: Sequence[Candidate]) -> str:
@@ -171,7 +206,8 @@ def _how_sure(one: Candidate) -> str:
 def _unclaimed(found: Diagnosis) -> str:
     """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
     first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
-    far, share = _far_on_locked(found), 0.0 if first is None else first.probability or 0.0
+    far, share = _far_on_locked(found, found.locked_rmse_um), 0.0 if first is None else first.probability or 0.0
+    far += " from their first samples on" if far and found.locked_shape_um is not None else ""
     seen = f" on the locked tests, which an earlier claim left with {far}" if far else ""
     # no more than models leave of a machine that lacks nothing, and nothing is plausible: then nobody knows
     as_much = "" if far or share >= PLAUSIBLE else as_of_nothing(found)
@@ -195,9 +231,9 @@ def _unclaimed(found: Diagnosis) -> str:
     )
 
 
-def _far_on_locked(found: Diagnosis) -> str:
+def _far_on_locked(found: Diagnosis, locked: float | None) -> str:
     """'3.32 um', which an earlier claim left on the locked tests; '' where it is near to that on left-out ones."""
-    locked, left = found.locked_rmse_um, found.rmse_um
+    left = found.rmse_um
     far = locked is not None and left is not None and locked >= FAR * left
     return f"{number(locked)} um" if far and locked is not None else ""
 

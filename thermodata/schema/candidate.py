@@ -18,6 +18,7 @@ class Rung(Result):
     at: whether the value has to be at least or at most the limit
     holds: whether the rule is met
     asked: whether it decides; false where the value misses the limit and something stronger outweighs it
+    fails: why who breaks it is no cause, in a sentence; null where it is met, or in an answer of an older version
     """
 
     name: str
@@ -28,6 +29,7 @@ class Rung(Result):
     at: Literal["least", "most"]
     holds: bool
     asked: bool = True
+    fails: str | None = None
 
 
 class LeftOut(Result):

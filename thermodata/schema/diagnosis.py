@@ -178,9 +178,13 @@ class Diagnosis(Result):
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
     rmse_um: error on left-out tests without any candidate, where the effects of the model may act otherwise than by
         their one lag
+    named_rmse_um: the same with all claims added, or where nothing is claimed with the refinements that let an error
+        fall; null where nothing is named, or in an answer of an older version
     fitted_rmse_um: error of the model as it is fitted, on the open tests from their first samples on
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
         none were
+    locked_shape_um: the same over those in which they act, a free offset for each, as left-out tests have it; null
+        where it is not known
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
     explainable_by: id of that candidate; null where none is known, or in an answer of an older version
     weak_spots: where the model fails, by cost
@@ -205,8 +209,10 @@ class Diagnosis(Result):
     noise_um: float | None
     noise_over_s: float | None = None
     rmse_um: float | None
+    named_rmse_um: float | None = None
     fitted_rmse_um: float | None = None
     locked_rmse_um: float | None = None
+    locked_shape_um: float | None = None
     explainable: float | None
     explainable_by: str | None = None
     weak_spots: list[WeakSpot]
@@ -265,6 +271,7 @@ class Confirmed(Result):
     looks: how often the locked tests have been opened so far, this look included; the most of any test
     probability: that the stored diagnosis claims it with; null where it does not
     put_right: what of the logs was put right before, as a diagnosis does; null where nothing was
+    note: why it is no cause whatever the tests say; null where nothing forbids it
     """
 
     model: str
@@ -282,3 +289,4 @@ class Confirmed(Result):
     looks: int
     probability: float | None = None
     put_right: PutRight | None = None
+    note: str | None = None

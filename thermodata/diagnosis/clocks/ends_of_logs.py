@@ -81,6 +81,12 @@ class Ends:
             if move is None and abs(odd.shift_s + late - early) < abs(odd.shift_s) / 2:
                 continue
             then = f"Nothing was moved for it here, for {_BY_NO_HEAT if move is not None else _IN_NEITHER}"
+            if move is not None:
+                line = f"clocks: {{{move.source}: {move.moved_s:.0f} s}}"
+                then += (
+                    f". To try it, write {line} into the line of test '{odd.test}' in the campaign file, then "
+                    "thermodata ingest, fit and diagnose again: the smaller error on left-out tests is right"
+                )
             if move is not None and move in moved:
                 by = f"{move.moved_s / 60:+.3g} min"
                 then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}. "

@@ -43,7 +43,7 @@ class Confirmation:
     (key, error before, error after) of every locked test. shapes: of every one, too. asked: the keys of those that
     decide, for a claim acts there; None: all. acts: the keys of those in which the candidates themselves act, fitted
     beside the model as it stands (`ACTS`). implausible: what is said of gains that are larger than anything known, by
-    candidate.
+    candidate. fitted: with the candidates, to all open tests.
     """
 
     before: float | None
@@ -57,6 +57,7 @@ class Confirmation:
     asked: frozenset[tuple[str, str]] | None = None
     acts: frozenset[tuple[str, str]] = frozenset()
     implausible: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    fitted: FittedResponse | None = None
 
     def on(self, tests: frozenset[tuple[str, str]] | None) -> Foretold | None:
         """By shape, on some of the locked tests; None where none of them can be predicted."""
@@ -124,6 +125,7 @@ def confirm(
         tuple(_shape(ours, theirs, t) for t in usable),
         acts=_acting(ours, theirs, [name for c in candidates for name in c.becomes], tests, usable),
         implausible={c: _implausible(theirs.checks, some) for c, some in terms.items()},
+        fitted=theirs,
     )
 
 

@@ -32,6 +32,18 @@ from thermodata.schema.quantity import difference_unit
 def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
     """Response -> error on the locked tests [its unit], with the claims of the last version that was given any; empty
     where none was, where there was nothing to confirm them on, or where the model has not all of them."""
+    found = _claimed_before(store, model)
+    return {} if found is None or (known := found[1].locked_rmse_um_after) is None else {found[0]: known}
+
+
+def shape_left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
+    """The same with a free offset a test, as left-out tests have it, of those in which the claims act."""
+    found = _claimed_before(store, model)
+    return {} if found is None or (known := found[1].locked_shape_um_after) is None else {found[0]: known}
+
+
+def _claimed_before(store: Store, model: Loaded) -> tuple[str, Candidate] | None:
+    """(response, first claim) of the last version that was given any, where the model has all of them."""
     from thermodata.store.catalogue.models import load_diagnosis, model_chain
 
     for earlier in reversed(model_chain(store, model.identity)[:-1]):
@@ -39,10 +51,8 @@ def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
         claims = [c for c in found.candidates if c.claimed] if found is not None else []
         if found is None or not claims:
             continue
-        known = claims[0].locked_rmse_um_after
-        has_all = known is not None and _has(model, earlier.spec, claims)
-        return {found.response: known} if known is not None and has_all else {}
-    return {}
+        return (found.response, claims[0]) if _has(model, earlier.spec, claims) else None
+    return None
 
 
 def contradicted(

@@ -112,8 +112,8 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
         values = test.values.get(name)
         if values is None:
             continue
-        part = values[start:stop]
-        part = part[np.isfinite(part)]
+        part, t_s = values[start:stop], test.t_s[start:stop]
+        part, t_s = part[np.isfinite(part)], t_s[np.isfinite(part)]
         if not len(part):
             continue
         if info.quantity in ("rotational_speed", "feed", "power", "load", "current", "voltage", "flow"):
@@ -131,7 +131,8 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             if high > 0.01 * largest:
                 turning = turning or of_spindle
                 span = _figure(high) if low == high else f"{_figure(low)} to {_figure(high)}"
-                words.append(f"{name} {span} {info.unit}")
+                when = _when(np.abs(part), high, largest, t_s) if low == high else ""
+                words.append(f"{name} {span} {info.unit}{when}")
         elif info.quantity == "state" and (share := float(part.mean())) > _HARDLY:
             words.append(f"{name} on" if share > 1 - _HARDLY else f"{name} on {100 * share:.0f} % of the time")
         elif info.quantity == "temperature" and (info.at or "").startswith("hall"):
@@ -154,6 +155,26 @@ def _levels(sizes: Float1D, largest: float) -> tuple[float, float]:
         return level, level
     low, high = (float(ordered[round(share * (len(ordered) - 1))]) for share in (_HARDLY, 1 - _HARDLY))
     return low if low > 0.01 * largest else 0.0, high
+
+
+def _when(sizes: Float1D, level: float, largest: float, t_s: Float1D) -> str:
+    """' from 12 min on', of a level that stood for most of a window and not for all of it; '' where it stood for all.
+    t_s: from the test's start."""
+    stood = np.abs(sizes - level) <= max(_ALIKE * float(sizes.max()), 0.01 * largest)
+    share = float(stood.mean())
+    if share >= 1 - _HARDLY:
+        return ""
+    first, last = int(np.argmax(stood)), len(stood) - 1 - int(np.argmax(stood[::-1]))
+    at_once = float(stood[first : last + 1].mean()) >= 1 - _HARDLY
+    if at_once and last == len(stood) - 1:
+        return f" from {_clock(float(t_s[first]))} on"
+    if at_once and first == 0:
+        return f" until {_clock(float(t_s[last]))}"
+    return f" for {100 * share:.0f} % of the time"
+
+
+def _clock(seconds: float) -> str:
+    return f"{seconds / 3600:.1f} h" if seconds >= 5400 else f"{seconds / 60:.0f} min"
 
 
 def _figure(size: float) -> str:

@@ -242,7 +242,8 @@ def wrong_parameters(problem: Problem, now: float, refitted: float, floor: float
     if now < max(MISFIT_TIMES * refitted, floor):
         return []
     why = (
-        f"as it is fitted the model leaves {now:.2f} {problem.unit}; the same effects refitted to all open tests leave "
+        f"as it is fitted the model leaves {now:.2f} {problem.unit} about each test's mean; the same "
+        f"effects refitted to all open tests leave "
         f"{refitted:.2f} on tests left out: its parameters do not hold here; check calibrate_on, fixed and bounds. "
         "Where nothing is wrong with these, a cause may be missing that moves with what the model has in the tests it "
         "was fitted to: its gains took that in, and are others where the two part"

@@ -27,6 +27,7 @@ def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
             at=rule.at,
             holds=bool(rule.holds),
             asked=bool(rule.asked),
+            fails=None if rule.holds else rule.fails,
         )
         for rule in (*rules(scored, measure, unit), surely(scored))
     ]

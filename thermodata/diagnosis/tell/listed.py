@@ -34,7 +34,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
     """Claims, what the locked tests refused, refinements that let an error fall, then all others by what they would
     give as the answer tells it; what was dropped as it was judged last. Where nothing is claimed the likeliest of the
     others comes before them; then other refinements."""
-    idle = [j for j in judgement.refinements if not _lets_an_error_fall(j.scored, investigation)]
+    idle = [j for j in judgement.refinements if not lets_an_error_fall(j.scored, investigation)]
     refinements = [j for j in judgement.refinements if not among(j, idle)]
     first = [*judgement.claims, *judgement.refused, *refinements]
     order: list[Row] = [(j.scored, j) for j in first]
@@ -46,7 +46,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
             if len(s.rows) and not any(s.columns is k.columns for k, _ in (*order, *others)):
                 others.append((s, None))
     # what lets no error fall gives nothing, and stands by what is known of it otherwise
-    others.sort(key=lambda item: (-explained(_beside_the_model(item[0], investigation)[0]), -probability(item[0])))
+    others.sort(key=lambda item: (-explained(beside_the_model(item[0], investigation)[0]), -probability(item[0])))
     head = likeliest(others, investigation.measure, investigation.problem.unit)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
@@ -54,13 +54,13 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
     return [*order, *others][:SHOWN]
 
 
-def _lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
+def lets_an_error_fall(s: Scored, investigation: Investigation) -> bool:
     """Whether left-out tests are foretold better with it, over all or where it acts, and locked ones that were opened
     for it no worse: nothing else is advised."""
     added = _added(s)
     if added is not None and added.after >= added.before:
         return False
-    return s.drop > 0 or fall(_beside_the_model(s, investigation)[0]) > 0
+    return s.drop > 0 or fall(beside_the_model(s, investigation)[0]) > 0
 
 
 def _added(s: Scored) -> Foretold | None:
@@ -105,9 +105,9 @@ def candidate(
     beside = member.beside if member else investigation.selection.first.ranked if investigation.selection else ()
     held = confirmation if claimed else None
     shape = held.on(held.asked) if held else _added(s) if refining else None
-    told, of_model = _beside_the_model(s, investigation)
+    told, of_model = beside_the_model(s, investigation)
     by_name = goes_by_name(s, told_with) if member is None else None
-    twins = [t.candidate for t in equivalents(s, beside)]
+    twins = [t.candidate for t in equivalents(_as_ranked(s, beside), beside)]
     return Candidate(
         rank=rank,
         id=s.candidate.id,
@@ -121,8 +121,8 @@ def candidate(
         # measured for what is sound; nothing is known of the share of the others
         probability=probability(s) if any(s is one for one in told_with) else None,
         p_value=p_value(s.evidence, measure.chance),
-        rmse_um_before=_rmse(told.sse_before, told),
-        rmse_um_after=_rmse(told.sse_after, told),
+        rmse_um_before=rmse(told.sse_before, told),
+        rmse_um_after=rmse(told.sse_after, told),
         fit_before=_fit(told.sse_before, told, measure.spread),
         fit_after=_fit(told.sse_after, told, measure.spread),
         locked_rmse_um_before=held.before if held else None,
@@ -135,12 +135,29 @@ def candidate(
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
-        why=why(s, member, investigation, judgement, held, told if of_model else None, by_name),
+        why=why(s, member, investigation, judgement, held, told, by_name, of_model=of_model),
         evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
         courses=ladder.courses(s, problem) if heads or refining else [],
     )
+
+
+def _as_ranked(s: Scored, ranked: Sequence[Scored]) -> Scored:
+    """What was dropped was scored beside others, and is alike only as the same ranking has it."""
+    return next((r for r in ranked if r.columns is s.columns and len(r.shape)), s)
+
+
+def alike_both_ways(found: Sequence[Candidate]) -> list[Candidate]:
+    """Of each pair the one that stands first says whether the two can be told apart."""
+    twins = {one.id: list(one.equivalent) for one in found}
+    for i, one in enumerate(found):
+        for other in found[i + 1 :]:
+            if other.id in twins[one.id] and one.id not in twins[other.id]:
+                twins[other.id].append(one.id)
+            elif other.id not in twins[one.id] and one.id in twins[other.id]:
+                twins[other.id].remove(one.id)
+    return [one.model_copy(update={"equivalent": twins[one.id]}) for one in found]
 
 
 def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[str]:
@@ -150,7 +167,7 @@ def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[
     return [place for place in elsewhere(s) if not reads(beside, place)]
 
 
-def _beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
+def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
     whether it is the former."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
@@ -172,13 +189,13 @@ def explainable(shown: Sequence[Scored], investigation: Investigation) -> tuple[
     and of all others beside the model. Beside others a candidate takes away what they leave; of one alone that says
     nothing."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
-    told = [_beside_the_model(s, investigation)[0] for s in shown]
+    told = [beside_the_model(s, investigation)[0] for s in shown]
     alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
     best = max(alone, key=fall, default=None)
     return (None, None) if best is None else (float(np.clip(fall(best), 0.0, 1.0)), best.candidate.id)
 
 
-def _rmse(sse: np.ndarray, s: Scored) -> float | None:
+def rmse(sse: np.ndarray, s: Scored) -> float | None:
     return float(np.sqrt(np.mean(sse / s.rows))) if len(s.rows) else None
 
 
@@ -189,5 +206,5 @@ def fall(s: Scored) -> float:
 
 
 def _fit(sse: np.ndarray, s: Scored, spread: float) -> float | None:
-    error = _rmse(sse, s)
+    error = rmse(sse, s)
     return None if error is None or spread <= 0 else (1 - error / spread) * 100

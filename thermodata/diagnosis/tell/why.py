@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.claims.probability import probability, sharpness
+from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
@@ -31,6 +31,7 @@ _OUTWEIGHED = {
 _CUTTING = "cutting"
 _NOTHING_IS_CUT = ("spindle", "spectrum", "linear_axis", "rotary_axis", "etve")
 _SHOWN = 3  # tests
+ALIKE = 0.1  # of an error: two that differ by less are not told apart
 _DRIVES_A_MOTOR = ("power", "load", "current", "torque")
 _OTHERWISE = "the effects of the model may act otherwise than by their fitted lags"
 
@@ -50,28 +51,31 @@ def why(
     investigation: Investigation,
     judgement: Judgement,
     held: Confirmation | None,
-    alone: Scored | None = None,
+    told: Scored | None = None,
     by_name: Scored | None = None,
+    *,
+    of_model: bool = True,
 ) -> str:
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
-    alone: the same beside the model alone, where the answer's errors are those, and not of what it is judged by.
+    told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
     by_name: what says the same of its channels by a name, and has its probability stated."""
     unit, count = investigation.problem.unit, int(s.acts.sum())
     others = judged_beside(s, member, investigation, judgement)
     beside = f", beside {' and '.join(others)}," if others else ""
     improves = round(s.better * count)
     tests = investigation.measure.tests
+    alone = told if of_model and others else None
     numbers = (
         f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error "
         f"{way(s.error_before, s.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
         f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
-        f"fitted to all, and it makes {improves} of {count} more probable; "
+        f"fitted to all{_of_all(s, None if alone is not None else told, tests, unit)}, and it makes {improves} of "
+        f"{count} more probable; "
         f"its gain differs between {tests} by {in_percent(s.spread)}"
     )
-    if alone is not None and others:
-        before, after = (float(np.sqrt(np.mean(sse / alone.rows))) for sse in (alone.sse_before, alone.sse_after))
-        left = from_to(before, after, unit)
+    if alone is not None:
+        left = from_to(*_left_out(alone), unit)
         numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {numbers}"
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
@@ -80,13 +84,16 @@ def why(
         broken = failed_rules(s, investigation.measure, unit)
         broken += [member.refines.partition(":")[0]] if member is not None and member.refines else []
         outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
+        few = placeless_limit(s)
         gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
         spite = in_spite_of(s, investigation.measure, unit)
         heat = where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks])
         heat += also_of_motor(s, [j.scored for j in judgement.claims])
         instead = member.in_place_of if member is not None else None
         chosen = f"; taken by the locked tests in place of {instead}, which the open ones can't tell it from"
-        return f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{chosen if instead else ''}{gains}{heat}"
+        return (
+            f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{chosen if instead else ''}{gains}{heat}{few}"
+        )
     if among(member, judgement.refused):
         return f"{numbers}; not claimed: {_refused(s, judgement)}"
     if member is not None and member.refines:
@@ -107,6 +114,31 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def _left_out(s: Scored) -> tuple[float, float]:
+    """Errors of all tests that are left out whole, without and with it."""
+    return float(np.sqrt(np.mean(s.sse_before / s.rows))), float(np.sqrt(np.mean(s.sse_after / s.rows)))
+
+
+def _of_all(s: Scored, told: Scored | None, tests: str, unit: str) -> str:
+    """What the errors before and after are of, where these are others than those in which it acts; else ''."""
+    if told is None or not len(told.rows):
+        return ""
+    left, own = _left_out(told), (s.error_before, s.error_after)
+    if all(abs(a - b) <= ALIKE * b for a, b in zip(left, own, strict=True)):
+        return ""
+    return f" (over all {tests}, with these fitted to the other {tests} too, it goes {from_to(*left, unit)})"
+
+
+def placeless_limit(s: Scored) -> str:
+    """Of a claim that is less probable than one of a declared place must be: by which limit it stands; else ''."""
+    if probability(s) >= CLAIMED or not s.candidate.placeless:
+        return ""
+    return (
+        f"; no temperature has a declared place, so it names a channel and no part of the machine, and a claim asks "
+        f"{in_percent(limit_of(s))} in place of {in_percent(CLAIMED)}: declare 'at' of the channels to ask for more"
+    )
 
 
 def where_nothing_is_cut(s: Scored, tests: Sequence[TestData]) -> str:

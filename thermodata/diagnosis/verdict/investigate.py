@@ -61,9 +61,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 @dataclass(frozen=True, slots=True)
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
-    conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no
-    open test moves. looked_for: the ids of what the
-    locked tests were opened for on the way, whatever became of it."""
+    conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no open test
+    moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it."""
 
     problem: Problem
     selection: Selection | None
@@ -174,14 +173,18 @@ def causes_of(
     means: Means,
 ) -> list[Scored]:
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
-    base = remembered(fitted)
-    fine = compressed(fitted, data, tests, TARGET_ROWS, base)
-    steps = repeating.single(find_steps(fine))
-    whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
-    problem = sharing(_without_steps(whole, steps, fine.step_s), means)
+    problem, fine = weighed(fitted, data, tests)
+    problem = sharing(problem, means)
     asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
+
+
+def weighed(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData]) -> tuple[Problem, Problem]:
+    """In the samples in which candidates are weighed, and in those in which steps were looked for."""
+    base = remembered(fitted)
+    fine, rough = (compressed(fitted, data, tests, rows, base) for rows in (TARGET_ROWS, WEIGHED_ROWS))
+    return _without_steps(rough, repeating.single(find_steps(fine)), fine.step_s), fine
 
 
 def _without_steps(problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:

@@ -17,6 +17,7 @@ from thermodata.schema.model import EffectSpec, Model
 
 GAIN_BY = "gain_by:"
 PHASES = "phases:"
+RESPONSES = ("displacement", "tilt")
 
 
 def gain_by_id(term: str, by: str) -> str:
@@ -76,6 +77,18 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
     raise UsageError(
         f"candidate '{candidate}' fits {len(fitting) or 'no'} sets of channels",
         expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices) or "an effect that fits",
+    )
+
+
+def note_of_response(drivers: Sequence[str], channels: Mapping[str, Described]) -> str | None:
+    """Why what displacements or tilts drive is no cause; None where none does. diagnose never asks it."""
+    found = [n for n in drivers if n in channels and channels[n].quantity in RESPONSES]
+    if not found:
+        return None
+    are = "is itself a displacement or tilt" if len(found) == 1 else "are themselves displacements or tilts"
+    return (
+        f"{' and '.join(found)} {are}: a response is no cause, and falls with this one because the same heat moves "
+        "both; diagnose never asks it"
     )
 
 
