@@ -59,7 +59,7 @@ class Naming:
         return made
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class NamedDecoder:
     """A decoder whose arrays are taken by the names of their elements."""
 
