@@ -14,7 +14,8 @@ class UnsupportedError(Exception):
 class Decoder(Protocol):
     """json: payloads are JSON text. hint: what the schema says of a path."""
 
-    json: bool
+    @property
+    def json(self) -> bool: ...
 
     def decode(self, payload: bytes) -> Any:
         """A payload as Python values: dict, list, numbers, bool, text, bytes; any exception where it is none."""
