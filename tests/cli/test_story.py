@@ -324,6 +324,8 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "by_choice",
         "not_asked",
         "started_on",
+        "named_rmse_um",
+        "locked_shape_um",
         "rmse_um",
         "fitted_rmse_um",
         "locked_rmse_um",

@@ -65,6 +65,8 @@ DIAGNOSIS = {
     "by_choice",
     "not_asked",
     "started_on",
+    "named_rmse_um",
+    "locked_shape_um",
     "rmse_um",
     "fitted_rmse_um",
     "locked_rmse_um",
