@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import random
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 import pytest
@@ -22,14 +22,16 @@ LOG = {"reader": "mcap"}
 SCHEMA = {"type": "object", "properties": {"x": {"type": "integer"}, "on": {"type": "boolean"}}}
 
 
-def recording(messages: Iterable[tuple[int, object]], schema: object = None) -> bytes:
+def recording(
+    messages: Iterable[tuple[int, object]], schema: object = None, publish: Callable[[int], int] = int
+) -> bytes:
     buffer = io.BytesIO()
     writer = Writer(buffer, chunk_size=4096)
     writer.start()
     known = 0 if schema is None else writer.register_schema("axis", "jsonschema", json.dumps(schema).encode())
     axis = writer.register_channel("/axis", "json", known)
     for t, message in messages:
-        writer.add_message(axis, t, json.dumps(message).encode(), t)
+        writer.add_message(axis, t, json.dumps(message).encode(), publish(t))
     writer.finish()
     return buffer.getvalue()
 
@@ -88,3 +90,22 @@ def test_stamps_of_a_recorder_that_wrote_in_bursts_are_told_and_may_be_the_times
     (drafted / "b.mcap").write_bytes(stamped(30))
     lab("init", drafted)
     assert "# ? time: topic '/axis'" in (drafted / "campaign.yaml").read_text()
+
+
+def test_log_times_of_boot_or_of_a_conversion_are_asked_for(lab: Lab) -> None:
+    stamps = [T0 + k * 60 * S for k in range(60)]
+    headers = [{"stamp": {"sec": t // S, "nanosec": 0}} for t in stamps]
+    boot = recording((5 * S + k * 60 * S, {"header": h, "x": k / 8}) for k, h in enumerate(headers))
+    lab.write("raw/a.mcap", boot)
+    said = lab.ingest(X, {**LOG, "options": {"time": "header.stamp"}})
+    assert said.code == 0, said.out
+    assert "count from the start" not in said.out
+    drafted = lab.folder / "new"
+    drafted.mkdir()
+    (drafted / "b.mcap").write_bytes(boot)
+    lab("init", drafted)
+    assert "options: {time: header.stamp}" in (drafted / "campaign.yaml").read_text()
+    converted = ((T0 + k * S // 1000, {"x": k / 8}) for k in range(60))
+    (drafted / "b.mcap").write_bytes(recording(converted, publish=lambda t: t * 60 - T0 * 59))
+    lab("init", drafted, "--force")
+    assert "options: {time: publish_time}" in (drafted / "campaign.yaml").read_text()

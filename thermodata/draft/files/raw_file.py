@@ -25,7 +25,7 @@ from thermodata.reader.zone import NO_ZONE
 _MOST_QUESTIONS = 4
 _ASSUMED = (
     f"counted as 1 s each|taken as seconds from a start|changes its distance from them|{UNPADDED}|is that its unit|"
-    f"{re.escape(ASK)}|{re.escape(YEAR)}"
+    f"{re.escape(ASK)}|{re.escape(YEAR)}|has dates, which the log times have not|the file looks converted"
 )
 _UNIT: Mapping[str, Any] = {"time": {"unit": UNKNOWN}}
 _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}

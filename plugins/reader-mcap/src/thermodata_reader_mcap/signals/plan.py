@@ -24,7 +24,7 @@ from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
-from thermodata_reader_mcap.signals.stamps_apart import apart, rushed, unit_of
+from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
 from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, readers
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
@@ -139,23 +139,19 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         )
     chosen_options = _with_unit(chosen_options, batches, found, name)
     used = [b for c, b in batches.items() if c.topic in found.topics]
-    logs = [b.times()[0] for b in used]
-    times = np.concatenate([np.empty(0, np.uint64), *logs])
+    times = np.concatenate([np.empty(0, np.uint64), *(b.times()[chosen_options.time == PUBLISH] for b in used)])
     times = times[times < LATEST_NS]
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
+    told = [n for topic in found.topics.values() if (n := apart(topic, batches, _mine(found, topic), relative))]
+    start = int(times.min()) if times.size else None
+    if relative:  # stamps that are declared may have the dates that the log times lack
+        firsts = [first_stamp(chosen_options, batches, _mine(found, topic)) for topic in found.topics.values()]
+        dated = [ns for ns in firsts if ns is not None and ns >= EARLIEST_NS]
+        relative, start = (False, min(dated)) if dated else (True, start)
     if relative:
         notes.append("log times count from the start of the recording")
     if chosen_options.time == LOG:
-        notes += rushed(used) if not relative else []
-        notes += [
-            note
-            for topic in found.topics.values()
-            if (
-                note := apart(
-                    topic, batches, {c: r for c, r in found.readers.items() if c.topic == topic.name}, relative
-                )
-            )
-        ]
+        notes += [*told, *([] if relative else rushed(used))]
     stamped = {}
     different = {c.topic for c, b in batches.items() if not _same(b)}
     for topic in found.topics:
@@ -164,8 +160,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             stamped[topic] = "log_time"
         elif not same:
             stamped[topic] = PUBLISH
-    series, told = _senders(found, batches, stamped, chosen_options.series)
-    notes += told
+    series, more = _senders(found, batches, stamped, chosen_options.series)
+    notes += more
     return Plan(
         chosen_options,
         said,
@@ -175,7 +171,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         stamped,
         series,
         {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
-        int(times.min()) if times.size else None,
+        start,
         relative,
         is_complete(view) and not damaged,
         [*notes, *unknown],
@@ -187,6 +183,11 @@ class _Found:
     topics: dict[str, Topic] = field(default_factory=dict)
     readers: dict[Channel, Decoder] = field(default_factory=dict)
     unsupported: dict[str, str] = field(default_factory=dict)
+
+
+def _mine(found: _Found, topic: Topic) -> dict[Channel, Decoder]:
+    """The decoders of a topic's channels."""
+    return {c: r for c, r in found.readers.items() if c.topic == topic.name}
 
 
 def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whole: bool, notes: list[str]) -> _Found:

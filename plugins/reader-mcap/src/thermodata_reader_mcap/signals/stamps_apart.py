@@ -15,7 +15,7 @@ from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.topic import Topic
-from thermodata_reader_mcap.signals.options import STAMPS
+from thermodata_reader_mcap.signals.options import STAMPS, Options
 
 _LOOKED_AT = 200  # messages of a topic
 _APART_NS = 1_000_000_000  # that a latency changes by less than
@@ -72,6 +72,19 @@ def rushed(batches: Sequence[Batch]) -> list[str]:
         f"log times span {short / 1e9:.3g} s, publish times {long / 1e9:.6g} s: the file looks converted, and its log "
         "times are of the conversion; declare options: {time: publish_time}"
     ]
+
+
+def first_stamp(options: Options, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> int | None:
+    """The earliest of some declared stamps [ns]; None where none is declared, or no message has one."""
+    found: list[int] = []
+    for _, message in _messages(batches, made):
+        for paths in options.stamps():
+            parts = [_read(message, path) for path in paths]
+            if all(isinstance(part, int | float) and 0 <= part < _MOST for part in parts) and any(parts):
+                scales = (10**9, 1) if len(parts) == 2 else (options.scale or 1,)
+                found.append(sum(int(part * scale) for part, scale in zip(parts, scales, strict=True)))
+                break
+    return min(found, default=None)
 
 
 def unit_of(path: Path, batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder]) -> str | None:
