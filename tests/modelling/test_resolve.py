@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import resolve, term_ids
-from thermodata.modelling.versions.candidate import candidate_spec, with_effect
+from thermodata.modelling.versions.candidate import candidate_spec, note_of_response, with_effect
 from thermodata.schema.model import EffectSpec
 from thermodata.view.dataset import ChannelInfo, Dataset
 
@@ -171,3 +171,10 @@ def test_an_effect_of_a_plugin_that_is_not_installed_says_so_and_whose_it_is(wor
         resolve(model, world)
     assert error.value.where == f"model '{model.name}', effect 'guide'"
     assert "if a plugin has it that is not installed here" in (error.value.hint or "")
+
+
+def test_a_displacement_or_tilt_as_a_driver_is_told_to_be_no_cause() -> None:
+    channels = {n: ChannelInfo(n, q, "um") for n, q in (("ch4", "displacement"), ("T", "temperature"))}
+    told = note_of_response(["ch4", "T"], channels) or ""
+    assert told.startswith("ch4 is itself a displacement or tilt: a response")
+    assert note_of_response(["T", "gone"], channels) is None
