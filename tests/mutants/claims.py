@@ -435,7 +435,7 @@ MUTANTS = [
     diagnosis("judge.py", "key=lambda s: -probability(s)):", "key=probability):", "the least probable is asked"),
     diagnosis("judge.py", " and refines(one) is None:", ":", "another mode is asked of the locked tests"),
     diagnosis("judge.py", ' and one.kin != "same" and', " and", "a mode of one effect opens the lock"),
-    diagnosis("judge.py", "another = j.mode is None and", "another =", "what is told from no mode opens the lock"),
+    diagnosis("judge.py", "another = not j.like_a_mode and", "another =", "what is told from no mode opens the lock"),
     diagnosis("judge.py", "not nameless or is_surely_missing(j.scored)", "not nameless", "a sure cause is a mode"),
     diagnosis("judge.py", "or not nameless or", "or", "a name that is told from no mode is one"),
     diagnosis("judge.py", " or one.of_motion)", ")", "a cut is no cause beside the warmth of its part"),

@@ -37,15 +37,15 @@ SURE = 2.0
 class Judged:
     """A sound member of the selection. scored: beside all others. alone: as it was chosen. refines: what it refines of
     the model, in words; None for a cause of its own. beside: all candidates, ranked without it. in_place_of: the id of
-    the member, where `scored` is of one that the open tests can't tell from it. mode: the id of another mode of what
-    the model has, which the tests can't tell from it either."""
+    the member, where `scored` is of one that the open tests can't tell from it. like_a_mode: whether it has no
+    name, and the tests can't tell it from another mode of what the model has."""
 
     scored: Scored
     alone: Scored
     refines: str | None
     beside: tuple[Scored, ...]
     in_place_of: str | None = None
-    mode: str | None = None
+    like_a_mode: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +128,8 @@ def _or_a_mode(j: Judged, refines: Callable[[Scored], str | None]) -> Judged:
         return j
     for twin in equivalents(j.scored, j.beside):
         if twin.candidate.kin == "same" and twin.candidate.within is None and (said := refines(twin)) is not None:
-            return replace(j, refines=said, mode=twin.candidate.id)
+            told = f"{said}; nor do they tell it from {twin.candidate.id}, which is one"
+            return replace(j, refines=told, like_a_mode=True)
     return j
 
 
@@ -136,7 +137,7 @@ def _may_be_its_own(j: Judged) -> bool:
     """Whether what refines the model by the open tests is so probable that the locked ones may tell a cause of its own:
     another mode of the same effect, a change of it, or the temperature of a body whose heat the model has, is none."""
     one = j.scored.candidate
-    another = j.mode is None and one.kin != "same" and (one.kin != "heat" or one.of_motion)
+    another = not j.like_a_mode and one.kin != "same" and (one.kin != "heat" or one.of_motion)
     return j.refines is not None and one.within is None and another and blunt(j.scored) is None
 
 
