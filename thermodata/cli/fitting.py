@@ -147,7 +147,7 @@ def compare_command(
         payload |= {"scores": [s for r in results for s in r.scores], "models": results}
     apart = [] if unknown else differences_of(store, [r.model for r in results])
     payload["differences"] = apart or None
-    payload["stale"] = stale_line(store, results[0].model)
+    payload["stale"] = "\n".join(filter(None, (stale_line(store, r.model) for r in results))) or None
     session.answer(
         payload,
         lambda: in_units_of(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+from thermodata.schema.listed import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import STALE, find_model
 from thermodata.store.catalogue.store import Store
@@ -25,9 +26,7 @@ def stale_line(store: Store, model: str) -> str | None:
     for test, what in changed.items():
         by_what.setdefault(" and ".join(["gone"] if "gone" in what else what), []).append(test)
     told = "; ".join(
-        f"{what} of {', '.join(tests[:_NAMED])}" + (f" and {len(tests) - _NAMED} more" if len(tests) > _NAMED else "")
-        if what != "gone"
-        else f"gone: {', '.join(tests)}"
+        f"gone: {', '.join(tests)}" if what == "gone" else f"{what} of {with_count(tests, _NAMED)}"
         for what, tests in by_what.items()
     )
     return (
