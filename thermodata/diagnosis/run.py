@@ -95,7 +95,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
     found = outcome.diagnosis.model_copy(update={"locked_shape_um": shape})
     for look in outcome.looks:
-        count_locked_look(store, model.identity, [t.key for t in look.tests], f"confirming {', '.join(look.asked)}")
+        reason = f"confirming {', '.join(look.asked)}{_of(model, found.response)}"
+        count_locked_look(store, model.identity, [t.key for t in look.tests], reason)
     save_diagnosis(store, model.identity, found)
     if not found.not_asked:  # a plugin that was mended is asked, though nothing else has changed
         keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
@@ -107,8 +108,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
 
     candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. response: by default that of the stored
     diagnosis. Opening the lock is counted, but for an answer that the store holds, and for what a diagnosis of the same
-    data opened it for. UsageError: no such candidate, a
-    rank of another response's diagnosis, or no locked test that both models can predict.
+    data opened it for. UsageError: no such candidate, a rank of another response's diagnosis, or no locked test that
+    both models can predict.
     """
     from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looked_for
     from thermodata.store.catalogue.models import find_model, keep_answer, kept_answer, load_diagnosis
@@ -120,13 +121,14 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     of = model.fitted.responses[index]
     chosen = _chosen(model, of, chosen_id(store, model.identity, candidate, response))
     name, key = chosen.id, _key(model)
-    question = f"confirm {name}" if len(model.fitted.responses) == 1 else f"confirm {name} of {of.name}"
+    whose = _of(model, of.name)
+    question = f"confirm {name}{whose}"
     kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
         known = as_held(Confirmed.model_validate_json(kept))
         now = {
-            "probability": _claimed_with(store, model.identity, of.name, name),
-            "looks": max(locked_looks(store, t.campaign, t.test) for t in known.tests),
+            "probability": _claims(store, model.identity, of.name).get(name),
+            "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
         }
         return known.model_copy(update=now), True
     usable = [t for t in tests if of.can_predict(t)]
@@ -149,9 +151,11 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
     # what the diagnosis opened for the same, on the same data, is no new look
     same = find_model(store, model.identity).data_version == model.data.data_version
-    seen = looked_for(store, model.identity, name) if same else set()
+    claims = _claims(store, model.identity, of.name)
+    alone = [*claims] == [name]  # the answer told its errors
+    seen = looked_for(store, model.identity, name, whose, with_others=alone) if same else set()
     fresh = [t.key for t in locked if t.key not in seen]
-    count_locked_look(store, model.identity, fresh, f"confirming {name}, by choice")
+    count_locked_look(store, model.identity, fresh, f"confirming {name}{whose}, by choice")
     put_right, shape = asked_of.put_right, confirmation.where_it_acts
     if shape is not None and not shape.holds:
         fits = Fits(model.fitted.spec, index, asked_of.data, asked_of.tests, locked, asked_of.fitted)
@@ -183,7 +187,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
             for key, b, a in confirmation.each
         ],
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
-        probability=_claimed_with(store, model.identity, of.name, name),
+        probability=claims.get(name),
         put_right=told(put_right),
         note=note_of_response(chosen.channels, model.data.channels),
     )
@@ -192,14 +196,18 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     return result, False
 
 
-def _claimed_with(store: Store, model: str, response: str, candidate: str) -> float | None:
-    """Its probability where the stored diagnosis claims it for this response."""
+def _of(model: Loaded, response: str) -> str:
+    """Behind what the lock is opened for: of a model with several responses with whose errors it shows."""
+    return "" if len(model.fitted.responses) == 1 else f" of {response}"
+
+
+def _claims(store: Store, model: str, response: str) -> dict[str, float | None]:
+    """What the stored diagnosis claims for this response, with its probability."""
     from thermodata.store.catalogue.models import load_diagnosis
 
     found = load_diagnosis(store, model)
     asked = found.candidates if found is not None and found.response == response else []
-    claimed = [c for c in asked if c.claimed and c.id == candidate]
-    return claimed[0].probability if claimed else None
+    return {c.id: c.probability for c in asked if c.claimed}
 
 
 def _refuse_again(model: Loaded, response: FittedResponse, effect: str, channels: set[str]) -> None:

@@ -26,15 +26,19 @@ def count_locked_look(
         insert(con, "locked_look", rows)
 
 
-def looked_for(store: Store, model: str, candidate: str) -> set[tuple[str, str]]:
-    """The locked tests that were opened for a candidate of a model, by a claim or by choice."""
+def looked_for(store: Store, model: str, asked: str, of: str, *, with_others: bool) -> set[tuple[str, str]]:
+    """The locked tests that were opened for a candidate, by a claim or by choice. of: what the reason says of the
+    response. with_others: whether those count in which it was asked with others; its errors alone are not told there as
+    a rule."""
     with store.reader() as con:
-        rows = con.execute(
-            "select campaign, test from locked_look where model = $1 and list_contains(string_split("
-            "regexp_extract(reason, '^confirming (.*?)(, by choice)?$', 1), ', '), $2)",
-            [model, candidate],
-        ).fetchall()
-    return {(c, t) for c, t in rows}
+        rows = con.execute("select campaign, test, reason from locked_look where model = ?", [model]).fetchall()
+    found = set()
+    for campaign, test, reason in rows:
+        said = reason.removeprefix("confirming ").removesuffix(", by choice")
+        names = said.removesuffix(of).split(", ") if said.endswith(of) else []
+        if names == [asked] or (with_others and asked in names):
+            found.add((campaign, test))
+    return found
 
 
 def locked_looks(store: Store, campaign: str, test: str) -> int:

@@ -1,0 +1,40 @@
+"""How often the lock was opened: for each answer that is new, and for no other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from thermodata.diagnosis.run import confirm_choice
+from thermodata.modelling import run
+from thermodata.store.catalogue.looks import count_locked_look
+from thermodata.view.dataset import Dataset
+
+from .conftest import Spec
+from .test_run import stored
+
+
+def test_each_response_of_a_model_is_a_look_of_its_own(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    both = [{"channel": "dZ"}, {"channel": "T_nut"}]
+    model = run.fit(store, spec("ambient_frame", name="two", response=both)).model
+    looks = [confirm_choice(store, model, "lag:T_bearing", of)[0].looks for of in ("dZ", "T_nut", "T_nut")]
+    assert looks == [1, 2, 2]
+
+
+def test_what_was_opened_with_another_is_new_by_itself(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    model = run.fit(store, spec("ambient_frame")).model
+    locked = [t.key for t in world.tests if t.role == "locked"]
+    count_locked_look(store, model, locked, "confirming lag:T_bearing, feed_screw:T_nut")
+    assert confirm_choice(store, model, "lag:T_bearing")[0].looks == 2
+    count_locked_look(store, model, locked, "confirming feed_screw:T_nut")
+    assert confirm_choice(store, model, "feed_screw:T_nut")[0].looks == 3, "that look stands there already"
+
+
+def test_what_no_locked_test_has_the_channel_of_is_answered_twice(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    locked = [t.test for t in world.tests if t.role == "locked"]
+    store = stored(world, tmp_path, dict.fromkeys(locked, "T_nut"))
+    model = run.fit(store, spec("ambient_frame", "spindle_bearing")).model
+    first, known = confirm_choice(store, model, "feed_screw:T_nut")
+    assert (first.tests, first.looks, known) == ([], 1, False)
+    assert confirm_choice(store, model, "feed_screw:T_nut") == (first, True)
