@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -124,3 +125,70 @@ def test_a_test_that_is_new_leaves_a_model_as_it_was_fitted(
     now = run.compare(store, [model])[0]
     assert now.parameters == was.parameters
     assert {s.role for s in now.scores if s.test == "later"} == {"verification"}
+
+
+def later(store: Store, edit: Callable[[str, str], list[str]], folder: Path) -> None:
+    """One more test, which leaves all models as they were fitted."""
+    raw = folder / "raw"
+    (raw / "later.csv").write_text((raw / "t0.csv").read_text().replace("0.1", "0.3"))
+    assert edit("tests:\n", "tests:\n- {id: later, kind: spectrum, role: verification}\n") == []
+
+
+def roles(store: Store, model: str) -> dict[str, str]:
+    return {s.test: s.role for s in run.compare(store, [model])[0].scores if s.phase == "all"}
+
+
+def test_a_test_more_leaves_the_roles_of_a_model_file(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    """What it locks stays shut, and what it does not use is not scored."""
+    store, _, edit = edited
+    verified = [t.test for t in world.tests if t.role == "verification"]
+    shut = run.fit(store, spec(*EFFECTS, name="shut", locked=verified)).model
+    few = run.fit(store, spec(*EFFECTS, name="few", calibrate_on=["t0", "t1"], verify_on=["t2"])).model
+    was = roles(store, shut), roles(store, few)
+    assert not set(verified) & set(was[0])
+    later(store, edit, tmp_path)
+    assert roles(store, shut) == {**was[0], "later": "verification"}
+    assert roles(store, few) == was[1]
+    assert run.load(store, shut).kept
+
+
+def test_a_test_more_leaves_a_model_inside_of_a_model(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec, tmp_path: Path
+) -> None:
+    store, _, edit = edited
+    run.fit(store, spec("ambient_frame", name="frame"))
+    outer = run.fit(store, spec({"effect": "model", "name": "frame"}, "spindle_bearing", name="outer")).model
+    was = run.compare(store, [outer])[0]
+    later(store, edit, tmp_path)
+    now = run.compare(store, [outer])[0]
+    assert now.parameters == was.parameters
+    assert {s.test: s.rmse_um for s in now.scores if s.test != "later"} == pytest.approx(
+        {s.test: s.rmse_um for s in was.scores}
+    )
+
+
+def test_a_test_more_leaves_the_checks_of_each_response(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec, tmp_path: Path
+) -> None:
+    store, _, edit = edited
+    both = [{"channel": "dZ"}, {"channel": "T_nut"}]
+    model = run.fit(store, spec("ambient_frame", "spindle_bearing", name="two", response=both)).model
+
+    def names() -> list[str]:
+        return [c.name for c in run.compare(store, [model])[0].checks]
+
+    was = names()
+    assert any(n.partition(":")[2].startswith("dZ") for n in was)
+    later(store, edit, tmp_path)
+    assert names() == was
+
+
+def test_the_scores_of_a_stale_model_stand_beside_no_weak_spots_of_other_data(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]],
+) -> None:
+    store, model, edit = edited
+    edit("role: verification", "role: calibration")
+    said = CliRunner().invoke(cli, ["--store", str(store.path), "compare", model, "--json"])
+    assert json.loads(said.stdout)["weak_spots"] == {}

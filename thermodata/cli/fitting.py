@@ -139,7 +139,8 @@ def compare_command(
     for result in unknown:
         warnings.warn(result.notes[-1], stacklevel=2)
     weak: dict[str, Any] = {}
-    if results[0] not in unknown:
+    # the scores of a stale model are of the data before
+    if results[0] not in unknown and not find_model(store, results[0].model).stale:
         loaded = load(store, results[0].model)
         weak = weak_spots_of(loaded, (load_diagnosis(store, m) for m in (loaded.parent, loaded.identity) if m))
     payload: dict[str, Any] = {**plain(results[0]), "weak_spots": weak}

@@ -53,7 +53,7 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     data = load_data(store, stored.spec)
     kept = stored.data_version != data.data_version and not anew
     if kept:
-        fitted = as_kept(stored.spec, stored.result, data)
+        fitted = as_kept(stored.spec, stored.result, data, changed=stored.stale)
     else:
         fitted = fit_alone(stored.spec, data, uncertainty=uncertainty)
     return Loaded(stored.model, stored.parent, fitted, data, kept)

@@ -39,7 +39,7 @@ def role_of(fitted: FittedModel, test: TestData) -> str:
     """The test's role in this model; verification tests that were fitted too say so, and so do those that hold samples
     of a fitted one."""
     role = fitted.roles.role(test.key)
-    fitted_too = fitted.spec.in_sample or test.key in fitted.overlaps
+    fitted_too = any(test.key in r.fitted_on for r in fitted.responses) or test.key in fitted.overlaps
     return IN_SAMPLE if role == "verification" and fitted_too else role
 
 

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NoReturn, cast
+from typing import cast
 
 from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import ArxFunction
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.inputs.overlap import overlaps
 from thermodata.modelling.inputs.roles import Key, Roles
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.model_file.transfer import DIRECT, NAME, FreeFunction
@@ -19,20 +21,26 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
 from thermodata.plugin import Effect
 from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import SAMPLE, FitResult
-from thermodata.view.dataset import Dataset
+from thermodata.schema.result import SAMPLE, Check, FitResult
+from thermodata.view.dataset import Dataset, TestData
 
 IN_SAMPLE = " (in-sample)"
 Told = Mapping[str, float]
 """Parameter -> value, of one term: as `parameters` names them, without the term's id."""
 
 
-def as_kept(spec: Model, result: FitResult, data: Dataset) -> FittedModel:
-    """The model of a stored result on the data as they are now. UsageError where its parameters are not all stored (a
-    model inside of a model), and where no test that it was fitted to is left."""
+def as_kept(spec: Model, result: FitResult, data: Dataset, *, changed: bool = True) -> FittedModel:
+    """The model of a stored result on the data as they are now. changed: the tests of the fit are not as they were, or
+    not all there; else there are only more. UsageError where its parameters are not all stored (a model inside of one
+    whose data changed), and where no test that it was fitted to is left."""
     spec = _on_what_is_left(spec, _roles(spec, result, data), data)
 
-    def not_kept(inside: Model) -> NoReturn:
+    def not_kept(inside: Model) -> FittedModel:
+        if not changed:
+            of_fit = {(s.campaign, s.test) for s in result.scores}
+            return fit_model(
+                inside, replace(data, tests=tuple(t for t in data.tests if t.key in of_fit)), uncertainty=False
+            )
         raise UsageError(
             f"the data of '{spec.name}' have changed, and the store has not what the model '{inside.name}' inside of "
             "it was fitted to",
@@ -41,7 +49,7 @@ def as_kept(spec: Model, result: FitResult, data: Dataset) -> FittedModel:
         )
 
     roles, bound = resolve(spec, data, None, not_kept)
-    fitted_on = {(s.campaign, s.test) for s in result.scores if s.role == "calibration" or s.role.endswith(IN_SAMPLE)}
+    fitted_on = {(s.campaign, s.test) for s in result.scores if s.role == "calibration" or spec.in_sample}
     several = len(bound) > 1
     return FittedModel(
         spec,
@@ -50,6 +58,7 @@ def as_kept(spec: Model, result: FitResult, data: Dataset) -> FittedModel:
             _response(b, result, f"{b.name}/" if several else "", spec, roles, frozenset(fitted_on & _keys(data)))
             for b in bound
         ),
+        overlaps=overlaps(data, roles, sorted(fitted_on & _keys(data)), [b.channel_of for b in bound]),
     )
 
 
@@ -60,9 +69,16 @@ def _keys(data: Dataset) -> set[Key]:
 def _roles(spec: Model, result: FitResult, data: Dataset) -> Roles:
     then = {(s.campaign, s.test): s.role.removesuffix(IN_SAMPLE) for s in result.scores}
     named = {*(spec.calibrate_on or ()), *(spec.verify_on or ())}  # of these a locked test is open on purpose
-    shut = {t.key for t in data.tests if t.role == "locked" and not {t.test, "/".join(t.key)} & named}
-    anew = {"none": "none", "locked": "locked"}
-    role = {t.key: "locked" if t.key in shut else then.get(t.key, anew.get(t.role, "verification")) for t in data.tests}
+    closed = {*(spec.locked or ())}
+
+    def role_of(t: TestData) -> str:
+        own = {t.test, "/".join(t.key)}
+        if own & closed or (t.role == "locked" and not own & named):
+            return "locked"
+        told = spec.calibrate_on if t.role == "calibration" else spec.verify_on
+        return then.get(t.key, "none" if t.role == "none" or told is not None else "verification")
+
+    role = {t.key: role_of(t) for t in data.tests}
     if not any(own == "calibration" for own in role.values()):
         raise UsageError(
             "no test that the model was fitted to is left",
@@ -103,9 +119,26 @@ def _response(
         told = {n.removeprefix(start): p.value for n, p in result.parameters.items() if n.startswith(start)}
         terms.append(_term(term, told))
     bound = replace(bound, terms=tuple(t.bound for t in terms))
-    checks = tuple(c for c in result.checks if not c.name.startswith(("skipped:", "not_predicted:", "not_scored:")))
+    checks = tuple(_own(c, bound.name, bool(prefix)) for c in result.checks if _is_of(c, bound.name, bool(prefix)))
     wanted = None if spec.phases is None else tuple(spec.phases)
     return FittedResponse(bound, tuple(terms), wanted, frozenset(roles.calibrate), checks, fitted_on=fitted_on)
+
+
+# made anew from the data, or of the model as a whole
+_ANEW = ("skipped:", "not_predicted:", "not_scored:", "on_at_start:", "overlap:")
+
+
+def _is_of(check: Check, response: str, several: bool) -> bool:
+    if check.name.startswith(_ANEW):
+        return False
+    return not several or check.name.partition(":")[2].partition("/")[0] == response
+
+
+def _own(check: Check, response: str, several: bool) -> Check:
+    """With the name that it has where the model has one response."""
+    kind, _, rest = check.name.partition(":")
+    subject = rest.partition("/")[2]
+    return check.model_copy(update={"name": f"{kind}:{subject}" if subject else kind}) if several else check
 
 
 def _term(term: BoundTerm, told: Told) -> FittedTerm:
