@@ -192,3 +192,19 @@ def test_the_scores_of_a_stale_model_stand_beside_no_weak_spots_of_other_data(
     edit("role: verification", "role: calibration")
     said = CliRunner().invoke(cli, ["--store", str(store.path), "compare", model, "--json"])
     assert json.loads(said.stdout)["weak_spots"] == {}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("unit: um", "unit: mm", "(units or signals of "),
+        ("kind: spectrum", "kind: mixed", "(description of "),
+        ("role: verification", "role: calibration", "(role of "),
+    ],
+)
+def test_what_changed_is_said_by_its_name(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], old: str, new: str, told: str
+) -> None:
+    store, model, edit = edited
+    assert edit(old, new) == [model]
+    assert told in str(stale_line(store, model))

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 Rows = Mapping[str, Mapping[str, list[Row]]]
 # what a fit reads: words about a test or a channel don't make it stale
+_DESCRIBING = ("test", "machine", "channel")
 _WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
 
 
@@ -56,12 +57,14 @@ def _read_by_a_fit(columns: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(sorted(c for c in columns if c not in _WORDS))
 
 
+def _read_by_fits(rows: Rows, table: str, test: str) -> list[str]:
+    """What fits read of a test's rows, in no order of these."""
+    return sorted(repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))]) for row in rows[table].get(test, []))
+
+
 def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
     """A digest of everything about a test that a fit depends on."""
-    parts = []
-    for table in ("test", "machine", "channel"):
-        for row in rows[table].get(test, []):
-            parts.append(repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))]))
+    parts = [one for table in _DESCRIBING for one in _read_by_fits(rows, table, test)]
     parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
     return key_of(*sorted(parts))
 
@@ -153,7 +156,8 @@ def commit(
 
 
 def what_changed(now: Rows, then: Rows, test: str, calibrated: bool) -> list[str]:
-    """In words: gone, role, description, calibration, data. calibrated: whether the campaign's calibrations differ."""
+    """In words: gone, role, calibration, data, units or signals, how it is read, or else description. calibrated:
+    whether the campaign's calibrations differ."""
     if not now["test"].get(test):
         return ["gone"]
 
@@ -168,8 +172,11 @@ def what_changed(now: Rows, then: Rows, test: str, calibrated: bool) -> list[str
         ("role", differs("test", "role")),
         ("calibration", differs("channel", "channel", "calibration") or calibrated),
         ("data", differs("file", "key", layer="raw")),
+        ("units or signals", differs("channel", "channel", "signal", "quantity", "unit", "raw_unit")),
     ]
-    return [word for word, holds in words if holds] or ["description"]
+    found = [word for word, holds in words if holds]
+    described = any(_read_by_fits(now, table, test) != _read_by_fits(then, table, test) for table in _DESCRIBING)
+    return found or ["description" if described else "how it is read"]
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
