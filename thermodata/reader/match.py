@@ -8,6 +8,10 @@ from difflib import get_close_matches
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
+from thermodata.schema.listed import with_count
+
+BY_PLACE = "place"
+"""Of a signal's properties: what it is called by its place in an array whose elements go by names, where it had one."""
 
 
 class NoSignalError(UsageError):
@@ -31,14 +35,18 @@ _SPELLINGS: tuple[Callable[[str], str], ...] = (
 
 
 def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
-    """The one signal that `wanted` names: exactly, then without the unit in brackets, then by the part after
-    the last '/'; each first with case, then without. A stream may be named before it: 'Eddy@2:Eddy/Z'.
+    """The one signal that `wanted` names: exactly, then by its place (`BY_PLACE`), then without the unit in brackets,
+    then by the part after the last '/'; each first with case, then without. A stream may be named before it:
+    'Eddy@2:Eddy/Z'.
 
     UsageError: no such signal (with the nearest names), or several that the same spelling fits.
     """
-    exact = [s for s in signals if s.name == wanted]
-    if len(exact) == 1:
-        return exact[0]
+    for exact in (
+        [s for s in signals if s.name == wanted],
+        [s for s in signals if s.properties.get(BY_PLACE) == wanted],
+    ):
+        if len(exact) == 1:
+            return exact[0]
     for fold in (str, str.casefold):
         for spell in _SPELLINGS:
             found = [s for s in signals if fold(spell(s.name)) == fold(wanted)]
@@ -60,8 +68,19 @@ def match_signal(wanted: str, signals: Sequence[Signal]) -> Signal:
         f"no signal '{wanted}' in the file",
         expected=", ".join(close or listed) or "the file has none",
         got=wanted,
-        hint=_other_encoding(wanted, close) or (f"did you mean '{close[0]}'?" if close else None),
+        hint=_by_name_now(wanted, signals)
+        or _other_encoding(wanted, close)
+        or (f"did you mean '{close[0]}'?" if close else None),
     )
+
+
+def _by_name_now(wanted: str, signals: Sequence[Signal]) -> str | None:
+    """Which of several names an element has that is asked for by its place cannot be told where the places change."""
+    array, _, rest = wanted.partition("[")
+    named = [s.name for s in signals if s.name.startswith(f"{array}.")]
+    if not rest[:1].isdigit() or not named:
+        return None
+    return f"the elements of '{array}' change their places, and go by their names: {with_count(named, 8)}"
 
 
 def _other_encoding(wanted: str, close: Sequence[str]) -> str | None:

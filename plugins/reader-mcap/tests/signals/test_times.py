@@ -197,3 +197,24 @@ def test_publish_times_are_offered_where_log_times_are_of_a_conversion(tmp_path:
     assert any("options: {time: publish_time}" in n for n in read(path)[0].notes)
     late = write(tmp_path / "b.mcap", messages, publish=lambda t: t - 5)
     assert not any("publish_time}" in n for n in read(late)[0].notes)
+
+
+def test_one_message_that_was_published_long_before_is_no_conversion(tmp_path: Path, write: Any, read: Any) -> None:
+    """As those that a recorder is given once, when it begins to listen."""
+    messages = [("/t", T0 + k * 10**9, {"T": 20 + k / 8}) for k in range(60)]
+    path = write(tmp_path / "a.mcap", messages, publish=lambda t: t - 3600 * 10**9 if t == T0 else t)
+    assert not any("publish_time}" in n for n in read(path)[0].notes)
+
+
+def test_a_count_from_boot_is_no_date(tmp_path: Path, write: Any, read: Any) -> None:
+    """13 days in nanoseconds look like 36 years in microseconds."""
+    boot = 13 * 86_400 * 10**9
+    messages = [("/t", boot + k * 10**9, {"mono_ns": boot + k * 10**9, "T": 20 + k / 8}) for k in range(60)]
+    assert not any("has dates" in n for n in read(write(tmp_path / "a.mcap", messages))[0].notes)
+
+
+def test_a_message_without_a_publish_time_dates_no_recording(tmp_path: Path, write: Any, read: Any) -> None:
+    messages = [("/t", T0 + k * 10**9, {"T": 20 + k / 8}) for k in range(60)]
+    path = write(tmp_path / "a.mcap", messages, publish=lambda t: 0 if t == T0 else t)
+    recording = read(path, Source(options={"time": "publish_time"}))[0]
+    assert (recording.clock, recording.start_ns) == ("absolute", T0 + 10**9)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata_reader_mcap.encodings.decoder import Decoder, hints
@@ -15,19 +15,33 @@ from thermodata_reader_mcap.encodings.topic import Hint
 _ALONE = ("name", "id", "key", "channel", "sensor", "label", "tag", "signal", "probe", "joint", "node")
 _KEYS = frozenset(f"{before}{word}" for before in ("", "sensor_", "channel_", "signal_", "joint_") for word in _ALONE)
 _LISTS = _KEYS | {f"{word}s" for word in _KEYS}
+_NUMBERED = ("id", "ids")  # ends of the keys whose numbers are names; those of a probe or a channel are its readings
+_STANDS = 0.9  # of the messages have all of their names, and each number is in so many of them on average
 _AGAIN = 2  # messages that a name is in, on average; ids that are each their own name nothing
 
 
 @dataclass(frozen=True, slots=True)
 class Naming:
     """columns: where an array holds the names of those beside it; elements: arrays of objects, and the field in these
-    that holds a name. Places in a path count from 0, for any."""
+    that holds a name. Places in a path count from 0, for any. orders: of both, the names in the order in which they
+    stood in all messages that were looked at; none where it changed."""
 
     columns: frozenset[Path] = frozenset()
     elements: frozenset[tuple[Path, str]] = frozenset()
+    orders: Mapping[Path, tuple[str, ...]] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
         return bool(self.columns or self.elements)
+
+    def place(self, path: Path) -> Path | None:
+        """The same by the place of the element, as it stood in all messages; None where no name stands in it, or it had
+        no one place."""
+        for where, names in self.orders.items():
+            inside = where[:-1] if where in self.columns else where
+            at = len(where)
+            if path[: len(inside)] == inside and len(path) > at and path[at] in names:
+                return (*path[:at], names.index(str(path[at])), *path[at + 1 :])
+        return None
 
     def named(self, value: Any, path: Path = ()) -> Any:
         """A message with its named arrays as mappings; those that do not fit their names stay as they are."""
@@ -48,7 +62,7 @@ class Naming:
     def _mapping(self, value: Mapping[str, Any], path: Path) -> dict[str, Any]:
         made = {str(k): self.named(v, (*path, str(k))) for k, v in value.items()}
         for key in value:
-            names = _texts(value[key]) if (*path, str(key)) in self.columns else None
+            names = _texts(value[key], str(key)) if (*path, str(key)) in self.columns else None
             if names is None:
                 continue
             fit = [k for k, v in value.items() if k != key and isinstance(v, list) and len(v) == len(names)]
@@ -86,27 +100,36 @@ class NamedDecoder:
 
 def find_naming(messages: Sequence[Any]) -> Naming:
     """The arrays whose elements are named, in messages as they are decoded."""
-    columns: dict[Path, list[list[str]]] = {}
+    columns: dict[Path, list[list[str] | None]] = {}
     elements: dict[tuple[Path, str], list[list[str]]] = {}
-    failed: set[Path] = set()
+    unnamed = Counter[Path]()
     for message in messages:
         for path, value in _lists(message, ()):
             key = next((k for k in _keys(value) if _of_elements(value, k) is not None), None)
             if key is not None:
                 elements.setdefault((path, key), []).append(_of_elements(value, key) or [])
-            elif value:
-                failed.add(path)
+            else:
+                unnamed[path] += 1
         for path, names in _named_columns(message, ()):
             columns.setdefault(path, []).append(names)
-    return Naming(
-        frozenset(path for path, every in columns.items() if _come_again(every)),
-        frozenset((p, k) for (p, k), every in elements.items() if p not in failed and _come_again(every)),
-    )
+    told = {path: [names for names in every if names is not None] for path, every in columns.items()}
+    beside = {p: t for p, t in told.items() if _names(t, len(columns[p]) - len(t))}
+    within = {(p, k): t for (p, k), t in elements.items() if _names(t, unnamed[p])}
+    each = [*beside.items(), *((path, every) for (path, _), every in within.items())]
+    orders = {path: tuple(every[0]) for path, every in each if all(names == every[0] for names in every)}
+    return Naming(frozenset(beside), frozenset(within), orders)
+
+
+def _names(every: Sequence[Sequence[str]], without: int) -> bool:
+    """Whether they name elements. every: the names of each message. without: how many messages have none."""
+    return len(every) >= _STANDS * (len(every) + without) and _come_again(every)
 
 
 def _come_again(every: Sequence[Sequence[str]]) -> bool:
     counts = Counter(name for names in every for name in names)
-    return 0 < len(counts) <= MOST_ELEMENTS and (len(every) < 4 or counts.total() >= _AGAIN * len(counts))
+    numbers = all(name.lstrip("-").isdecimal() for name in counts)
+    again = len(every) * _STANDS if numbers else _AGAIN if len(every) >= 4 else 0
+    return 0 < len(counts) <= MOST_ELEMENTS and counts.total() >= again * len(counts)
 
 
 def _keys(value: Sequence[Any]) -> list[str]:
@@ -118,14 +141,15 @@ def _of_elements(value: Sequence[Any], key: str) -> list[str] | None:
     """The names in the elements of an array; None where one has none, or two have the same."""
     if not all(isinstance(each, Mapping) and key in each and len(each) > 1 for each in value):
         return None
-    return _texts([each[key] for each in value])
+    return _texts([each[key] for each in value], key)
 
 
-def _texts(names: Any) -> list[str] | None:
+def _texts(names: Any, key: str) -> list[str] | None:
     """Names that are all there and differ; None otherwise."""
     if not isinstance(names, list) or len(names) > MOST_ELEMENTS:
         return None
-    if not all(isinstance(n, str | int) and not isinstance(n, bool) and str(n).strip() for n in names):
+    kinds = (str, int) if key.lower().endswith(_NUMBERED) else (str,)
+    if not all(isinstance(n, kinds) and not isinstance(n, bool) and str(n).strip() for n in names):
         return None
     texts = [str(n) for n in names]
     return texts if len(set(texts)) == len(texts) else None
@@ -144,15 +168,20 @@ def _lists(value: Any, path: Path) -> Iterator[tuple[Path, list[Any]]]:
             yield from _lists(inner, (*path, 0))
 
 
-def _named_columns(value: Any, path: Path) -> Iterator[tuple[Path, list[str]]]:
+def _named_columns(value: Any, path: Path) -> Iterator[tuple[Path, list[str] | None]]:
+    """The names of the arrays beside each array of names; None where those have elements and it does not name them."""
     if len(path) >= MOST_DEPTH:
         return
     if isinstance(value, Mapping):
         lists = {str(k): v for k, v in value.items() if isinstance(v, list)}
         for key, names in lists.items():
-            texts = _texts(names) if key.lower() in _LISTS and names else None
-            if texts and any(len(v) == len(texts) for k, v in lists.items() if k != key):
-                yield (*path, key), texts
+            others = [v for k, v in lists.items() if k != key and v]
+            if key.lower() not in _LISTS or not others:
+                continue
+            texts = _texts(names, key)
+            fit = bool(texts) and any(len(v) == len(names) for v in others)
+            yield (*path, key), texts if fit else None
+            if fit:
                 break
         for key, inner in value.items():
             yield from _named_columns(inner, (*path, str(key)))

@@ -140,7 +140,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     chosen_options = _with_unit(chosen_options, batches, found, name)
     used = [b for c, b in batches.items() if c.topic in found.topics]
     times = np.concatenate([np.empty(0, np.uint64), *(b.times()[chosen_options.time == PUBLISH] for b in used)])
-    times = times[times < LATEST_NS]
+    times = times[(times < LATEST_NS) & ((times > 0) | (chosen_options.time != PUBLISH))]  # none was published at 0
     relative = times.size > 0 and int(times.max()) < EARLIEST_NS
     told = [n for topic in found.topics.values() if (n := apart(topic, batches, _mine(found, topic), relative))]
     start = int(times.min()) if times.size else None

@@ -9,11 +9,13 @@ from pathlib import Path
 from threading import Lock
 
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.match import BY_PLACE
 from thermodata.reader.series import TakenApart
 from thermodata_reader_mcap.container.mapped_file import opened
 from thermodata_reader_mcap.container.messages import collect_messages
 from thermodata_reader_mcap.container.summary import Summary
-from thermodata_reader_mcap.encodings.topic import time_name
+from thermodata_reader_mcap.encodings.field_paths import path_name
+from thermodata_reader_mcap.encodings.topic import Leaf, time_name
 from thermodata_reader_mcap.signals.blocks import BATCH, Writer
 from thermodata_reader_mcap.signals.plan import Plan, content, plan, wanted_topic
 
@@ -37,7 +39,14 @@ def describe(path: Path, source: Source) -> Recording:
     for topic in found.topics.values():
         properties = told.get(topic.name, {})
         mine = [
-            Signal(leaf.name, topic.name, leaf.unit, leaf.dtype, None, {**properties, **dict(leaf.properties)})
+            Signal(
+                leaf.name,
+                topic.name,
+                leaf.unit,
+                leaf.dtype,
+                None,
+                {**properties, **dict(leaf.properties), **_place(found, topic.name, leaf)},
+            )
             for leaf in topic.leaves
         ]
         if topic.name in found.stamped:
@@ -48,6 +57,13 @@ def describe(path: Path, source: Source) -> Recording:
     return Recording(
         tuple(signals), "relative" if found.relative else "absolute", start, found.complete, tuple(found.notes)
     )
+
+
+def _place(found: Plan, topic: str, leaf: Leaf) -> dict[str, str]:
+    """Of an element that goes by its name, the signal that it is by its place, where it had one."""
+    naming = found.naming.get(topic)
+    path = None if naming is None else naming.place(leaf.path)
+    return {} if path is None else {BY_PLACE: path_name(topic, path)}
 
 
 def _key(view: memoryview, path: Path, source: Source) -> tuple[object, ...]:

@@ -65,7 +65,7 @@ def rushed(batches: Sequence[Batch]) -> list[str]:
     logs, published = (np.concatenate([np.empty(0, np.uint64), *(pair[k] for pair in pairs)]) for k in (0, 1))
     if logs.size < 2 or not published.all():
         return []
-    short, long = int(np.ptp(logs)), int(np.ptp(published))
+    short, long = (int(np.ptp(np.quantile(t.astype(np.float64), (0.05, 0.95)))) for t in (logs, published))
     if long < _RUSHED * short or long - short < _APART_NS:
         return []
     return [
@@ -144,7 +144,8 @@ def _of_numbers(
         if epoch not in _UNITS or values.size != logs.size or values.size < 2:
             continue
         away: Float1D = logs - values * (EPOCHS[epoch].seconds * 1e9)
-        if (relative or float(np.abs(away).max()) < _NEAR_NS) and float((np.diff(values) > 0).mean()) >= _RISING:
+        near = np.ptp(away) < np.ptp(logs) / 2 if relative else np.abs(away).max() < _NEAR_NS
+        if near and float((np.diff(values) > 0).mean()) >= _RISING:
             return _name(path), _UNITS[epoch], away.tolist()
     return "", None, []
 
