@@ -46,3 +46,12 @@ def test_properties_of_a_signal_that_scale_it_are_asked_unless_its_reader_applie
     assert with_scale_asked(guess_of(applied), applied) == guess_of(applied)
     plain = Signal("Log/dZ", "log", "um", "float64", properties={"Factor": "1", "Offset": "0", "Polarity": "normal"})
     assert with_scale_asked(guess_of(plain), plain) == guess_of(plain)
+
+
+@pytest.mark.parametrize("head", ["Gain;inf;1;1", "Gain;1e-300;1;1", "Gain;10", "Offset;-5", "Zero;true;true;true"])
+def test_what_is_no_scale_of_a_column_is_not_asked_of_one(tmp_path: Path, say: Say, head: str) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{20 + k / 7:.2f};{4 + 3 * k};{k}" for k in range(60)]
+    names = "Time;T_front [degC];dZ [um];T_rear [degC]"
+    (tmp_path / "run1.csv").write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code in (0, 3)
+    assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")

@@ -47,6 +47,23 @@ def test_another_unit_at_the_end_of_a_name_is_asked(name: str, end: str) -> None
     assert f"the name ends with '{end}'" in said.comment()
 
 
+@pytest.mark.parametrize(
+    ("name", "high"),
+    [("spindle_power_MW", 8.0), ("spindle_power_HP", 8.0)],  # a mean; of high pressure
+)
+def test_two_capitals_at_the_end_of_a_name_decide_nothing(name: str, high: float) -> None:
+    said = guess(name, None, "float64", _seen(0.0, high))
+    assert not said.sure
+    assert said.unit is None
+
+
+@pytest.mark.parametrize(
+    "name", ["T_degC_min", "pressure_bar_min", "spindle_power_kW_min", "T_Sp_l_h", "T_Lager_V_h", "Temp_B_m"]
+)
+def test_a_least_value_and_a_side_of_the_machine_are_no_rates(name: str) -> None:
+    assert "the name ends with" not in guess(name, None, "float64", _seen(15.0, 25.0)).comment()
+
+
 def test_a_delta_in_an_absolute_unit_asks_and_a_rise_is_a_difference() -> None:
     assert "quantity: temperature_difference" in guess("dT_front", "°F", "float64", _seen(0.0, 8.0)).comment()
     assert "temperature_difference" not in guess("dT_front", "°F", "float64", _seen(68.0, 80.0)).comment()

@@ -8,12 +8,14 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.plugin import Signal
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.preamble.scales_said import FACTOR, OFFSET
 from thermodata.schema.unit_scale import with_power_of_ten
 
 _TURNED = re.compile(r"(?i)(?:polarity|polarität|sign|vorzeichen|invert(?:ed)?)")
 _TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
+
+_LEAST, _MOST = 1e-12, 1e12
 
 
 def with_scale_asked(found: Guess, signal: Signal) -> Guess:
@@ -27,7 +29,9 @@ def with_scale_asked(found: Guess, signal: Signal) -> Guess:
 def _asked(properties: Mapping[str, str], unit: str | None) -> Iterator[str]:
     for key, text in properties.items():
         said = f"the file says '{key} = {text}': is that in the values?"
-        number = to_float(text.strip(), "," if "," in text else ".")
+        number = of_either_mark(text.strip())
+        if number is not None and number and not _LEAST < abs(number) < _MOST:
+            continue  # 'inf', or what nobody measures by
         if FACTOR.fullmatch(key) and number is not None and number not in (0.0, 1.0):
             own = with_power_of_ten(abs(number), unit or "?")
             way = f'unit: "{own}"' + (f", instead_of: {unit}" if unit else "") if own else None

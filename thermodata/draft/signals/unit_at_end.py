@@ -55,7 +55,16 @@ def strange(name: str, quantity: str | None) -> str | None:
         return None
     if quantity == "rotational_speed" and _OR_NUMBER.search(name.strip()):
         return "1_s"
-    return next((u for u in _said(name) if quantity and not _may_be(u, quantity) and _is_written_as_unit(u)), None)
+    return next((u for u in _said(name) if quantity and _is_strange(u, quantity)), None)
+
+
+def _is_strange(unit: str, quantity: str) -> bool:
+    """A least value is no rate ('T_degC_min'), nor is what stands low or behind on a machine ('T_bearing_V_h')."""
+    above, _, below = unit.partition("/")
+    own = _may_be(above, quantity)
+    if below and (own if below == "min" else quantity == "temperature" and not own):
+        return False
+    return not _may_be(unit, quantity) and _is_written_as_unit(unit)
 
 
 def _said(name: str) -> Iterator[str]:
@@ -67,7 +76,10 @@ def _said(name: str) -> Iterator[str]:
         made = f"{match['above']}/{match['below']}"
     else:
         made = f"{match['a_second']}/s" if match["a_second"] else match["whole"]
-    short = match["whole"] is not None and made.islower() and len(made) == 2 and made not in _SHORT
+    # two capitals are an abbreviation as well: 'power_MW', a mean; 'power_HP', of high pressure
+    short = (
+        match["whole"] is not None and len(made) == 2 and (made.isupper() or (made.islower() and made not in _SHORT))
+    )
     if not short and made.lower() not in _WORDS and is_unit(made):
         yield made
 

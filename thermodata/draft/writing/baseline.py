@@ -10,6 +10,7 @@ from thermodata.draft.writing.write import flow, one_line, scalar
 from thermodata.effect.binding import unnamed
 from thermodata.effect.registry import effects
 from thermodata.schema.campaign import Campaign
+from thermodata.schema.listed import with_count
 from thermodata.schema.places import is_around
 
 # what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
@@ -116,15 +117,14 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
             *(f"#{line}" for line in offered),
             *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
             *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
-            *([f"# ? drive nothing until their place ('at') is answered: {_some(nowhere)}"] if nowhere else []),
+            *(
+                [f"# ? drive nothing until their place ('at') is answered: {with_count(nowhere, _SHOWN)}"]
+                if nowhere
+                else []
+            ),
             "",
         ]
     )
-
-
-def _some(names: list[str]) -> str:
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more
 
 
 def _line(effect: str, drivers: Mapping[str, str]) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from thermodata.reader.text.cells.number import to_float
+from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.names.header import split_unit
 
 FACTOR = re.compile(
@@ -26,9 +26,11 @@ def scales_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping
     found: dict[str, dict[str, str]] = {}
     for cells in above:
         key = cells[0].strip().rstrip(":=").strip() if cells else ""
-        if len(cells) > 1 and (FACTOR.fullmatch(key) or OFFSET.fullmatch(key)):
+        # of several columns one number alone is of none of them, or of all
+        of_columns = len(cells) > 2 or len(names) == 2
+        if of_columns and (FACTOR.fullmatch(key) or OFFSET.fullmatch(key)):
             for name, text in zip(names[1:], cells[1:], strict=False):
-                if name and to_float(text, "," if "," in text else ".") is not None:
+                if name and to_bool(text) is None and of_either_mark(text) is not None:
                     found.setdefault(name, {})[key] = text
         elif count := _COUNT.search(text := " ".join(filter(None, cells))):
             for name in _named(text[: count.start()], names):
