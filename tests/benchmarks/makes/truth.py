@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 KINDS = (
     *["one"] * 9,
@@ -17,6 +17,15 @@ KINDS = (
     "outside",  # physics that no channel tells
     "fault",  # of the logs; nothing is missing
 )
+
+
+class Named(Protocol):
+    """A cause. right: candidate ids. gone: channels that are not there where it is not logged."""
+
+    @property
+    def right(self) -> str: ...
+    @property
+    def gone(self) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -32,6 +41,13 @@ class Plan:
 def channels(ids: str) -> set[str]:
     """The channels of candidates `effect:channel[,channel]`, blanks between them."""
     return {channel for one in ids.split() for channel in one.split(":")[1].split(",")}
+
+
+def shown_and_gone(asked: Plan, causes: Mapping[str, Named], base: Iterable[str]) -> tuple[set[str], set[str]]:
+    """Channels that are logged at least, those of base among them, and those that are not."""
+    if asked.kind == "not_logged":
+        return set(base), {channel for k in asked.hidden for channel in causes[k].gone.split()}
+    return set(base).union(*(channels(causes[k].right) for k in asked.hidden)), set()
 
 
 def logged(ids: str, shown: Set[str]) -> list[str]:

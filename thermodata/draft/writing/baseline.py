@@ -102,6 +102,7 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
         return None
     offered = [_line(name, fits[0]) for name in _OFFERED if (fits := fitting(name))]
     nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
+    unplaced = with_count(nowhere, _SHOWN)
     return "\n".join(
         [
             "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
@@ -117,11 +118,7 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
             *(f"#{line}" for line in offered),
             *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
             *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
-            *(
-                [f"# ? drive nothing until their place ('at') is answered: {with_count(nowhere, _SHOWN)}"]
-                if nowhere
-                else []
-            ),
+            *([f"# ? drive nothing until their place ('at') is answered: {unplaced}"] if unplaced else []),
             "",
         ]
     )

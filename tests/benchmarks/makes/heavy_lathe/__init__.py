@@ -17,7 +17,7 @@ import numpy as np
 
 from ..bodies import Array, felt
 from ..files import first_model
-from ..truth import Plan, channels, hidden, write_truth
+from ..truth import Plan, hidden, shown_and_gone, write_truth
 from .causes import BASE, CAUSES, plan
 from .laboratory import Laboratory
 from .machine import AT, Lathe, simulate
@@ -99,13 +99,8 @@ def _displacement(rng: np.random.Generator, temps: Sequence[Array], want_um: dic
 
 def _channels(rng: np.random.Generator, asked: Plan, base: Sequence[str]) -> set[str]:
     """Channels that are logged: those of the base and of what is hidden, and some more."""
-    shown = {*KEPT, *(channel for k in base for channel in BASE[k][1].values())}
-    gone: set[str] = set()
-    for k in asked.hidden:
-        if asked.kind == "not_logged":
-            gone |= set(CAUSES[k].gone.split())
-        else:
-            shown |= channels(CAUSES[k].right)
+    least = {*KEPT, *(channel for k in base for channel in BASE[k][1].values())}
+    shown, gone = shown_and_gone(asked, CAUSES, least)
     rest = [k for k in SENSORS if k not in shown | gone]
     more = rng.choice(rest, min(len(rest), CHANNELS - len(shown)), replace=False)
     return (shown | set(map(str, more))) - gone

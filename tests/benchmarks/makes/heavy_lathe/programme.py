@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import datetime
 
 import numpy as np
 
 from ..bodies import Array
+from ..run import TestRun
 
 DT_S = 60.0  # between two rows of all logs
 INPUTS = ("speed", "range", "cut", "live", "feed_x", "feed_z", "pump")
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(TestRun):
     """One test. inputs: speed and live tool [rpm], range (0 to 3), cut (1: full), feeds [m/min], pump (1: on), (n,)."""
-
-    id: str
-    kind: str
-    role: str
-    start: datetime
-    inputs: Mapping[str, Array]
 
     @property
     def steps(self) -> int:

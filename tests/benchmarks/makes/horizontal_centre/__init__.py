@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..files import first_model
-from ..truth import Plan, channels, hidden, write_truth
+from ..truth import Plan, hidden, shown_and_gone, write_truth
 from .causes import BASE, CAUSES, plan
 from .laboratory import Laboratory
 from .machine import Centre, scaled
@@ -98,13 +98,9 @@ def _runs(rng: np.random.Generator, asked: Plan, top_rpm: float) -> list[Run]:
 
 def _channels(rng: np.random.Generator, asked: Plan, base: list[str]) -> set[str]:
     """Channels that are logged: those of the base and of what is hidden, and some more."""
-    shown = {*KEPT, *(channel for k in base for channel in BASE[k][1].values())}
-    gone: set[str] = set()
-    for k in asked.hidden:
-        if asked.kind == "not_logged":
-            gone |= set(CAUSES[k].gone.split()) - shown
-        else:
-            shown |= channels(CAUSES[k].right)
+    least = {*KEPT, *(channel for k in base for channel in BASE[k][1].values())}
+    shown, gone = shown_and_gone(asked, CAUSES, least)
+    gone -= shown
     rest = [k for k in SENSORS if k not in shown | gone]
     more = max(0, min(len(rest), int(rng.integers(16, 23)) - len(shown)))
     return shown | set(map(str, rng.choice(rest, more, replace=False)))

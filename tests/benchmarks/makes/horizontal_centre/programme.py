@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
 
 from ..bodies import Array
+from ..run import TestRun
 
 DT_S = 30.0  # a step of all logs and of the simulation
 REST = 360  # steps at rest before each test
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(TestRun):
     """One test. inputs: shape (REST + n,) each, the rest before it included.
 
     Of the machine: speed [rpm], feed_z and feed_y [m/min], load [kW of cutting], wet (1: coolant flows), table [rpm],
     oil (1: the ram's oil is warm). Around it: swing of the hall's air and its layer above the middle [K at strength 1],
     cabinet and pump (1: on), chiller [K beside its set point], sun [W/m2].
     """
-
-    id: str
-    kind: str
-    role: str
-    start: datetime
-    inputs: Mapping[str, Array]
 
     @property
     def logged(self) -> dict[str, Array]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
 
 from ..bodies import Array
+from ..run import TestRun
 
 DT_S = 10.0  # a step of all logs and of the simulation
 REST = 5 * 360  # steps of idling before each test
@@ -16,7 +16,7 @@ HOURS = {"idle": (4, 6), "const": (3, 5), "steps": (3, 6), "axis": (2.5, 4), "cu
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(TestRun):
     """One test of n steps.
 
     inputs: speed [rpm], feed_z and feed_y [m/min], load of the spindle (1: full), wet (1: coolant flows); shape (n,).
@@ -24,11 +24,6 @@ class Run:
     swing, layer: of the hall's air, and of its top above its middle, at strength 1 [K]; shape (REST + n,).
     """
 
-    id: str
-    kind: str
-    role: str
-    start: datetime
-    inputs: Mapping[str, Array]
     moving: Array
     swing: Array
     layer: Array
