@@ -325,6 +325,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "not_asked",
         "started_on",
         "named_rmse_um",
+        "modelled_rmse_um",
         "locked_shape_um",
         "rmse_um",
         "fitted_rmse_um",

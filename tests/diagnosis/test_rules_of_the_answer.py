@@ -14,6 +14,7 @@ from thermodata.diagnosis import answer as answering
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape
+from thermodata.diagnosis.question import responses
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.sound import Sound
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -617,16 +618,16 @@ def test_the_response_with_the_largest_share_left_is_asked_about(spec: Model) ->
     def left(share: float) -> Response:
         return Response({"a": 10.0 * np.sqrt(share) * wave + 7.0})
 
-    assert answering.worst_response(Fitted([left(0.3), left(0.31)], spec), tests) == 1  # type: ignore[arg-type]
-    assert answering.worst_response(Fitted([left(0.31), left(0.3)], spec), tests) == 0  # type: ignore[arg-type]
-    assert answering.shares_left(Fitted([left(0.25)], spec), tests) == [pytest.approx(0.25)]  # type: ignore[arg-type]
+    assert responses.worst_response(Fitted([left(0.3), left(0.31)], spec), tests) == 1  # type: ignore[arg-type]
+    assert responses.worst_response(Fitted([left(0.31), left(0.3)], spec), tests) == 0  # type: ignore[arg-type]
+    assert responses.shares_left(Fitted([left(0.25)], spec), tests) == [pytest.approx(0.25)]  # type: ignore[arg-type]
 
 
 def test_a_response_that_is_named_is_asked_about(spec: Model) -> None:
     tests, wave = [a_test("a", 50)], np.sin(np.arange(50))
     two = Fitted([Response({"a": 10.0 * wave}), Response({"a": wave})], spec)
     two.responses[0].name, two.responses[1].name = "dZ", "dY"  # type: ignore[misc]
-    assert answering.response_index(two, tests, None) == 0  # type: ignore[arg-type]
-    assert answering.response_index(two, tests, "dY") == 1  # type: ignore[arg-type]
+    assert responses.response_index(two, tests, None) == 0  # type: ignore[arg-type]
+    assert responses.response_index(two, tests, "dY") == 1  # type: ignore[arg-type]
     with pytest.raises(UsageError, match="no response 'dX'"):
-        answering.response_index(two, tests, "dX")  # type: ignore[arg-type]
+        responses.response_index(two, tests, "dX")  # type: ignore[arg-type]

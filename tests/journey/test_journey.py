@@ -66,6 +66,7 @@ DIAGNOSIS = {
     "not_asked",
     "started_on",
     "named_rmse_um",
+    "modelled_rmse_um",
     "locked_shape_um",
     "rmse_um",
     "fitted_rmse_um",

@@ -18,6 +18,7 @@ from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.diagnosis.locked.left_on_locked import contradicted
 from thermodata.diagnosis.locked.unlocking import Look, unlocked
 from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.question.responses import response_index, shares_left
 from thermodata.diagnosis.sensors.loose import loose_sensors
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
@@ -34,10 +35,10 @@ from thermodata.diagnosis.tell.listed import (
 from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.diagnosis.tell.together import left_with_named
 from thermodata.diagnosis.unlogged.unexplained import characterise
+from thermodata.diagnosis.verdict.as_modelled import as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, suspect
-from thermodata.errors import unknown_name
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
@@ -141,6 +142,15 @@ def _answer(
         told_by_open = judgement
         judgement = contradicted(judgement, known, response, locked)
         on_locked = judgement is not told_by_open
+    stands = None
+    if judgement.verdict in ("none", "refine"):
+        stands = as_modelled(
+            investigation.problem,
+            investigation.selection,
+            investigation.measure,
+            offers=judgement.verdict == "none",
+        )
+        judgement = refined(judgement, stands)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
     left_out = [*asked_of.put_right.left_out, *opened.turned]
@@ -151,6 +161,7 @@ def _answer(
 
     beside = {
         "named_rmse_um": left_with_named(investigation, judgement, refit, data, usable),
+        "modelled_rmse_um": None if stands is None else stands.left,
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),
@@ -168,35 +179,6 @@ def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:
     tests = [c.scored.looked.foretold.tests for c in claims if c.scored.looked is not None]
     found = [t for t in tests if t is not None]
     return frozenset[tuple[str, str]]().union(*found) if found and len(found) == len(tests) else None
-
-
-def response_index(fitted: FittedModel, tests: Sequence[TestData], name: str | None) -> int:
-    """The number of the named response, of the worst one where none is named. UsageError for an unknown one."""
-    if name is None:
-        return worst_response(fitted, tests)
-    names = [response.name for response in fitted.responses]
-    if name not in names:
-        raise unknown_name("response", name, names, where=f"model '{fitted.spec.name}'")
-    return names.index(name)
-
-
-def worst_response(fitted: FittedModel, tests: Sequence[TestData]) -> int:
-    """The number of the response with the largest share of its variance left."""
-    return int(np.argmax([-1.0 if left is None else left for left in shares_left(fitted, tests)]))
-
-
-def shares_left(fitted: FittedModel, tests: Sequence[TestData]) -> list[float | None]:
-    """Of each response the share of its variance, test by test, that is left."""
-    left: list[float | None] = []
-    for response in fitted.responses:
-        over, under = 0.0, 0.0
-        for test in tests:
-            if response.can_predict(test) and (m := response.mask(test)).any():
-                y, r = response.measured(test)[m], response.residual(test)[m]
-                over += float(np.sum((r - r.mean()) ** 2))
-                under += float(np.sum((y - y.mean()) ** 2))
-        left.append(over / under if under > 0 else None)
-    return left
 
 
 def _at_rest(found: Sequence[Resting], data: Dataset) -> list[AtRest]:

@@ -9,7 +9,7 @@ import hashlib
 import json
 from typing import TYPE_CHECKING
 
-from thermodata.diagnosis.answer import answer, response_index
+from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
@@ -19,6 +19,7 @@ from thermodata.diagnosis.locked.held import as_held, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.present import present
+from thermodata.diagnosis.question.responses import response_index
 from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 72
+RULES_VERSION = 73
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import number, percent
@@ -36,12 +37,13 @@ def could_be(found: Diagnosis) -> str:
     return listed(told, "or")
 
 
-def may_act_instead(found: Diagnosis) -> str:
+def may_act_instead(found: Diagnosis, but: Collection[str] = ()) -> str:
     """'spindle_bearing (T_front), which spindle_gearbox hides in these tests, may do that instead (...)': of what could
-    have any size behind an effect of the model the one that the tests speak for most; '' where there is none."""
+    have any size behind an effect of the model the one that the tests speak for most; '' where there is none. but: ids
+    that are told already."""
     response = found.response_um or 0.0
     of_each = _of_each(found.limits, response)
-    hidden = next((one for one in of_each if one.behind and _is_unbound(one, response)), None)
+    hidden = next((one for one in of_each if one.behind and one.id not in but and _is_unbound(one, response)), None)
     if hidden is None:
         return ""
     asks = f"thermodata confirm {found.model[:8]} {hidden.id} asks locked ones, where there are some"

@@ -62,6 +62,9 @@ BOTH_WITH = (
     "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
     "noise that its own effects leave, so that errors before differ a little between rows beside the same effects"
 )
+AS_MODELLED = (
+    "before and after are of the model as it stands, one lag an effect; in the other rows its effects may act otherwise"
+)
 _AS_SCORED = "as tests are scored, from their first samples on,"
 _START = "the course fits and where it starts does not (a test that began warm, or noise where its zero is taken)"
 
@@ -227,4 +230,5 @@ def _candidates_text(candidates: Sequence[Candidate], left: float | None) -> str
         ("equivalent", "can't be told from"),
     ]
     told = f"\n\n{BOTH_WITH}" if any(r["beside"] for r in rows) else ""
+    told += "".join(f"\n\n{c.id}: {AS_MODELLED}" for c in candidates if c.as_modelled)
     return table(rows, columns, widest=44) + told

@@ -6,12 +6,15 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from thermodata.report.could_hide import may_act_instead
+from thermodata.report.refined import named
 from thermodata.report.words import LITTLE, duration, number, percent
 from thermodata.schema.begins_on import begins_on
 
 if TYPE_CHECKING:
     from thermodata.schema.diagnosis import Diagnosis
 
+MORE = 1.5
+"""An error of the model as it stands of so many times that of its effects free to act otherwise is told."""
 NOISY = 1.5
 """An error up to so many times the noise is noise."""
 OTHERWISE = 3.0
@@ -47,6 +50,8 @@ def otherwise(found: Diagnosis) -> str:
     """What the model itself leaves, where that is much more than with its effects free to act otherwise, or is the
     level of tests that begin with something on; else ''."""
     left, fitted = found.rmse_um, found.fitted_rmse_um
+    if found.modelled_rmse_um is not None:
+        return _as_modelled(found, found.modelled_rmse_um)
     if left is None or fitted is None:
         return ""
     # what the levels of such tests do not make
@@ -59,6 +64,23 @@ def otherwise(found: Diagnosis) -> str:
         f"{number(fitted)} um on the open tests from their first samples on, so fit "
         "it to all of them, or add a second lag of what it has"
         f"{f'; or {instead}' if instead else ''}{of_levels(found, told=True)}"
+    )
+
+
+def _as_modelled(found: Diagnosis, modelled: float) -> str:
+    """The same by left-out tests, with what refines the model as it stands, or what may hide behind its effects."""
+    offered = [c for c in found.candidates if c.as_modelled]
+    if not offered and modelled <= max(MORE * (found.rmse_um or 0.0), NOISY * (found.noise_um or 0.0)):
+        return of_levels(found)
+    mends = [
+        f"and {number(c.rmse_um_after)} um with {named(c)}, another mode of them or a cause that they hide: add it, "
+        f"thermodata add {found.model[:8]} {c.rank}"
+        for c in offered
+    ] or ["and no effect that is logged takes a third of that away by itself"]
+    instead = may_act_instead(found, but=[c.id for c in offered])
+    return (
+        "; that is with its effects free to act otherwise than by one lag each: as the model has them it leaves "
+        f"{number(modelled)} um, {'; '.join(mends)}{f'; or {instead}' if instead else ''}{of_levels(found)}"
     )
 
 

@@ -104,9 +104,9 @@ def _verdict(found: Diagnosis) -> str:
     far = _far_on_locked(found, found.locked_rmse_um if found.locked_shape_um is None else found.locked_shape_um)
     there = f"but an earlier claim left the locked tests with {far}, and these may lack one" if far else ""
     open_still = "; ".join(filter(None, [there, _not_excluded(found)]))
-    if found.verdict == "refine" and refined:
+    if found.verdict == "refine" and refined and not any(c.as_modelled for c in refined):
         return "; ".join(filter(None, [f"{NO_MORE}{clock_in_doubt(found)}", told_with_errors(found), open_still]))
-    if found.verdict == "none":
+    if found.verdict == "none" or any(c.as_modelled for c in refined):
         doubt = clock_in_doubt(found)
         named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
         colon = "; " if doubt else ": "

@@ -99,6 +99,8 @@ class Candidate(Result):
         where it is not known, or nothing was opened for it
     beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
         where these are of the user's own model without and with this one; null in an answer of an older version
+    as_modelled: whether errors and FITs before and after are beside the effects of the model as it has them, which are
+        else free to act otherwise than by one lag each
     parameters: of the effect, fitted to all open tests; for a claimed one only
     equivalent: ids that the data cannot tell from it
     unread: places of other parts that it may be as well, for nothing that it reads tells them apart
@@ -132,6 +134,7 @@ class Candidate(Result):
     locked_shape_um_after: float | None = None
     locked_tests_asked: int | None = None
     beside: list[str] | None = None
+    as_modelled: bool = False
     parameters: dict[str, Parameter] = {}
     equivalent: list[str] = []
     unread: list[str] = []

@@ -180,6 +180,8 @@ class Diagnosis(Result):
         their one lag
     named_rmse_um: the same with all claims added, or where nothing is claimed with the refinements that let an error
         fall; null where nothing is named, or in an answer of an older version
+    modelled_rmse_um: error on left-out tests without any candidate, where the effects of the model act as it has them;
+        for the verdicts none and refine
     fitted_rmse_um: error of the model as it is fitted, on the open tests from their first samples on
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
         none were
@@ -210,6 +212,7 @@ class Diagnosis(Result):
     noise_over_s: float | None = None
     rmse_um: float | None
     named_rmse_um: float | None = None
+    modelled_rmse_um: float | None = None
     fitted_rmse_um: float | None = None
     locked_rmse_um: float | None = None
     locked_shape_um: float | None = None

@@ -120,7 +120,8 @@ def candidate(
         refinement=refining,
         # measured for what is sound; nothing is known of the share of the others
         probability=probability(s) if any(s is one for one in told_with) else None,
-        p_value=p_value(s.evidence, measure.chance),
+        # chance was asked beside effects that may act otherwise
+        p_value=None if s.as_modelled else p_value(s.evidence, measure.chance),
         rmse_um_before=rmse(told.sse_before, told),
         rmse_um_after=rmse(told.sse_after, told),
         fit_before=_fit(told.sse_before, told, measure.spread),
@@ -130,6 +131,7 @@ def candidate(
         locked_shape_um_before=shape.before if shape else None,
         locked_shape_um_after=shape.after if shape else None,
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
+        as_modelled=s.as_modelled,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         beside=[] if of_model else judged_beside(s, member, investigation, judgement),
         equivalent=[t.id for t in twins],
@@ -170,6 +172,8 @@ def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[
 def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
     whether it is the former."""
+    if s.as_modelled:
+        return s, True
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), None)
     if alone is None:
@@ -190,7 +194,7 @@ def explainable(shown: Sequence[Scored], investigation: Investigation) -> tuple[
     nothing."""
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     told = [beside_the_model(s, investigation)[0] for s in shown]
-    alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others]
+    alone = [s for s in (*told, *ranked) if len(s.rows) and not s.others and not s.as_modelled]
     best = max(alone, key=fall, default=None)
     return (None, None) if best is None else (float(np.clip(fall(best), 0.0, 1.0)), best.candidate.id)
 

@@ -34,7 +34,8 @@ def left_with_named(
     """RMS error of tests that are left out in turn, each alike, as the next version's own answer will tell it; None
     where the verdict names nothing, or the version can't predict all of the open tests."""
     found = named(investigation, judgement)
-    if not found:
+    # beside the model as it has its effects errors are others, and the candidate tells them itself
+    if not found or any(j.scored.as_modelled for j in found):
         return None
     if len(found) == 1:
         told, of_model = beside_the_model(found[0].scored, investigation)

@@ -38,6 +38,8 @@ _OTHERWISE = "the effects of the model may act otherwise than by their fitted la
 
 def judged_beside(s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement) -> list[str]:
     """Ids of what is in the model too where a candidate is judged, as the answer names them."""
+    if s.as_modelled:
+        return []
     if member is None:
         return list(s.others)
     others = [j.scored.candidate.id for j in judgement.judged if j.alone is not member.alone]
@@ -65,6 +67,7 @@ def why(
     improves = round(s.better * count)
     tests = investigation.measure.tests
     alone = told if of_model and others else None
+    beside = ", beside the effects as the model has them, one lag each," if s.as_modelled else beside
     numbers = (
         f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error "
         f"{way(s.error_before, s.error_after)} "

@@ -28,7 +28,8 @@ class Scored:
     another cause that was selected has more evidence a sample. looked: of what might be claimed, what the locked tests
     say; None where they were not opened for it. also_on: (channel, probability there) of each other axis on which it is
     missing too, where that was asked. others: ids of the candidates that it was weighed beside. sides: of a difference,
-    the log evidence of each of its two temperatures by itself, in its place; empty for all else."""
+    the log evidence of each of its two temperatures by itself, in its place; empty for all else. as_modelled: whether
+    the known effects acted as the model has them, and were not free to act otherwise."""
 
     candidate: CandidateEffect
     columns: Columns
@@ -49,6 +50,7 @@ class Scored:
     also_on: tuple[tuple[str, float], ...] = ()
     others: tuple[str, ...] = ()
     sides: tuple[float, ...] = ()
+    as_modelled: bool = False
 
     @property
     def acts(self) -> Bool1D:

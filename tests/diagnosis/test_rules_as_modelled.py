@@ -1,0 +1,105 @@
+"""What the model leaves as it stands, and what is offered for it (verdict/as_modelled.py)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from thermodata.diagnosis.claims.measure import Measure
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
+from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
+
+from .hand_made import Parts, candidate, measure, problem
+
+TESTS = 6
+OTHER = ("T_other", "T_b")
+
+
+def of_slow(slow: Sequence[float]) -> Problem:
+    """A model of one column; beside it a slower one, so much of it in each test, which the model's effect may do where
+    it may act otherwise, and which T_a reads; T_b reads neither."""
+    rng = np.random.default_rng(3)
+
+    def one(much: float) -> Parts:
+        walks = np.cumsum(rng.normal(size=(120, 3)), axis=0) / 5
+        quick, late, neither = (walks - walks.mean(axis=0)).T
+        noise = rng.normal(size=120)
+        y = quick + much * late + 0.02 * (noise - noise.mean())
+        values = {"T_a": late, "T_b": neither}
+        return Parts(y - quick, response=y, base=quick[:, None], slack=late[:, None], values=values)
+
+    return problem(*map(one, slow), noise=0.02)
+
+
+def asked(of: Problem, *, floor: float = 0.0, offers: bool = True) -> tuple[AsModelled | None, Selection]:
+    first = first_ranking(of, [candidate("lag", family="generic"), candidate(*OTHER[:1], channels=OTHER[1:])])
+    assert first is not None
+    selection = select(of, first, lambda s: False, among=[s.columns for s in first.ranked])
+    by = Measure(1.0, floor, np.zeros(0)) if floor else measure(floor=0.001)
+    return as_modelled(of, selection, by, offers=offers), selection
+
+
+def test_what_foretells_left_out_tests_beside_the_model_as_it_stands_is_offered() -> None:
+    found, selection = asked(of_slow([0.5] * TESTS))
+    assert found is not None
+    assert found.offered is not None
+    assert selection.left < 0.05, "where its effect may act otherwise nothing is missing"
+    assert found.left > 0.1
+    one = found.offered.scored
+    assert one.candidate.channels == ("T_a",)
+    assert one.as_modelled
+    assert one.error_of_all < 0.05
+    assert found.offered.refines is not None
+    assert "can't tell a cause of its own" in found.offered.refines
+
+
+@pytest.mark.parametrize(
+    ("slow", "why"),
+    [([0.0] * TESTS, "the model leaves nothing"), ([0.5, -0.5] * 3, "it acts otherwise in each test")],
+)
+def test_nothing_is_offered(slow: list[float], why: str) -> None:
+    found, _ = asked(of_slow(slow))
+    assert found is not None
+    assert found.offered is None, why
+
+
+def test_what_is_noise_is_left_alone() -> None:
+    found, _ = asked(of_slow([0.5] * TESTS), floor=0.5)
+    assert found is not None
+    assert found.offered is None
+    assert asked(of_slow([0.5] * TESTS), floor=0.01)[0] is not None
+
+
+def test_its_error_is_told_where_nothing_is_asked_for() -> None:
+    found, _ = asked(of_slow([0.5] * TESTS), offers=False)
+    assert found is not None
+    assert (found.offered, found.left > 0.1) == (None, True)
+    assert as_modelled(of_slow([0.5]), None, measure(), offers=True) is None
+
+
+def test_only_what_finds_nothing_missing_is_refined_by_it() -> None:
+    found, _ = asked(of_slow([0.5] * TESTS))
+    nothing = Judgement("none", (), (), (), "")
+    with_it = refined(nothing, found)
+    assert found is not None
+    assert (with_it.verdict, with_it.refinements, with_it.judged) == ("refine", (found.offered,), (found.offered,))
+    unknown = replace(nothing, verdict="unknown")
+    assert refined(unknown, found) is unknown
+    assert refined(nothing, None) is nothing
+    assert refined(nothing, AsModelled(1.0, None)) is nothing
+
+
+def test_a_name_is_offered_for_a_lag_of_its_channels() -> None:
+    of = of_slow([0.5] * TESTS)
+    first = first_ranking(of, [candidate("lag", family="generic"), candidate("screw")])
+    assert first is not None
+    selection = select(of, first, lambda s: False, among=[s.columns for s in first.ranked])
+    found = as_modelled(of, selection, measure(floor=0.001), offers=True)
+    assert found is not None
+    assert found.offered is not None
+    assert found.offered.scored.candidate.effect.name == "screw"
