@@ -28,6 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 from measure import PROGRAM, table
@@ -49,7 +50,8 @@ class Claim:
 @dataclass(frozen=True)
 class Asked:
     """One case. worth: share of the locked error, None where nothing is hidden or the name is refused. first: mark of
-    the candidate that is listed first. um: locked errors of the model, and with all claims."""
+    the candidate that is listed first. um: locked errors of the model, and with all claims. refined: what a verdict
+    without a cause offers first, and locked errors without and with it."""
 
     make: str
     case: int
@@ -64,6 +66,7 @@ class Asked:
     artefacts: list[str]
     fault: str | None
     losses: list[str]
+    refined: tuple[Claim, float | None, float | None] | None = None
 
 
 class RefusedError(RuntimeError):
@@ -126,6 +129,7 @@ def ask(name: str, case: int, program: str) -> Asked:
             artefacts=[a["kind"] for a in first["artefacts"]],
             fault=truth["fault"],
             losses=[str(loss) for loss in taken["losses"]],
+            refined=refined(lab, model, first, truth["hidden"]) if first["verdict"] == "refine" else None,
         )
 
 
@@ -139,6 +143,16 @@ def worth(lab: Lab, model: str, hidden: Sequence[Truth]) -> float | None:
         return None
     before, after = said["locked_rmse_um_before"], said["locked_rmse_um_after"]
     return None if not before or after is None else 1 - after / before
+
+
+def refined(
+    lab: Lab, model: str, said: Mapping[str, Any], hidden: Sequence[Truth]
+) -> tuple[Claim, float | None, float | None] | None:
+    offered = next((c for c in said["candidates"] if c["refinement"]), None)
+    if offered is None:
+        return None
+    added = lab.ask("add", model, offered["id"])
+    return marks(hidden, [offered])[0][0], added["locked_rmse_um_before"], added["locked_rmse_um_after"]
 
 
 def marks(hidden: Sequence[Truth], claims: Sequence[Mapping[str, Any]]) -> tuple[list[Claim], list[str]]:
@@ -202,6 +216,16 @@ def rows(found: Sequence[Mapping[str, Any]]) -> Iterator[list[object]]:
                 yield [make or "together", sort, len(of), *counts, first]
 
 
+def refinements(found: Sequence[Mapping[str, Any]]) -> Iterator[list[object]]:
+    """Of verdicts without a cause that offer a refinement: what the locked tests say of the first one."""
+    for sort, is_one in SORTS.items():
+        of = [r["refined"] for r in found if is_one(r) and r.get("refined")]
+        falls = [1 - after / before for _, before, after in of if before and after is not None]
+        if falls:
+            named = sum(claim["mark"] in ("right", "twin") for claim, _, _ in of)
+            yield [sort, len(of), sum(f > 0 for f in falls), f"{median(falls):.0%}", named]
+
+
 def changed(before: Sequence[Mapping[str, Any]], now: Sequence[Mapping[str, Any]]) -> Iterator[list[object]]:
     old = {(r["make"], r["case"]): r for r in before}
     for r in now:
@@ -238,6 +262,8 @@ def main() -> None:
     else:
         found = read(words.out)
         print(table(["make", "hidden", "cases", *OUTCOMES, "first"], list(rows(found))))
+        offered = list(refinements(found))
+        print(table(["hidden", "refinements", "locked error falls", "by (median)", "of what is hidden"], offered))
         if words.before:
             print(table(["make", "case", "hidden", "before", "now"], list(changed(read(words.before), found))))
 
