@@ -158,7 +158,8 @@ def test_a_body_whose_heated_part_has_a_sensor_has_no_name_and_is_passive(part: 
     """A table that coolant washes: its own warmth is no friction of its bearing where that is read by itself."""
     table = ChannelInfo("T_table", "temperature", "degC", at="table")
     beside = ChannelInfo("T_part", "temperature", "degC", at=part)
-    channels = {c.name: c for c in (CHANNELS["dZ"], table, beside)}
+    turns = ChannelInfo("n_table", "rotational_speed", "rpm", at="table")
+    channels = {c.name: c for c in (CHANNELS["dZ"], table, beside, turns)}
     found = {c.id: c.passive for c in candidates(effects(), channels, (), "dZ")}
     told = part in ("table.bearing", "table.motor")
     assert ("table_bearing:T_table" in found) is not told
@@ -167,6 +168,31 @@ def test_a_body_whose_heated_part_has_a_sensor_has_no_name_and_is_passive(part: 
     speed = ChannelInfo("T_part", "rotational_speed", "rpm", at="table.bearing")
     moved = candidates(effects(), {**channels, "T_part": speed}, (), "dZ")
     assert "table_bearing:T_table" in {c.id for c in moved}, "no temperature tells it"
+
+
+@pytest.mark.parametrize(
+    ("quantity", "at", "turns"),
+    [
+        ("rotational_speed", "table", True),
+        ("current", "table.motor", True),
+        ("feed", "rotary.b", True),
+        ("feed", "axis.x", False),
+        ("rotational_speed", "spindle", False),
+        ("temperature", "rotary.b.motor", False),
+        ("state", "table", False),
+    ],
+)
+def test_a_table_that_nothing_turns_makes_no_heat(quantity: str, at: str, turns: bool) -> None:
+    table = ChannelInfo("T_table", "temperature", "degC", at="table")
+    other = ChannelInfo("other", quantity, "1", at=at)
+    channels = {c.name: c for c in (CHANNELS["dZ"], table, other)}
+    found = {c.id: c.passive for c in candidates(effects(), channels, (), "dZ")}
+    assert ("table_bearing:T_table" in found) is turns
+    assert found["lag:T_table"] is not turns
+    bearing = {**channels, "T_table": replace(table, at="table.bearing")}
+    assert "table_bearing:T_table" in {c.id for c in candidates(effects(), bearing, (), "dZ")}, (
+        "where it is at a bearing"
+    )
 
 
 def test_a_switch_beside_what_the_model_reads_is_no_mode_of_it() -> None:

@@ -35,6 +35,8 @@ STATIC = "static"
 NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 # parts of a body that make heat
 HEATED_PARTS = ("bearing", "motor")
+TABLE = "table"  # turning or not
+TURNS = (TABLE, "rotary")
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
@@ -208,12 +210,20 @@ def _follows(channel: ChannelInfo) -> bool:
 
 def _is_body(name: str, channels: Mapping[str, ChannelInfo]) -> bool:
     """Whether it reads the temperature of a body, as a table's, of which a part that makes heat has a sensor of its
-    own: what such a body does beyond that comes from elsewhere, as from the coolant that washes it."""
+    own, or a table that nothing turns: what such a body does beyond that comes from elsewhere, as from the coolant that
+    washes it."""
     own = channels[name]
     if own.quantity != "temperature" or own.at is None:
         return False
+    if own.at.lower() == TABLE and not any(_turns(c) for c in channels.values()):
+        return True
     heated = (f"{own.at}.{part}" for part in HEATED_PARTS)
     return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
+
+
+def _turns(channel: ChannelInfo) -> bool:
+    """Whether it is what turns a table, or what that takes."""
+    return is_motion(channel.quantity) and any(holds(place, channel.at) for place in TURNS)
 
 
 def _is_around(channel: ChannelInfo) -> bool:
