@@ -12,8 +12,10 @@ from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import TEMPORARY
 from thermodata.store.catalogue.create import LAYERS
 from thermodata.store.catalogue.store import Store
-from thermodata.store.ingest.commit import drop_results, mark_stale
-from thermodata.store.ingest.inventory import BY_TEST
+from thermodata.store.ingest.commit import drop_results
+from thermodata.store.ingest.inventory import BY_TEST, read_inventory
+from thermodata.store.ingest.mark_stale import mark_stale
+from thermodata.store.ingest.state import states
 
 if TYPE_CHECKING:
     import duckdb
@@ -56,7 +58,8 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
-            stale = mark_stale(con, campaign, {test: ["gone"]})
+            was = read_inventory(con, None, campaign, {test})
+            stale = mark_stale(con, campaign, states(was.rows, was.calibrations, {test}), {test: None})
             for table in BY_TEST:
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})
