@@ -199,7 +199,7 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
                 ("m1", "dZ"),
                 ("m2", "dX"),
             ]
-            added = ["response", "campaigns"] if view == "candidate" else ["response"]
+            added = ["response", "campaigns", "stale"] if view == "candidate" else ["response"]
             columns = con.sql(f"select * from {view}").columns
             assert columns[-len(added) :] == added, "what stood before keeps its place"
     save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])
@@ -209,6 +209,21 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
         ]
     with pytest.raises(StoreError, match="m9"):
         save_diagnosis(filled, "m9", DIAGNOSIS)
+
+
+def test_the_views_say_what_is_of_data_that_changed(filled: Store, campaign: Path) -> None:
+    save(filled, "m1")
+    save(filled, "first", tests=("one",))
+    save_diagnosis(filled, "m1", DIAGNOSIS)
+    text = campaign.read_text()
+    for now, stale in ((text.replace("heating: [0 s, 600 s]", "heating: [0 s, 300 s]"), True), (text, False)):
+        campaign.write_text(now)
+        ingest(filled, campaign)
+        with filled.reader() as con:
+            assert con.execute("select distinct stale from candidate").fetchall() == [(stale,)]
+            for view in ("score", "residual"):
+                found = con.execute(f"select distinct model, stale from {view} order by 1").fetchall()
+                assert found == [("first", False), ("m1", stale)]
 
 
 def test_looks_at_locked_tests_are_counted(filled: Store) -> None:
