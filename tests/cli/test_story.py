@@ -503,6 +503,9 @@ def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp
     told = say("--store", store, "confirm", base, "feed_screw:T_nut_Z")
     assert told.code == 2
     assert "no locked test to confirm on" in told.err
+    assert "got: none: every test of the model is open" in told.err
+    for what_to_do in ("write role: locked at it in the file of 'small'", "then thermodata ingest", "thermodata fit "):
+        assert what_to_do in " ".join(told.err.split())
 
 
 def test_a_locked_test_that_the_model_has_lost_is_told_with_what_it_lacks(say: Say, tmp_path: Path) -> None:
