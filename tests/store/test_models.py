@@ -232,6 +232,33 @@ def test_looks_at_locked_tests_are_counted(filled: Store) -> None:
     assert (locked_looks(filled, "shop", "two"), locked_looks(filled, "shop", "one")) == (2, 0)
 
 
+@pytest.mark.parametrize("test", [None, "two"])
+def test_looks_at_data_that_come_back_count_on(filled: Store, campaign: Path, test: str | None) -> None:
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    for looks in (1, 2):
+        assert forget(filled, "shop", test)["looks"] == looks
+        ingest(filled, campaign)
+        assert locked_looks(filled, "shop", "two") == looks, "nobody has forgotten what he saw"
+        count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    text = campaign.read_text()
+    line = next(one for one in text.splitlines(keepends=True) if "id: two" in one)
+    for now in (text.replace(line, ""), text):  # taken out of the campaign file, and back
+        campaign.write_text(now)
+        ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "two") == 3
+    with filled.reader() as con:
+        assert con.execute("select count(*) from finding where kind = 'forgotten'").fetchone() == (0,)
+
+
+def test_looks_do_not_count_for_other_data_of_the_same_name(filled: Store, campaign: Path) -> None:
+    count_locked_look(filled, "m1", [("shop", "one"), ("shop", "two")], "claim of lag:T_a")
+    assert forget(filled, "shop")["looks"] == 2
+    one, two = (campaign.parent / "raw" / f"{test}_a.npz" for test in ("one", "two"))
+    two.write_bytes(one.read_bytes())
+    ingest(filled, campaign)
+    assert [locked_looks(filled, "shop", test) for test in ("one", "two")] == [1, 0]
+
+
 def test_forgetting_takes_what_was_fitted(filled: Store) -> None:
     save(filled, "m1")
     save_diagnosis(filled, "m1", DIAGNOSIS)

@@ -15,6 +15,7 @@ from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
+from thermodata.store.ingest.looks_of_gone import count_on, keep_looks
 from thermodata.store.ingest.mark_stale import is_fitted, mark_stale
 from thermodata.store.ingest.state import states, version_of
 
@@ -131,11 +132,14 @@ def commit(
     )
     then = states(inventory.rows, inventory.calibrations, differ)
     stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
-    drop_results(con, campaign, {*inventory.rows["test"]} - {*planned.rows["test"]})
+    before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
+    drop_results(con, campaign, before - after)
+    keep_looks(con, campaign, inventory.rows, before - after)
+    count_on(con, campaign, planned.rows, after - before)
     return stale
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are no more."""
-    for table in ("prediction", "score_row", "finding", "locked_look") if tests else ():
+    """Removes what models said about tests that are no more; that their locks were opened stays."""
+    for table in ("prediction", "score_row", "finding") if tests else ():
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])

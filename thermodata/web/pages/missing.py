@@ -141,7 +141,7 @@ def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
         return fetch(
             con,
             "select test, count(*) as n, any_value(reason) as reason from locked_look "
-            "where list_contains(?, campaign) group by campaign, test order by test",
+            "join test using (campaign, test) where list_contains(?, campaign) group by campaign, test order by test",
             [list(model.campaigns)],
         )
 
