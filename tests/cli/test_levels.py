@@ -12,13 +12,26 @@ from .conftest import Said
 
 @pytest.mark.parametrize(
     "words",
-    [["fit", "baseline"], ["compare", "baseline"], ["compare", "baseline", "baseline"], ["history", "baseline"]],
+    [
+        ["fit", "baseline"],
+        ["compare", "baseline"],
+        ["compare", "baseline", "baseline"],
+        ["compare", "baseline", "--against", "baseline"],
+        ["history", "baseline"],
+    ],
 )
 def test_a_table_of_errors_says_from_where_they_count(
     say: Callable[..., Said], campaign: Path, words: list[str]
 ) -> None:
     told = say("--store", campaign / "thermodata.store", *words).out
     assert told.count("level: the error of a calibration test is about a level fitted to it") == 1
+
+
+def test_a_table_for_a_paper_is_that_table_alone(say: Callable[..., Said], campaign: Path) -> None:
+    words = ("compare", "baseline", "--against", "baseline", "--layout", "csv")
+    told = say("--store", campaign / "thermodata.store", *words)
+    assert "level:" not in told.out
+    assert told.err.count("level: the error of a calibration test is about a level fitted to it") == 1
 
 
 def test_a_prediction_says_that_all_count_from_their_first_samples(say: Callable[..., Said], campaign: Path) -> None:

@@ -179,6 +179,7 @@ def test_fit_add_and_history(data: Callable[..., Any], ask: Say, campaign: Path)
     assert {s["test"] for s in base["scores"]} == {"heat1", "heat2", "day1"}, "locked tests stay closed"
 
     better = data("add", base["model"], "feed_screw:T_nut_Z")
+    assert set(better) == FIT | {"stale"}
     assert better["parent"] == base["model"]
     assert [s["model"] for s in better["before"]] == [base["model"]] * len(better["before"])
 
@@ -283,6 +284,7 @@ def test_a_report_of_a_version_tells_what_it_changed(say: Say, tmp_path: Path) -
 
     base = data("fit", tmp_path / "c" / "baseline.yaml")
     better = data("add", base["model"], "feed_screw:T_nut_Z")
+    assert set(better) == FIT | {"stale"}
     found = data("report", better["model"], "-o", tmp_path / "r.html")
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert found["bytes"] == len(page.encode())
@@ -341,6 +343,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "response_um",
         "limits",
         "at_rest",
+        "stale",
     }
     assert found["verdict"] == "effect"
     first = found["candidates"][0]
@@ -407,6 +410,17 @@ def test_responses_in_several_units_are_told_each_in_its_own(say: Say, tmp_path:
 
 def rmse(scores: list[dict[str, Any]]) -> float:
     return float(np.sqrt(np.average([s["rmse_um"] ** 2 for s in scores], weights=[s["n"] for s in scores])))
+
+
+def test_answers_to_a_model_of_other_data_say_so(say: Say, tmp_path: Path) -> None:
+    path, store = write_campaign(tmp_path / "c"), tmp_path / "s"
+    assert say("--store", store, "ingest", path).code == 0
+    base = json.loads(say("--store", store, "fit", tmp_path / "c" / "baseline.yaml", "--json").out)["model"]
+    path.write_text(path.read_text().replace("kind: mixed", "kind: spectrum"))
+    assert say("--store", store, "ingest", path).code == 0
+    for words in (["diagnose", base], ["confirm", base, "lag:T_hall"], ["add", base, "lag:T_hall", "--plain"]):
+        found = json.loads(say("--store", store, *words, "--json").out)
+        assert str(found["stale"]).startswith(f"stale: the data of baseline {base} changed"), words
 
 
 def test_the_same_question_opens_no_lock_again_and_a_choice_of_ones_own_is_counted(say: Say, tmp_path: Path) -> None:
@@ -490,6 +504,9 @@ def test_a_campaign_without_locked_tests_has_nothing_to_confirm_on(say: Say, tmp
     told = say("--store", store, "confirm", base, "feed_screw:T_nut_Z")
     assert told.code == 2
     assert "no locked test to confirm on" in told.err
+    assert "got: none: every test of the model is open" in told.err
+    for what_to_do in ("write role: locked at it in the file of 'small'", "then thermodata ingest", "thermodata fit "):
+        assert what_to_do in " ".join(told.err.split())
 
 
 def test_a_locked_test_that_the_model_has_lost_is_told_with_what_it_lacks(say: Say, tmp_path: Path) -> None:

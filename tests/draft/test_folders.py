@@ -153,3 +153,7 @@ def test_a_model_that_is_there_is_never_overwritten(tmp_path: Path, say: Say) ->
     assert say("init", tmp_path / "lab", "--force").code == 0
     assert (tmp_path / "lab" / "model.1.yaml").read_text() == "mine\n"
     assert "thermodata/model/1" in own.read_text("utf-8")
+    for kept, text in ((["model.1.yaml"], own.read_text("utf-8")), (["model.1.yaml", "model.2.yaml"], "mine too\n")):
+        own.write_text(text, encoding="utf-8")
+        assert say("init", tmp_path / "lab", "--force").code == 0
+        assert sorted(p.name for p in own.parent.glob("model.*.yaml")) == kept, "what somebody wrote alone"

@@ -212,6 +212,24 @@ def test_a_first_model_that_somebody_changed_is_kept(tmp_path: Path) -> None:
         first_model(path, "dX")
 
 
+def test_a_first_model_that_nobody_changed_is_not_kept_whatever_became_of_the_campaign_file(tmp_path: Path) -> None:
+    path, model = tmp_path / "campaign.yaml", tmp_path / "model.yaml"
+    path.write_text(SEVERAL)
+    first_model(path, "dX")
+    path.write_text(
+        SEVERAL.replace("quantity: temperature, unit: degC}", "quantity: temperature, unit: degC, at: hall}")
+    )
+    assert modelled(path) == "dX"
+    assert first_model(path, "dX").kept is None
+    assert "ambient_frame, drivers: {temperature: T_front}" in model.read_text()
+    # an answer is followed from there too
+    path.write_text(SEVERAL)
+    _, followed = write_answered(path, filled_in(SEVERAL, {"channels.T_front.at": "spindle.bearing.front"}))
+    assert followed
+    assert "spindle_bearing, drivers: {temperature: T_front}" in model.read_text()
+    assert [p.name for p in tmp_path.glob("model*")] == ["model.yaml"]
+
+
 def test_a_displacement_without_an_axis_is_modelled_by_its_name(tmp_path: Path) -> None:
     path = tmp_path / "campaign.yaml"
     path.write_text(

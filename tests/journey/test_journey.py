@@ -82,6 +82,7 @@ DIAGNOSIS = {
     "response_um",
     "limits",
     "at_rest",
+    "stale",
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {
@@ -306,7 +307,7 @@ def test_diagnosis_names_the_hidden_effect(lab: Lab, diagnosis: dict[str, Any]) 
 
 
 def test_the_added_effect_lowers_the_error_and_is_the_true_one(lab: Lab, better: dict[str, Any]) -> None:
-    assert set(better) == FIT
+    assert set(better) == FIT | {"stale"}
     assert better["parent"] == lab.base
     assert [s["model"] for s in better["before"]] == [lab.base] * len(better["before"])
     assert error(better["scores"]) < 0.5 * error(better["before"])

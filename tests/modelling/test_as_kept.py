@@ -16,12 +16,14 @@ from thermodata.modelling import run
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
+from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import open_in
-from thermodata.store.catalogue.models import find_model
+from thermodata.store.catalogue.models import find_model, load_diagnosis, save_diagnosis
 from thermodata.store.catalogue.stale import stale_line
 from thermodata.store.ingest.run import ingest
+from thermodata.store.keep.lifecycle import forget
 from thermodata.view.dataset import Dataset
 from thermodata.view.events import about_test
 
@@ -99,6 +101,64 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     again = run.fit(store, Model.model_validate(find_model(store, model).spec)).model
     assert again != model
     assert stale_line(store, again) is None
+
+
+def test_a_model_whose_data_are_set_back_is_as_it_was_fitted(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, edit = edited
+    was = run.compare(store, [model])
+    assert edit("role: verification", "role: none") == [model]
+    assert edit("kind: spectrum", "kind: mixed") == []
+    assert "description of " in str(stale_line(store, model))
+    edit("kind: mixed", "kind: spectrum")
+    line = str(stale_line(store, model))
+    assert "role of " in line
+    assert "description" not in line, "what was set back differs no more"
+    assert edit("role: none", "role: verification") == []
+    assert stale_line(store, model) is None
+    assert not run.load(store, model).kept
+    assert run.compare(store, [model]) == was
+    raw = tmp_path / "raw" / "t0.csv"
+    text = raw.read_text()
+    for now, differs in ((text.replace("0.1", "0.3"), True), (text, False)):
+        raw.write_text(now)
+        ingest(store, tmp_path / "campaign.yaml")
+        assert find_model(store, model).stale == differs
+
+
+def test_a_test_that_came_back_is_without_its_results_until_the_model_is_fitted_again(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, _ = edited
+    assert forget(store, "c", "t0")["stale"] == [model]
+    assert "gone: t0" in str(stale_line(store, model))
+    ingest(store, tmp_path / "campaign.yaml")
+    assert "gone for a while: t0" in str(stale_line(store, model))
+    assert run.fit(store, find_model(store, model).spec).model == model
+    assert stale_line(store, model) is None
+
+
+def test_what_was_found_out_on_other_data_goes_where_they_are_set_back(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]],
+) -> None:
+    store, model, edit = edited
+    found = {"model": model, "response": "dZ", "verdict": "none", "noise_um": 0.1, "rmse_um": 1.0, "explainable": 0.0}
+    before, meanwhile = (
+        Diagnosis.model_validate({**found, "next_test": told, "weak_spots": [], "candidates": [], "artefacts": []})
+        for told in ("before", "meanwhile")
+    )
+    save_diagnosis(store, model, before)
+    edit("role: verification", "role: none")
+    edit("role: none", "role: verification")
+    assert load_diagnosis(store, model) == before
+    edit("role: verification", "role: none")
+    save_diagnosis(store, model, meanwhile)
+    edit("kind: spectrum", "kind: mixed")
+    assert load_diagnosis(store, model) == meanwhile
+    edit("kind: mixed", "kind: spectrum")
+    edit("role: none", "role: verification")
+    assert load_diagnosis(store, model) is None
 
 
 def test_a_test_that_was_open_when_a_model_was_fitted_is_no_new_one_once_it_is_locked(

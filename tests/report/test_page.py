@@ -16,6 +16,7 @@ from thermodata.report.figures import part_chart, points_for, residual_scale
 from thermodata.report.glossary import ERRORS
 from thermodata.report.headline import error_sentence, headline, sentences
 from thermodata.report.page import render, what_is_left
+from thermodata.schema.candidate import LeftOut
 from thermodata.schema.result import Check
 
 from .conftest import diagnosis
@@ -71,6 +72,23 @@ def test_every_error_of_a_page_stands_under_its_word_and_one_heads_it(data: Repo
     assert text.count('<tr class="head">') == 1
 
 
+def test_a_row_says_once_that_its_tests_are_those_of_the_calibration(data: ReportData) -> None:
+    text = body(render(data))
+    assert "(etve and sp9000)" in text
+    assert "calibration tests: " not in text
+
+
+def test_an_error_of_parts_that_were_left_out_says_so(blind: ReportData) -> None:
+    assert blind.diagnosis is not None
+    claim = blind.diagnosis.candidates[0]
+    part = {"campaign": "demo", "test": "etve", "acts": True, "rmse_um_before": 2.0, "rmse_um_after": 1.0}
+    parts = [LeftOut.model_validate({**part, "from_s": k * 600.0, "to_s": k * 600.0 + 600.0}) for k in range(4)]
+    found = blind.diagnosis.model_copy(update={"candidates": [claim.model_copy(update={"left_out": parts})]})
+    (row,) = (r for r in error_rows(dataclasses.replace(blind, diagnosis=found)) if r.word == "left-out")
+    assert row.meaning.startswith("parts of the open tests in turn")
+    assert "1 open test is too few to leave one out, so 4 parts of it are" in row.meaning
+
+
 def test_verification_tests_that_helped_to_choose_are_no_test_any_more(data: ReportData) -> None:
     scores = [s.model_copy(update={"role": "verification (in-sample)"}) if "ver" in s.role else s for s in data.scores]
     rows = error_rows(dataclasses.replace(data, scores=scores, reason=None))
@@ -103,7 +121,7 @@ def test_rows_of_errors_name_their_tests_and_which_are_off_by_a_level(data: Repo
     )
     off = dataclasses.replace(data, checks=[level])
     plain = {r.word: r.note for r in error_rows(data)}
-    assert (plain["verification"], plain["fitted"]) == (test, "calibration tests: etve and sp9000")
+    assert (plain["verification"], plain["fitted"]) == (test, "etve and sp9000")
     there = {r.word: r.note for r in error_rows(off)}
     assert (there["verification"], there["fitted"]) == (f"{test}; mostly the level of {test}", plain["fitted"])
     assert f"{said}; errors on left-out tests have their level free" in " ".join(sentences(off))

@@ -26,3 +26,7 @@ def test_a_text_with_tables_is_in_the_units_of_its_responses() -> None:
 def test_a_page_has_a_dash_where_there_is_no_number() -> None:
     assert [typeset(text) for text in (number(None), change(None, 1.0), number(-1.0))] == ["–", "–", "−1.00"]
     assert typeset("lag-free") == "lag-free"
+
+
+def test_a_change_of_nothing_has_no_sign() -> None:
+    assert [change(4.0, after) for after in (2.0, 3.99, 4.0, 4.01, 4.03)] == ["-50 %", "0 %", "0 %", "0 %", "+1 %"]

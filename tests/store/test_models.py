@@ -199,7 +199,7 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
                 ("m1", "dZ"),
                 ("m2", "dX"),
             ]
-            added = ["response", "campaigns"] if view == "candidate" else ["response"]
+            added = ["response", "campaigns", "stale"] if view == "candidate" else ["response"]
             columns = con.sql(f"select * from {view}").columns
             assert columns[-len(added) :] == added, "what stood before keeps its place"
     save_findings(filled, "m1", "portability", [("shop", "one", {"rmse_um": 3.0, "machine": "139"})])
@@ -211,10 +211,52 @@ def test_a_diagnosis_is_kept_whole_and_in_rows(filled: Store) -> None:
         save_diagnosis(filled, "m9", DIAGNOSIS)
 
 
+def test_the_views_say_what_is_of_data_that_changed(filled: Store, campaign: Path) -> None:
+    save(filled, "m1")
+    save(filled, "first", tests=("one",))
+    save_diagnosis(filled, "m1", DIAGNOSIS)
+    text = campaign.read_text()
+    for now, stale in ((text.replace("heating: [0 s, 600 s]", "heating: [0 s, 300 s]"), True), (text, False)):
+        campaign.write_text(now)
+        ingest(filled, campaign)
+        with filled.reader() as con:
+            assert con.execute("select distinct stale from candidate").fetchall() == [(stale,)]
+            for view in ("score", "residual"):
+                found = con.execute(f"select distinct model, stale from {view} order by 1").fetchall()
+                assert found == [("first", False), ("m1", stale)]
+
+
 def test_looks_at_locked_tests_are_counted(filled: Store) -> None:
     for _ in range(2):
         count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
     assert (locked_looks(filled, "shop", "two"), locked_looks(filled, "shop", "one")) == (2, 0)
+
+
+@pytest.mark.parametrize("test", [None, "two"])
+def test_looks_at_data_that_come_back_count_on(filled: Store, campaign: Path, test: str | None) -> None:
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    for looks in (1, 2):
+        assert forget(filled, "shop", test)["looks"] == looks
+        ingest(filled, campaign)
+        assert locked_looks(filled, "shop", "two") == looks, "nobody has forgotten what he saw"
+        count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    text = campaign.read_text()
+    line = next(one for one in text.splitlines(keepends=True) if "id: two" in one)
+    for now in (text.replace(line, ""), text):  # taken out of the campaign file, and back
+        campaign.write_text(now)
+        ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "two") == 3
+    with filled.reader() as con:
+        assert con.execute("select count(*) from finding where kind = 'forgotten'").fetchone() == (0,)
+
+
+def test_looks_do_not_count_for_other_data_of_the_same_name(filled: Store, campaign: Path) -> None:
+    count_locked_look(filled, "m1", [("shop", "one"), ("shop", "two")], "claim of lag:T_a")
+    assert forget(filled, "shop")["looks"] == 2
+    one, two = (campaign.parent / "raw" / f"{test}_a.npz" for test in ("one", "two"))
+    two.write_bytes(one.read_bytes())
+    ingest(filled, campaign)
+    assert [locked_looks(filled, "shop", test) for test in ("one", "two")] == [1, 0]
 
 
 def test_forgetting_takes_what_was_fitted(filled: Store) -> None:

@@ -23,6 +23,12 @@ tests: [{id: a, role: calibration}]
         ("hall.dor", "hall.door"),
         ("hal.door", "hall.door"),
         ("spindle.bearing.frnt", "spindle.bearing.front"),
+        ("counter_spindle.bearing.frnt", "counter_spindle.bearing.front"),
+        ("hydraulics.tank", "hydraulics"),
+        ("axis.z.nutt", "axis.z.nut"),
+        ("axis.z.cover", "axis.z"),
+        ("axs.y.nut", "axis.y.nut"),
+        ("rotary.c.motr", "rotary.c.motor"),
     ],
 )
 def test_a_place_with_an_unknown_part_is_meant_as_a_whole_unless_a_part_is_spelt_alike(at: str, meant: str) -> None:
@@ -42,3 +48,21 @@ def test_a_sign_that_hangs_on_what_nobody_says(keys: str, told: bool) -> None:
     said = [s for s in unanswered(parse_campaign(TEXT % keys)) if "increases_with is not said" in s]
     assert len(said) == told
     assert all("s; the reading is taken to grow with the gap" in s for s in said)
+
+
+@pytest.mark.parametrize("at", ["axis.w.screw", "axis.nut"])
+def test_no_other_axis_is_proposed_than_was_named(at: str) -> None:
+    text = (TEXT % "").replace(
+        "channels: {", f"channels: {{T_1: {{source: daq, signal: T, quantity: temperature, at: {at}}}, "
+    )
+    assert not [s for s in unanswered(parse_campaign(text)) if "is known" in s]
+
+
+def test_the_sign_that_is_proposed_is_of_the_axis_of_the_probe() -> None:
+    text = (TEXT % "").replace(", calibration: s", "")
+    (told,) = (s for s in unanswered(parse_campaign(text)) if s.startswith("sign unknown"))
+    assert "{sign_x: {kind: scale, axis: X, gain: 1 um/um, facing: ?, increases_with: ?}} (+X or -X; gap" in told
+    text = text.replace("channels: {", "channels: {dY: {source: daq, signal: Y, quantity: displacement, axis: Y}, ")
+    (told,) = (s for s in unanswered(parse_campaign(text)) if s.startswith("sign unknown"))
+    assert "{sign_y: {kind: scale, axis: Y," in told
+    assert "and sign_x with axis: X" in told

@@ -29,7 +29,7 @@ VIEWS = {
     "temperature": LONG,
     "driver": LONG,
     "phase": ["campaign", "test", "phase", "from_s", "to_s"],
-    "residual": ["campaign", "test", "model", "response", "t_s", "measured", "predicted", "residual", "valid"],
+    "residual": ["campaign", "test", "model", "response", "t_s", "measured", "predicted", "residual", "valid", "stale"],
     "score": [
         "campaign",
         "test",
@@ -43,6 +43,7 @@ VIEWS = {
         "ptp_residual_um",
         "max_um",
         "n",
+        "stale",
     ],
 }
 
@@ -90,7 +91,7 @@ def test_an_empty_store_has_every_view_empty_and_typed(empty_store: Store, view:
 
 
 # of the statements that make all views of `small`, by version
-MADE = {6: "0d6e3179fda67774"}
+MADE = {7: "278efc0c57ea2c38"}
 
 
 def test_the_version_of_views_is_raised_with_what_they_say(small: Store) -> None:
@@ -352,8 +353,8 @@ def test_residuals_of_models_with_different_effects(build: Build) -> None:
         )
     store = b.store()
     assert sql(store, "select * from residual where model = 'm1' order by t_s") == [
-        ("c", "t", "m1", "dZ", 0.0, 2.0, 0.5, 1.5, True),
-        ("c", "t", "m1", "dZ", 30.0, 2.0, 0.5, 1.5, False),
+        ("c", "t", "m1", "dZ", 0.0, 2.0, 0.5, 1.5, True, False),
+        ("c", "t", "m1", "dZ", 30.0, 2.0, 0.5, 1.5, False, False),
     ]
     assert sql(store, "select count(*) from residual") == [(6,)]
 

@@ -147,6 +147,12 @@ def test_the_residual_over_a_channel(reader: Client) -> None:
     assert reader.get("/compare?over=nothing").status == 400
 
 
+def test_a_response_that_the_model_has_not_is_said_and_not_passed_over(reader: Client) -> None:
+    text = html.unescape(reader.get("/compare?response=dY").text)
+    assert "has no response 'dY' (it has dZ): what is of one response is of dZ." in text
+    assert "has no response" not in reader.get("/compare?response=dZ").text
+
+
 def test_a_residual_over_its_own_driver_is_found(lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     model = model_rows(store)[0]

@@ -6,6 +6,7 @@ import html
 import re
 from pathlib import Path
 
+import pytest
 from markupsafe import Markup
 
 from thermodata.cli import main
@@ -53,6 +54,24 @@ def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
     fresh = [one.model_copy(update=other), *(c for c in found.candidates if c is not one)]
     save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
     assert ">Add gain_by:lag,conditions.tool …</a>" in client_of(lab, write=True)[0].get("/missing").text
+
+
+@pytest.mark.parametrize(
+    ("after", "said", "never"),
+    [(5.17, "the error rises", "hardly falls"), (4.67, "the error hardly falls", "the error rises")],
+)
+def test_an_error_that_rises_is_not_said_to_fall(lab: Path, after: float, said: str, never: str) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    rungs = [r.model_copy(update={"holds": False}) if r.name == "fall" else r for r in one.rungs]
+    errors = {"rmse_um_before": 4.68, "rmse_um_after": after}
+    rival = one.model_copy(update={"id": "lag:T_x", "claimed": False, "rank": 2, "rungs": rungs, **errors})
+    save_diagnosis(store, model, found.model_copy(update={"candidates": [one, rival]}))
+    text = client_of(lab)[0].get("/missing").text
+    assert said in text
+    assert never not in text
 
 
 def test_what_cant_be_told_from_the_claim_does_not_stumble_over_it(lab: Path) -> None:

@@ -147,3 +147,9 @@ def test_a_page_that_is_loaded_with_a_window_keeps_the_strips_of_the_whole_test(
     # the spindle rests in the first 20 min: reloaded there, and zoomed out again
     assert loaded(reader.get(f"{url}&from=0&to=600").text) == (whole, source)
     assert titles(reader.get(f"{source}&from=0&to=20000").text) == whole
+
+
+@pytest.mark.parametrize("page", ["/", "/compare"])
+def test_a_table_of_errors_says_from_where_they_count(reader: Client, page: str) -> None:
+    told = "Level: the error of a calibration test is about a level fitted to it"
+    assert reader.get(page).text.count(told) == 1

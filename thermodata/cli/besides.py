@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.cli.common import Session, in_units_of, plain
 from thermodata.cli.layout import LAYOUTS
+from thermodata.report.glossary import LEVEL
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -29,10 +30,18 @@ def answer_against(
 ) -> None:
     """Print the table of `compare --against`. models, against: as the store knows them; tests: none for all."""
     from thermodata.modelling.run import compare_against
+    from thermodata.report.fit_text import leveled
 
     rows = [plain(row) for row in compare_against(store, models, against, tests)]
-    names = [str(row["response"]) for row in rows]
-    session.answer(rows, lambda: in_units_of(session, list(dict.fromkeys(names)), as_table(rows, layout)))
+    names = list(dict.fromkeys(str(row["response"]) for row in rows))
+
+    def text() -> str:
+        told = as_table(rows, layout)
+        return in_units_of(session, names, leveled(told) if layout == "text" else told)
+
+    session.answer(rows, text)
+    if layout != "text":  # a table that goes into a paper is that table alone
+        session.say(LEVEL)
 
 
 def answer_contributions(session: Session, store: Store, models: Sequence[str], test: str) -> None:

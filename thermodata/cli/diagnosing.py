@@ -8,7 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of
-from thermodata.cli.fitting import resolve
+from thermodata.cli.fitting import resolve, with_stale
 from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 
 if TYPE_CHECKING:
@@ -40,7 +40,8 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     else:
         with counting_line() as tell:
             found = diagnose(store, ref, tell, response)
-    session.answer(found, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
+    payload = with_stale(store, found.model, found)
+    session.answer(payload, lambda: in_units_of(session, found.response, diagnosis_text(found, top)))
 
 
 @command("confirm")
@@ -61,7 +62,8 @@ def confirm_command(session: Session, model: str, candidate: str, response: str 
     result, known = confirm_choice(store, ref, candidate, response)
     if known:
         click.echo("from the store: this was looked at before, and nothing has changed since", err=True)
-    session.answer(result, lambda: in_units_of(session, result.response, confirmed_text(result)))
+    payload = with_stale(store, result.model, result)
+    session.answer(payload, lambda: in_units_of(session, result.response, confirmed_text(result)))
 
 
 def _say_what_was_open(store: Store, ref: str) -> None:

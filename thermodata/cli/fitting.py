@@ -42,6 +42,13 @@ def resolve(store: Store, ref: str | None, session: Session | None = None) -> st
     return found
 
 
+def with_stale(store: Store, model: str, answer: Any) -> dict[str, Any]:
+    """The answer as JSON has it, with `stale`: the line on a model whose data changed since its fit, or null."""
+    from thermodata.store.catalogue.stale import stale_line
+
+    return {**plain(answer), "stale": stale_line(store, model)}
+
+
 @command("fit")
 @click.argument("model", shell_complete=completing.models)
 def fit_command(session: Session, model: str) -> None:
@@ -185,20 +192,21 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        result = add(store, resolve(store, model), candidate, plain=plain)
-    _answer_version(session, result)
+        parent = resolve(store, model)
+        result = add(store, parent, candidate, plain=plain)
+    _answer_version(session, result, parent)
     worse = made_worse(result, response_units(store, result.responses, result.campaigns))
     if worse is not None:
         session.say(worse)
 
 
-def _answer_version(session: Session, result: FitResult) -> None:
-    """A version beside the one before it, and what to know of it."""
+def _answer_version(session: Session, result: FitResult, parent: str) -> None:
+    """A version beside the one before it, and what to know of it. parent: the model that was asked for."""
 
     def text() -> str:
         return in_units_of(session, result.response, f"{before_after_text(result)}\n\n{fit_text(result, scores=False)}")
 
-    session.answer(result, text)
+    session.answer(with_stale(session.store(), parent, result), text)
     for note in result.notes:
         session.say(note)
 
@@ -218,8 +226,9 @@ def remove_command(session: Session, model: str, effect: str) -> None:
 
     store = session.store()
     with counting_line() as tell, watched(tell):
-        result = remove(store, resolve(store, model), effect)
-    _answer_version(session, result)
+        parent = resolve(store, model)
+        result = remove(store, parent, effect)
+    _answer_version(session, result, parent)
 
 
 @command("history")

@@ -16,12 +16,16 @@ from thermodata.report.table import fields
 def forget_command(session: Session, campaign: str, test: str | None, earlier: bool) -> None:
     """Remove a campaign or one TEST from the store.
 
-    With all that derives from it. The source files stay untouched.
+    With all that derives from it. The source files stay untouched, and so does how often locked tests were looked at:
+    it counts on where the same data are ingested again.
     """
+    from thermodata.schema.counted import counted
     from thermodata.store.keep.lifecycle import forget
 
     gone = plain(forget(session.store(), campaign, test, earlier=earlier))
     session.answer(gone, lambda: fields(gone.items()))
+    if n := gone["looks"]:
+        session.say(f"{counted(n, 'look')} at locked tests will count on where the same data are ingested again")
 
 
 @command("gc")

@@ -143,10 +143,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         raise UsageError(
             "no locked test to confirm on",
             expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
-            got="; ".join(there) or "no test with role: locked",
-            hint="thermodata quality tells what was flagged in them"
-            if there
-            else "give a test of the campaign the role locked, before anybody has looked at it",
+            got="; ".join(there) or "none: every test of the model is open",
+            hint="thermodata quality tells what was flagged in them" if there else _lock_one(model),
         )
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
@@ -195,6 +193,16 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     result = held(found, None if shape is None else shape.holds)
     keep_answer(store, model.identity, question, key, result.model_dump_json())
     return result, False
+
+
+def _lock_one(model: Loaded) -> str:
+    """How a test becomes one that can confirm: one that was fitted or looked at says nothing new."""
+    campaign = " and ".join(f"'{name}'" for name in model.fitted.spec.campaign_ids)
+    return (
+        f"record one more test, or take one that no model was fitted to, and write role: locked at it in the file of "
+        f"{campaign}; then thermodata ingest that file, thermodata fit {model.identity}, and confirm with the id that "
+        "it prints"
+    )
 
 
 def _of(model: Loaded, response: str) -> str:

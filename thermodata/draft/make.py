@@ -14,6 +14,7 @@ from thermodata.draft.folder.scan import Progress, scan
 from thermodata.draft.words.naming import plain
 from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
+from thermodata.draft.writing.seal import is_as_sealed
 from thermodata.draft.writing.write import questions_in, text_of
 from thermodata.errors import UsageError, unknown_name
 from thermodata.schema.campaign import Campaign
@@ -73,6 +74,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
     first = folder / "model.yaml"
     made = model is not None and (force or not first.exists())
     if made and model is not None:
+        if is_as_sealed(_to_compare(first) or ""):
+            first.unlink()  # as drafted, and nobody's work
         kept.append(keep(first))
         write_new(first, model)
         load_model(first)
@@ -160,7 +163,8 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
     model = path.with_name("model.yaml")
     there = _to_compare(model)
     # one that is as drafted can be had again; what somebody wrote can't
-    kept = _copied(model) if there is not None and there != text and not _as_drafted(there, campaign)[0] else None
+    drafted = there is None or there == text or is_as_sealed(there) or _as_drafted(there, campaign)[0]
+    kept = None if drafted else _copied(model)
     write_text(model, text)
     load_model(model)
     return FirstModel(model, response or known[0], tuple(known), kept)
@@ -183,9 +187,20 @@ def _to_compare(path: Path) -> str | None:
 
 
 def _as_drafted(text: str | None, campaign: Campaign) -> tuple[bool, str | None]:
-    """(whether a model file is one that is drafted from this campaign file, for which displacement)."""
-    found = [r for r in responses_of(campaign) if text is not None and model_text_of(campaign, r) == text]
+    """(whether a model file is one that is drafted from this campaign file or an earlier state of it, for which
+    displacement)."""
+    drafts = ((r, model_text_of(campaign, r)) for r in responses_of(campaign) if text is not None)
+    found = [r for r, draft in drafts if draft is not None and _is_a_draft_of_the_same(str(text), draft)]
     return bool(found), found[0] if found else None
+
+
+def _is_a_draft_of_the_same(text: str, draft: str) -> bool:
+    """Whether a model file is this draft, or one that nobody changed, made of an earlier state, of its response."""
+
+    def response(of: str) -> str:
+        return next((line.partition("#")[0].strip() for line in of.splitlines() if line.startswith("response:")), "")
+
+    return text == draft or (is_as_sealed(text) and response(text) == response(draft))
 
 
 def keep(path: Path) -> tuple[Path, Path] | None:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from thermodata.modelling.compare.common import on_common
 from thermodata.report.candidate_errors import beside
 from thermodata.report.data import ReportData
-from thermodata.report.glossary import ERRORS
-from thermodata.report.verdict import claims_of
+from thermodata.report.glossary import ERRORS, PARTS
+from thermodata.report.verdict import claims_of, in_parts
 from thermodata.report.words import LITTLE, base_role, pooled, tests_of_role
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
@@ -25,7 +25,8 @@ MOSTLY = 0.5
 class ErrorRow:
     """One error of a model. word: of the glossary. before: without the last effect, None where there is none.
     tested: whether the fit and the choice of effects have not seen these tests. unit: of the error. of: which of a
-    model's several responses it is of, '' where it has one."""
+    model's several responses it is of, '' where it has one. parts: that parts of tests were left out, and why; '' where
+    tests were."""
 
     word: str
     before: float | None
@@ -34,6 +35,7 @@ class ErrorRow:
     note: str
     unit: str = "um"
     of: str = ""
+    parts: str = ""
 
     @property
     def notes(self) -> str:
@@ -41,7 +43,7 @@ class ErrorRow:
 
     @property
     def meaning(self) -> str:
-        return ERRORS[self.word]
+        return f"{PARTS}; {self.parts}" if self.parts else ERRORS[self.word]
 
 
 def error_rows(data: ReportData) -> list[ErrorRow]:
@@ -85,18 +87,20 @@ def _locked_row(data: ReportData) -> ErrorRow | None:
 
 
 def _left_out_row(data: ReportData) -> ErrorRow | None:
+    def row(found: Diagnosis, before: float | None, after: float) -> ErrorRow:
+        of = _of_response(data, found)
+        return ErrorRow("left-out", before, after, True, "", of.unit, of.response, in_parts(found))
+
     claims, reason = _all_added(data), data.reason
     left = reason.rmse_um if reason else None
-    if claims and reason and left is not None and reason.named_rmse_um is not None:
-        of = _of_response(data, reason)
-        return ErrorRow("left-out", left, reason.named_rmse_um, True, "", of.unit, of.response)
-    # errors beside other candidates are of no model that anybody has
-    if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
-        of = _of_response(data, reason)
-        return ErrorRow("left-out", claims[0].rmse_um_before, claims[0].rmse_um_after, True, "", of.unit, of.response)
+    if claims and reason:
+        if left is not None and reason.named_rmse_um is not None:
+            return row(reason, left, reason.named_rmse_um)
+        # errors beside other candidates are of no model that anybody has
+        if len(claims) == 1 and claims[0].rmse_um_after is not None and not beside(claims[0], left):
+            return row(reason, claims[0].rmse_um_before, claims[0].rmse_um_after)
     if data.diagnosis and data.diagnosis.rmse_um is not None:
-        of = _of_response(data, data.diagnosis)
-        return ErrorRow("left-out", None, data.diagnosis.rmse_um, True, "", of.unit, of.response)
+        return row(data.diagnosis, None, data.diagnosis.rmse_um)
     return None
 
 
@@ -127,7 +131,7 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     common = on_common([data.before, data.scores])[1]
     tests = tests_of_role(common, role) or tests_of_role(data.scores, role)
     if role == "calibration":
-        return ErrorRow("fitted", before, after, False, f"calibration tests: {tests}", data.unit, _whose(data))
+        return ErrorRow("fitted", before, after, False, tests, data.unit, _whose(data))
     scores = common if tests_of_role(common, role) else data.scores
     level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, scores, role)) else ""
     note = "; ".join(filter(None, [tests, f"fitted too by now: {why}" if in_sample else "", level]))

@@ -76,10 +76,10 @@ def scores_text(scores: list[Score], phases: bool = False) -> str:
         ("ptp_residual_um", "PTP left [um]"),
         ("n", "n"),
     ]
-    return _leveled(table([s.model_dump() for s in shown], columns))
+    return leveled(table([s.model_dump() for s in shown], columns))
 
 
-def _leveled(text: str) -> str:
+def leveled(text: str) -> str:
     """A table of errors with the line that says from where they count."""
     return f"{text}\n\n{LEVEL}"
 
@@ -111,7 +111,7 @@ def compare_text(results: list[FitResult]) -> str:
             at = next(i for i, (key, _) in enumerate(columns) if key == f"rmse {result.model}") + 2
             columns.insert(at, (f"role {result.model}", "in-sample"))
     below = f"\n{explained('verification')}" if fitted else ""
-    return _leveled(table(list(rows.values()), columns)) + below
+    return leveled(table(list(rows.values()), columns)) + below
 
 
 def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
@@ -119,7 +119,7 @@ def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
     lost = history_lost(chain)
     head = f"{lost}\n\n" if lost else ""
     told = f"\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
-    return head + _leveled(table(*history_table(chain))) + told
+    return head + leveled(table(*history_table(chain))) + told
 
 
 def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
@@ -228,7 +228,7 @@ def before_after_text(result: FitResult) -> str:
     were = {s.test for s in result.before or [] if s.role != base_role(s.role)} - too
     once = f"before: fitted too, under verification: {listed(sorted(were))}" if were else ""
     return "\n".join(
-        filter(None, [f"{head}{_leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told, once])
+        filter(None, [f"{head}{leveled(table(rows, columns))}\n{explained('verification', 'fitted')}", told, once])
     )
 
 

@@ -17,13 +17,14 @@ PARTS = "parts of the open tests in turn, foretold by a fit to the others"
 
 _FIRST = "from its first samples (zero, 10 min unless the campaign says otherwise)"
 LEVEL = f"level: the error of a calibration test is about a level fitted to it, that of any other counts {_FIRST}"
+LEVEL_SENTENCE = f"{LEVEL[0].upper()}{LEVEL[1:]}."
 PREDICTED_LEVEL = (
     f"level: the error of every test counts {_FIRST}; "
     "fit and compare take that of a calibration test about a level fitted to it"
 )
 HOW = (
     "Errors are root mean squares of measured minus model; the model runs freely, and each sample counts once. "
-    f"{LEVEL[0].upper()}{LEVEL[1:]}."
+    f"{LEVEL_SENTENCE}"
 )
 NOISE = "between neighbouring means of {length}; an error that keeps its sign for longer is no noise"
 

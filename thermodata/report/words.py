@@ -80,8 +80,11 @@ def duration(seconds: float | None) -> str:
 
 
 def change(before: float | None, after: float | None) -> str:
-    """'-62 %'; '-' where either is missing."""
-    return f"{100 * (after / before - 1):+.0f} %" if before and after is not None else "-"
+    """'-62 %', '0 %' for less than half of one; '-' where either is missing."""
+    if not before or after is None:
+        return "-"
+    rounded = round(100 * (after / before - 1))
+    return f"{rounded:+d} %" if rounded else "0 %"
 
 
 MOST_NAMED = 6  # tests; more are counted

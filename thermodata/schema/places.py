@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from thermodata.errors import nearest
+
 PLACES: dict[str, str] = {
     "tcp": "tool centre point: where a displacement counts",
     "stator": "the spindle's standing part: a displacement without the tool",
@@ -101,6 +103,7 @@ PLACES: dict[str, str] = {
 }
 
 _DIAMETER = "table.d"
+_LETTERS = {"axis": "xyz", "rotary": "abc"}
 # a tool change, a cut or the coolant makes any reading there jump, and no mass holds it
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
 _AROUND = ("hall", "floor", "outside")
@@ -201,5 +204,21 @@ def is_known(place: str) -> bool:
     if part.endswith("_spindle") and not rest.startswith("."):  # a spindle by its name, with the parts of a spindle
         return f"spindle{'.' + rest if rest else ''}" in PLACES
     letter, _, below = rest.partition(".")
-    letters = {"axis": "xyz", "rotary": "abc"}.get(part, "")
+    letters = _LETTERS.get(part, "")
     return len(letter) == 1 and letter in letters and f"{part}.*{'.' + below if below else ''}" in PLACES
+
+
+def nearest_place(place: str) -> str | None:
+    """The place that was meant by one that is not known: a part that is spelt alike, or else what the unknown part is
+    of ('hall.air' is no 'hall.door', but of the 'hall'); None where none is near. Of the axis that was named."""
+    first, _, rest = place.lower().partition(".")
+    letter = rest.partition(".")[0]
+    known = [p.replace("*", letter) for p in PLACES if "*" not in p or letter in [*_LETTERS[p.partition(".")[0]]]]
+    if first.endswith("_spindle"):
+        known += [p.replace("spindle", first, 1) for p in PLACES if p.startswith("spindle.")]
+    whole, _, part = place.lower().rpartition(".")
+    if not is_known(whole):
+        return nearest(place, known)
+    parts = {p.rpartition(".")[2]: p for p in known if p.rpartition(".")[0] == whole}
+    close = nearest(part, list(parts))
+    return whole if close is None else parts[close]

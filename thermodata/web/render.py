@@ -12,6 +12,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse
 
 from thermodata.report.fit_text import span
+from thermodata.report.glossary import LEVEL_SENTENCE
 from thermodata.report.verdict import probability
 from thermodata.report.words import base_role, change, duration, number, percent, typeset
 from thermodata.version import __version__
@@ -51,7 +52,7 @@ def environment() -> jinja2.Environment:
         plain=lambda text: str(text).replace("_", " "),
         grouped=lambda n: f"{n:,}".replace(",", "\u202f"),
     )
-    made.globals.update(link=link, version=__version__, change=change)
+    made.globals.update(link=link, version=__version__, change=change, level=LEVEL_SENTENCE)
     return made
 
 

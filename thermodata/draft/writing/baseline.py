@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from thermodata.draft.campaign.parts import Draft
+from thermodata.draft.writing.seal import sealed
 from thermodata.draft.writing.write import flow, one_line, scalar
 from thermodata.effect.binding import unnamed
 from thermodata.effect.registry import effects
@@ -103,25 +104,24 @@ def _text(campaign: str, channels: Mapping[str, _Known], chosen: str | None = No
     offered = [_line(name, fits[0]) for name in _OFFERED if (fits := fitting(name))]
     nowhere = [name for name, c in channels.items() if c.quantity in _ASKED and c.at is None]
     unplaced = with_count(nowhere, _SHOWN)
-    return "\n".join(
-        [
-            "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
-            "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
-            "schema: thermodata/model/1",
-            f"name: {'baseline' if chosen == first else scalar(f'baseline_{chosen}')}",
-            f"campaign: {scalar(campaign)}",
-            f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
-            "step: 60 s",
-            "effects:",
-            *lines,
-            *(["# logged too, and left to thermodata diagnose; to have one now, delete its '#':"] if offered else []),
-            *(f"#{line}" for line in offered),
-            *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
-            *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
-            *([f"# ? drive nothing until their place ('at') is answered: {unplaced}"] if unplaced else []),
-            "",
-        ]
-    )
+    text = [
+        "# Drafted by thermodata init: a first model, one plain effect for each sensor that stands where it acts.",
+        "# Next: thermodata fit model.yaml, then thermodata diagnose baseline says which effect is missing.",
+        "schema: thermodata/model/1",
+        f"name: {'baseline' if chosen == first else scalar(f'baseline_{chosen}')}",
+        f"campaign: {scalar(campaign)}",
+        f"response: {wanted}" + (f"   # measured too: {', '.join(others)}" if others else ""),
+        "step: 60 s",
+        "effects:",
+        *lines,
+        *(["# logged too, and left to thermodata diagnose; to have one now, delete its '#':"] if offered else []),
+        *(f"#{line}" for line in offered),
+        *([f"# on another axis than the response's, {axis}: {', '.join(elsewhere)}"] if elsewhere else []),
+        *([f"# no sensor for: {', '.join(missing)}"] if missing else []),
+        *([f"# ? drive nothing until their place ('at') is answered: {unplaced}"] if unplaced else []),
+        "",
+    ]
+    return sealed("\n".join(text))
 
 
 def _line(effect: str, drivers: Mapping[str, str]) -> str:

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     import duckdb
     import pyarrow as pa
 
-STALE = "stale"  # the kind of finding that says what changed in a test since the fit
+STALE = "stale"  # the kind of finding that says what changed in a test since the fit; among its words:
+GONE, BACK = "gone", "gone for a while"  # BACK: there again, without the results of the fit
 
 
 @dataclass(frozen=True, slots=True)

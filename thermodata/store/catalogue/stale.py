@@ -6,7 +6,7 @@ import json
 
 from thermodata.schema.listed import with_count
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.models import STALE, find_model
+from thermodata.store.catalogue.models import BACK, GONE, STALE, find_model
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change
@@ -24,9 +24,9 @@ def stale_line(store: Store, model: str) -> str | None:
         changed[found["test"]] = list(dict.fromkeys([*changed.get(found["test"], []), *found["what"]]))
     by_what: dict[str, list[str]] = {}
     for test, what in changed.items():
-        by_what.setdefault(" and ".join(["gone"] if "gone" in what else what), []).append(test)
+        by_what.setdefault(" and ".join(w for w in what if w == GONE or GONE not in what), []).append(test)
     told = "; ".join(
-        f"gone: {', '.join(tests)}" if what == "gone" else f"{what} of {with_count(tests, _NAMED)}"
+        f"{what}: {', '.join(tests)}" if what in (GONE, BACK) else f"{what} of {with_count(tests, _NAMED)}"
         for what, tests in by_what.items()
     )
     return (

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime
-from functools import cached_property, lru_cache
+from datetime import datetime
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.campaign import Campaign
-from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.connection import insert
 from thermodata.store.base.files import key_of
-from thermodata.store.catalogue.models import STALE
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
+from thermodata.store.ingest.looks_of_gone import count_on, keep_looks
+from thermodata.store.ingest.mark_stale import is_fitted, mark_stale
+from thermodata.store.ingest.state import states, version_of
 
 if TYPE_CHECKING:
     import duckdb
-
-Rows = Mapping[str, Mapping[str, list[Row]]]
-# what a fit reads: words about a test or a channel don't make it stale
-_DESCRIBING = ("test", "machine", "channel")
-_WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
 
 
 @dataclass
@@ -50,23 +47,6 @@ class Planned:
 
 class VanishedError(Exception):
     """A file that the plan relies on was removed meanwhile."""
-
-
-@lru_cache(maxsize=64)
-def _read_by_a_fit(columns: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(sorted(c for c in columns if c not in _WORDS))
-
-
-def _read_by_fits(rows: Rows, table: str, test: str) -> list[str]:
-    """What fits read of a test's rows, in no order of these."""
-    return sorted(repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))]) for row in rows[table].get(test, []))
-
-
-def version_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> str:
-    """A digest of everything about a test that a fit depends on."""
-    parts = [one for table in _DESCRIBING for one in _read_by_fits(rows, table, test)]
-    parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
-    return key_of(*sorted(parts))
 
 
 def parts_of(rows: Mapping[str, Mapping[str, list[Row]]], test: str) -> dict[str, int | None]:
@@ -115,10 +95,10 @@ def commit(
         raise VanishedError(missing[0])
     campaign = planned.campaign.id
     changed = {t for tests in differing.values() for t in tests}
-    stale = {
+    differ = {
         t
-        for t in changed
-        if inventory.rows["test"].get(t) and version_of(planned.rows, t) != version_of(inventory.rows, t)
+        for t in (changed - {""} if is_fitted(con, campaign) else ())
+        if version_of(planned.rows, t) != version_of(inventory.rows, t)
     }
     for table in BY_TEST:
         gone = set(differing[table])
@@ -150,81 +130,16 @@ def commit(
             }
         ],
     )
-    drop_results(con, campaign, stale - set(planned.rows["test"]))
-    calibrated = not same(planned.calibrations, inventory.calibrations)
-    return mark_stale(con, campaign, {t: what_changed(planned.rows, inventory.rows, t, calibrated) for t in stale})
-
-
-def what_changed(now: Rows, then: Rows, test: str, calibrated: bool) -> list[str]:
-    """In words: gone, role, calibration, data, units or signals, how it is read, or else description. calibrated:
-    whether the campaign's calibrations differ."""
-    if not now["test"].get(test):
-        return ["gone"]
-
-    def differs(table: str, *columns: str, layer: str | None = None) -> bool:
-        one, other = (
-            sorted(repr([r[c] for c in columns]) for r in rows[table].get(test, []) if layer in (None, r.get("layer")))
-            for rows in (now, then)
-        )
-        return one != other
-
-    words = [
-        ("role", differs("test", "role")),
-        ("calibration", differs("channel", "channel", "calibration") or calibrated),
-        ("data", differs("file", "key", layer="raw")),
-        ("units or signals", differs("channel", "channel", "signal", "quantity", "unit", "raw_unit")),
-    ]
-    found = [word for word, holds in words if holds]
-    described = any(_read_by_fits(now, table, test) != _read_by_fits(then, table, test) for table in _DESCRIBING)
-    return found or ["description" if described else "how it is read"]
+    then = states(inventory.rows, inventory.calibrations, differ)
+    stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
+    before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
+    drop_results(con, campaign, before - after)
+    keep_looks(con, campaign, inventory.rows, before - after)
+    count_on(con, campaign, planned.rows, after - before)
+    return stale
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are no more."""
-    for table in ("prediction", "score_row", "finding", "locked_look") if tests else ():
+    """Removes what models said about tests that are no more; that their locks were opened stays."""
+    for table in ("prediction", "score_row", "finding") if tests else ():
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
-
-
-def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: Mapping[str, Sequence[str]]) -> list[str]:
-    """Marks the models that used any of the tests, and keeps what changed in each (test -> `what_changed`); one that
-    names no tests used the whole campaign. Returns those that were not stale before."""
-    if not tests:
-        return []
-    rows = fetch(
-        con,
-        """
-        with used as (select distinct model, campaign, test from score_row
-                      union select distinct model, campaign, test from prediction)
-        select m.model, m.stale, m.result from model m where list_contains(m.campaigns, $1) and (
-            exists (from used u where u.model = m.model and u.campaign = $1 and list_contains($2, u.test))
-            or not exists (from used u where u.model = m.model and u.campaign = $1))""",
-        [campaign, sorted(tests)],
-    )
-    for row in rows:
-        con.execute("update model set stale = true where model = ?", [row["model"]])
-        scored = {s["test"] for s in json.loads(row["result"]).get("scores", []) if s["campaign"] == campaign}
-        _keep_what_changed(con, row["model"], campaign, {t: w for t, w in tests.items() if t in scored or not scored})
-    return [r["model"] for r in rows if not r["stale"]]
-
-
-def _keep_what_changed(
-    con: duckdb.DuckDBPyConnection, model: str, campaign: str, tests: Mapping[str, Sequence[str]]
-) -> None:
-    """Beside what changed before."""
-    insert(
-        con,
-        "finding",
-        [
-            # of no test, so that it outlasts a test that is gone
-            {
-                "campaign": campaign,
-                "test": "",
-                "model": model,
-                "kind": STALE,
-                "rank": None,
-                "payload": json.dumps({"test": test, "what": list(what)}),
-                "created_at": datetime.now(UTC).replace(tzinfo=None),
-            }
-            for test, what in tests.items()
-        ],
-    )

@@ -22,7 +22,7 @@ from thermodata.store.ingest.bare_conditions import conditions_without_unit
 from thermodata.store.ingest.beside_each_other import odd_clocks
 from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row, raw_row
-from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of, version_of
+from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
 from thermodata.store.ingest.empty_channels import nothing_brought
 from thermodata.store.ingest.file_versions import keep_earlier
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, generation_of, read_inventory
@@ -32,6 +32,7 @@ from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.raw_layer import RawIngest
 from thermodata.store.ingest.same_content import same_content
 from thermodata.store.ingest.spec_lines import with_lines
+from thermodata.store.ingest.state import version_of
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of

@@ -3,29 +3,15 @@ that never tried the true effect looks like one that found none."""
 
 from __future__ import annotations
 
-from thermodata.errors import nearest
+from collections.abc import Sequence
+
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.campaign_channels import Calibration, Channel
 from thermodata.schema.listed import with_count
-from thermodata.schema.places import PLACES, called_here, is_known
+from thermodata.schema.places import called_here, is_known, nearest_place
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
 _SHOWN = 6
-SIGN = (
-    "calibrations: {sign_z: {kind: scale, axis: Z, gain: 1 um/um, facing: ?, increases_with: ?}} (+Z or -Z; gap or "
-    "approach)"
-)
-
-
-def _nearest_place(at: str) -> str | None:
-    """The place that was meant: one spelt alike, or what the unknown part is of: of 'hall.air' not 'hall.door', which
-    is another part of the hall, but 'hall'."""
-    near = nearest(at, [p for p in PLACES if "*" not in p])
-    whole, _, part = at.rpartition(".")
-    if not whole or not is_known(whole):
-        return near
-    same_part = near is not None and near.startswith(f"{whole}.") and nearest(part, [near.rpartition(".")[2]])
-    return near if same_part else whole
 
 
 def unanswered(campaign: Campaign) -> list[str]:
@@ -33,7 +19,7 @@ def unanswered(campaign: Campaign) -> list[str]:
     said = []
     for name, channel in campaign.channels.items():
         if channel.at and not is_known(channel.at):
-            near = _nearest_place(channel.at)
+            near = nearest_place(channel.at)
             meant = called_here(channel.at) or ((near,) if near is not None else ())
             if meant:
                 choices = " or ".join(f"'{m}'" for m in meant)
@@ -47,7 +33,7 @@ def unanswered(campaign: Campaign) -> list[str]:
     if turned:
         said.append(
             f"sign unknown, which way they count: {_listed(turned)}; kept as the file has them. A jump test tells "
-            f"it, or the way the probe looks: {SIGN}"
+            f"it, or the way the probe looks: {_sign([campaign.channels[n].axis for n in turned])}"
         )
     grows = [n for n, c in campaign.calibrations.items() if _grows_unsaid(c)]
     if grows:
@@ -59,6 +45,20 @@ def unanswered(campaign: Campaign) -> list[str]:
     if campaign.tests and all(t.role == "none" for t in campaign.tests):
         said.append("no test has a role: write role: calibration, verification or locked, or name tests in the model")
     return said
+
+
+def _sign(axes: Sequence[str | None]) -> str:
+    """The calibration that says which way a probe looks, of the first of these axes, and what differs of the others."""
+    first, *others = dict.fromkeys(axes)
+
+    def name(axis: str | None) -> str:
+        return f"sign_{axis.lower()}" if axis else "sign"
+
+    more = "".join(f", and {name(a)} with axis: {a or '?'}" for a in others)
+    return (
+        f"calibrations: {{{name(first)}: {{kind: scale, axis: {first or '?'}, gain: 1 um/um, facing: ?, "
+        f"increases_with: ?}}}}{more} ({f'+{first} or -{first}' if first else '+ or - of its axis'}; gap or approach)"
+    )
 
 
 def _unoriented(channel: Channel, campaign: Campaign) -> bool:

@@ -12,20 +12,24 @@ from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import TEMPORARY
 from thermodata.store.catalogue.create import LAYERS
 from thermodata.store.catalogue.store import Store
-from thermodata.store.ingest.commit import drop_results, mark_stale
-from thermodata.store.ingest.inventory import BY_TEST
+from thermodata.store.ingest.commit import drop_results
+from thermodata.store.ingest.inventory import BY_TEST, read_inventory
+from thermodata.store.ingest.looks_of_gone import keep_looks, looked_at
+from thermodata.store.ingest.mark_stale import mark_stale
+from thermodata.store.ingest.state import states
 
 if TYPE_CHECKING:
     import duckdb
 
 _BATCH = 500  # files deleted in one turn at the catalogue: some 20 ms
 
-_OF_MODEL = ("fit", "score_row", "prediction", "finding", "locked_look")
+_OF_MODEL = ("fit", "score_row", "prediction", "finding")
 
 
 def forget(store: Store, campaign: str, test: str | None = None, *, earlier: bool = False) -> dict[str, Any]:
     """Removes a campaign, or one test of it, with all that derives from it: calibrations, results, and (with the
-    campaign) the models fitted to it. Models that used a forgotten test are marked stale.
+    campaign) the models fitted to it. Models that used a forgotten test are marked stale. How often the locks of these
+    tests were opened (`looks`) stays, and counts on where the same data are ingested again.
 
     earlier: removes nothing but the earlier versions of files that changed.
     The bytes go with the next `gc`. Source files outside the store are never touched. UsageError for a name that
@@ -40,28 +44,37 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
             raise unknown_name("test", test, tests)
         if earlier:
             n = forget_earlier(con, campaign, None if test is None else [test])
-            return {"campaign": campaign, "test": test, "tests": [], "models": [], "stale": [], "versions": n}
+            return _answer(campaign, test, versions=n)
         gone = tests if test is None else [test]
         stale: list[str] = []
         models: list[str] = []
+        # of what follows, the rows of these tests alone are asked for
+        looked = looked_at(con, campaign, gone)
+        was = read_inventory(con, None, campaign, looked if test is None else {test})
         if test is None:
             models = [
                 r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)", [campaign])
             ]
             for table in (*BY_TEST, "calibration", "campaign"):
                 con.execute(f"delete from {table} where campaign = ?", [campaign])
-            for table in ("prediction", "score_row", "finding", "locked_look"):
+            for table in ("prediction", "score_row", "finding"):
                 con.execute(f"delete from {table} where campaign = ?", [campaign])
             for model in models:
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
-            stale = mark_stale(con, campaign, {test: ["gone"]})
+            stale = mark_stale(con, campaign, states(was.rows, was.calibrations, {test}), {test: None})
             for table in BY_TEST:
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})
             con.execute("update campaign set data_version = data_version || '-' where campaign = ?", [campaign])
-    return {"campaign": campaign, "test": test, "tests": gone, "models": models, "stale": stale, "versions": 0}
+        looks = keep_looks(con, campaign, was.rows, looked)
+    return _answer(campaign, test, tests=gone, models=models, stale=stale, looks=looks)
+
+
+def _answer(campaign: str, test: str | None, **gone: Any) -> dict[str, Any]:
+    nothing = {"tests": [], "models": [], "stale": [], "versions": 0, "looks": 0}
+    return {"campaign": campaign, "test": test, **nothing, **gone}
 
 
 def forget_earlier(con: duckdb.DuckDBPyConnection, campaign: str, tests: list[str] | None) -> int:

@@ -27,8 +27,10 @@ GAP = """create view gap as
 select campaign, test, source, channel, from_s, to_s, to_s - from_s as duration_s, detail
 from quality_event where lower(flag) = 'gap'"""
 
-SCORE = """create view score as
-select campaign, test, model, role, response, phase, fit, rmse_um, ptp_um, ptp_residual_um, max_um, n
+_STALE = "coalesce((select m.stale from model m where m.model = {}.model), false)"
+SCORE = f"""create view score as
+select campaign, test, model, role, response, phase, fit, rmse_um, ptp_um, ptp_residual_um, max_um, n,
+       {_STALE.format("score_row")} as stale
 from score_row"""
 
 # a model may have several responses; a diagnosis is of one of them
@@ -62,7 +64,8 @@ select {_OWN}, coalesce(rank, cast(payload->>'$.rank' as integer)) as rank, payl
        {", ".join(f"cast(payload->>'$.{name}' as double) as {name}" for name in _NUMBERS)},
        cast(payload->'$.beside' as varchar[]) as beside,
        payload->'$.parameters' as parameters, cast(payload->'$.equivalent' as varchar[]) as equivalent,
-       payload->>'$.why' as why, {_ASKED} as response, {_CAMPAIGNS} as campaigns
+       payload->>'$.why' as why, {_ASKED} as response, {_CAMPAIGNS} as campaigns,
+       {_STALE.format("finding")} as stale
 from finding where kind = 'candidate'"""
 
 ARTEFACT = f"""create view artefact as
@@ -115,6 +118,7 @@ _OF_RESPONSE = "in the response's unit: [um] of a displacement, [K] of a tempera
 _CAMPAIGN = "of the model; NULL where it has several: these stand in campaigns"
 _EACH = "all of the model: join test t on list_contains(campaigns, t.campaign)"
 _TEST = "NULL: it is of all open tests of the model together"
+_CHANGED = "whether the data of the model changed since it was fitted"
 SCORE_COMMENTS = {
     "role": "of the test in this model; verification (in-sample) where it was fitted too, as by add: "
     "role like 'verification%' takes both",
@@ -128,8 +132,9 @@ _COMMENTS = {
     "phase": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
     "gap": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test", "duration_s": "[s]"},
     "quality": {"from_s": "[s] from the start of the test", "to_s": "[s] from the start of the test"},
-    "score": SCORE_COMMENTS,
+    "score": {**SCORE_COMMENTS, "stale": _CHANGED},
     "candidate": {
+        "stale": _CHANGED,
         "campaign": _CAMPAIGN,
         "test": _TEST,
         "campaigns": _EACH,
@@ -156,6 +161,7 @@ _COMMENTS = {
         "measured": "in channel.unit",
         "predicted": "in channel.unit",
         "residual": f"{_OF_RESPONSE}; measured - predicted",
+        "stale": _CHANGED,
     },
     "portability": {
         "g": "[1] gain of the largest FIT, through the zero of the first samples",
@@ -209,15 +215,17 @@ def result_views(con: duckdb.DuckDBPyConnection, folder: Path | None) -> Iterato
 def _residual(paths: list[str], gone: str | None) -> str:
     head = "create view residual as select p.campaign, p.test, p.model, p.response, "
     names = ("t_s double", "measured double", "predicted double", "residual double", "valid boolean")
+    stale = _STALE.format("p")
     if not paths or gone:
         empty = ", ".join(f"null::{n.split()[1]} as {n.split()[0]}" for n in names)
         text = f"damaged store: {gone} is gone or cut; try: fit the model again, or forget it"
-        return f"{head}{empty} from prediction p " + (
+        return f"{head}{empty}, {stale} as stale from prediction p " + (
             f"where cast(error({literal(text)}) as boolean)" if gone else "limit 0"
         )
     columns = ", ".join(f"r.{n.split()[0]}" for n in names)
+    listed = f"select q.*, {_STALE.format('q')} as stale, p.prefix || q.path as filename"
     return (
-        f"{head}{columns} from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
-        f"join (select q.*, p.prefix || q.path as filename from prediction q cross join {prefix(paths[0])}) p "
+        f"{head}{columns}, p.stale from read_parquet({file_list(paths)}, filename = true, hive_partitioning = false) r "
+        f"join ({listed} from prediction q cross join {prefix(paths[0])}) p "
         f"on p.filename = r.filename"
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from starlette.datastructures import QueryParams
 from starlette.requests import Request
 from starlette.responses import Response
 
@@ -124,6 +125,7 @@ def show(request: Request) -> Response:
         against=script_json(over_channel(store, parts, over, of_response).as_json()) if over and parts else None,
         channels=_channels(store, pinned),
         response=response,
+        instead=_instead(given, pinned, newest, str(response), bool(parts)),
         pair=pair,
         tests=names,
         shown_test=shown,
@@ -135,6 +137,20 @@ def show(request: Request) -> Response:
         unpredicted=[labels[m] for m in labels if beside and m not in beside[0].models],
         beside_command=command(desk.store_path, "compare", *labels, "--contributions", names[shown] if shown else ""),
     )
+
+
+def _instead(given: QueryParams, pinned: ModelRow, newest: ModelRow, response: str, predicted: bool) -> list[str]:
+    """What is shown in place of what the address asks for. predicted: whether there is a residual of the newest."""
+    named, over = given.get("response") or response, given.get("over")
+    found = []
+    if named != response:
+        of = ", ".join(pinned.responses)
+        found.append(
+            f"{pinned.label} has no response '{named}' (it has {of}): what is of one response is of {response}."
+        )
+    if over and not predicted:
+        found.append(f"No residual over {over}: {newest.label} does not predict {response}.")
+    return found
 
 
 def _shown_test(

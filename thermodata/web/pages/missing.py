@@ -19,7 +19,7 @@ from thermodata.report.of_response import of_response, worst_of
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
 from thermodata.report.words import heat_lines, in_unit, number
-from thermodata.schema.candidate import Candidate, LeftOut
+from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
@@ -100,7 +100,7 @@ def show(request: Request) -> Response:
         equivalents={e for c in (claims_of(found) if found else []) for e in c.equivalent},
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
-        stumbles=STUMBLES,
+        stumbles=_stumbles,
         looks=_looks(store, model),
         locked=_locked(store, model),
         unbound=_unbound(store, model),
@@ -109,6 +109,14 @@ def show(request: Request) -> Response:
         pair=pair,
         add_command=lambda c: command(desk.store_path, "add", model.model, c.id),
     )
+
+
+def _stumbles(candidate: Candidate, rung: Rung) -> str:
+    """Over what, in as few words; the errors beside them are of all left-out tests."""
+    before, after = candidate.rmse_um_before, candidate.rmse_um_after
+    if rung.name == "fall" and before is not None and after is not None and after > before:
+        return "the error rises"
+    return STUMBLES.get(rung.name, rung.name.replace("_", " "))
 
 
 def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
@@ -133,7 +141,7 @@ def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
         return fetch(
             con,
             "select test, count(*) as n, any_value(reason) as reason from locked_look "
-            "where list_contains(?, campaign) group by campaign, test order by test",
+            "join test using (campaign, test) where list_contains(?, campaign) group by campaign, test order by test",
             [list(model.campaigns)],
         )
 
