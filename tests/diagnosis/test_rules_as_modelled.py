@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.claims.measure import Measure
-from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
@@ -59,13 +59,15 @@ def test_what_foretells_left_out_tests_beside_the_model_as_it_stands_is_offered(
 
 
 @pytest.mark.parametrize(
-    ("slow", "why"),
-    [([0.0] * TESTS, "the model leaves nothing"), ([0.5, -0.5] * 3, "it acts otherwise in each test")],
+    ("slow", "left"),
+    [([0.0] * TESTS, False), ([0.5, -0.5] * 3, True)],
 )
-def test_nothing_is_offered(slow: list[float], why: str) -> None:
+def test_nothing_is_offered_where_noise_is_left_or_it_acts_otherwise_in_each_test(
+    slow: list[float], left: bool
+) -> None:
     found, _ = asked(of_slow(slow))
-    assert found is not None
-    assert found.offered is None, why
+    assert (found is not None) is left
+    assert found is None or found.offered is None
 
 
 def test_what_is_noise_is_left_alone() -> None:
@@ -82,16 +84,35 @@ def test_its_error_is_told_where_nothing_is_asked_for() -> None:
     assert as_modelled(of_slow([0.5]), None, measure(), offers=True) is None
 
 
+def test_what_one_test_alone_has_is_fitted_and_not_foretold() -> None:
+    """A tool that one test had: the others say nothing of its gain, and of the model."""
+
+    def with_a_tool(block: Block, number: int) -> Block:
+        tool = np.sin(np.arange(120) / 9)
+        own = tool - tool.mean() if number == 0 else np.zeros(120)
+        return replace(block, response=block.response + 5 * own, base=np.column_stack([block.base, own]))
+
+    of = of_slow([0.5] * TESTS)
+    alone = replace(of, blocks=tuple(with_a_tool(b, i) for i, b in enumerate(of.blocks)))
+    (found, _), (before, _) = asked(alone), asked(of)
+    assert found is not None
+    assert before is not None
+    assert found.left == pytest.approx(before.left, rel=0.3), "and not 3.5 um"
+
+
 def test_only_what_finds_nothing_missing_is_refined_by_it() -> None:
     found, _ = asked(of_slow([0.5] * TESTS))
-    nothing = Judgement("none", (), (), (), "")
-    with_it = refined(nothing, found)
+    nothing, by = Judgement("none", (), (), (), ""), measure(floor=0.001)
+    with_it = refined(nothing, found, by)
     assert found is not None
     assert (with_it.verdict, with_it.refinements, with_it.judged) == ("refine", (found.offered,), (found.offered,))
+    at_floor = refined(nothing, found, measure(floor=1.01 * found.left))
+    assert (at_floor.verdict, at_floor.refinements) == ("none", (found.offered,)), "an error that is left alone"
+    assert refined(nothing, found, measure(floor=0.99 * found.left)).verdict == "refine"
     unknown = replace(nothing, verdict="unknown")
-    assert refined(unknown, found) is unknown
-    assert refined(nothing, None) is nothing
-    assert refined(nothing, AsModelled(1.0, None)) is nothing
+    assert refined(unknown, found, by) is unknown
+    assert refined(nothing, None, by) is nothing
+    assert refined(nothing, AsModelled(1.0, None), by) is nothing
 
 
 def test_a_name_is_offered_for_a_lag_of_its_channels() -> None:

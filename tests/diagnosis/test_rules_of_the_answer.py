@@ -161,6 +161,7 @@ class TestAnswer:
         monkeypatch.setattr(answering, "confirm", confirm)
         monkeypatch.setattr(answering, "Fits", Fits)
         monkeypatch.setattr(answering, "left_with_named", lambda *_: None)
+        monkeypatch.setattr(answering, "as_modelled", lambda *_, **__: None)
         got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at, self.looked_for = [t.test for t in got.locked], list(got.asked)
         return got.diagnosis

@@ -150,7 +150,7 @@ def _answer(
             investigation.measure,
             offers=judgement.verdict == "none",
         )
-        judgement = refined(judgement, stands)
+        judgement = refined(judgement, stands, investigation.measure)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
     left_out = [*asked_of.put_right.left_out, *opened.turned]
