@@ -8,12 +8,8 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET
 
-FACTOR = re.compile(
-    r"(?i)fa[kc]tors?|faktoren|scal(?:e|ing)(?:[ _]?factor)?|skalierung(?:sfaktor)?|gain|multiplier|slope|verstärkung|"
-    r"facteur|fattore|násobek|měřítko|steigung|1 (?:digit|count|lsb|bit|inkrement)"
-)
-OFFSET = re.compile(r"(?i)(?:add[_ ])?offset|nullpunkt|zero|intercept|achsenabschnitt")
 _COUNT = re.compile(
     r"(?i)\b(?P<key>1 ?(?:digit|count|lsb|bit|inkrement)) ?(?:=|≙|entspricht|is) ?"
     r"(?P<number>\d+(?:[.,]\d+)?(?:e[-+]?\d+)?)"
