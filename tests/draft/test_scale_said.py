@@ -122,15 +122,25 @@ def test_a_scale_of_one_or_of_no_signal_of_the_file_is_not_asked(
     assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
 
 
+def test_a_scale_that_some_files_state_alone_is_asked_with_these(tmp_path: Path, say: Say) -> None:
+    for name, gain in {"a": 1.0, "b": 0.1, "c": 1.0}.items():
+        _mat(tmp_path, dZ_gain=gain)
+        (tmp_path / "run1.mat").rename(tmp_path / f"{name}.mat")
+    assert say("init", tmp_path).code in (0, 3)
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    (told,) = [line for line in lines if "the file says" in line]
+    assert "in b.mat the file says 'dZ_gain = 0.1'" in told
+
+
 def test_properties_of_a_signal_that_scale_it_are_asked_unless_its_reader_applies_them() -> None:
     said = {"Factor": "0.1", "Offset": "-5.0", "Polarity": "inverted"}
     signal = Signal("Log/dZ", "log", "um", "float64", properties=said)
-    comment = with_scale_asked(guess_of(signal), signal).comment()
+    comment = with_scale_asked(guess_of(signal), {"a": signal}).comment()
     assert all(f"'{key} = {value}'" in comment for key, value in said.items())
     applied = Signal("Log/dZ", "log", "um", "float64", Scaling("linear", {"gain": 0.1, "offset": 0.0}), properties=said)
-    assert with_scale_asked(guess_of(applied), applied) == guess_of(applied)
+    assert with_scale_asked(guess_of(applied), {"a": applied}) == guess_of(applied)
     plain = Signal("Log/dZ", "log", "um", "float64", properties={"Factor": "1", "Offset": "0", "Polarity": "normal"})
-    assert with_scale_asked(guess_of(plain), plain) == guess_of(plain)
+    assert with_scale_asked(guess_of(plain), {"a": plain}) == guess_of(plain)
 
 
 @pytest.mark.parametrize("head", ["Gain;inf;1;1", "Gain;1e-300;1;1", "Gain;10", "Offset;-5", "Zero;true;true;true"])

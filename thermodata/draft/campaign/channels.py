@@ -145,11 +145,15 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     usual = units.most_common(1)[0][0]
     called_so: Counter[str] = Counter()
     seen: dict[str, Values | None] = {}
+    heads: dict[str, list[str]] = {}
+    own_signals: dict[str, Signal] = {}
     for f in one.files:
         own = one.of(f) or signal
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
         values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
         called_so[own.properties.get("description", "")] += 1
+        own_signals[f.path.name] = own
+        heads.setdefault(own.properties.get(HEAD, ""), []).append(f.path.name)
     if signal.dtype == "str" and None in seen.values():
         values = None  # words in one test that are no switch's
     where = signal.properties.get(IN_LEGEND)
@@ -158,9 +162,9 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     said = replace(said, sure=False) if where else said
-    if HEAD in signal.properties:
-        said, note = with_head(said, signal, note)
-    said = with_scale_asked(said, signal)
+    if any(heads):
+        said, note = with_head(said, signal, note, heads)
+    said = with_scale_asked(said, own_signals or {"": signal})
     if STATE_OF in signal.properties and said.quantity != "state":
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "

@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.plugin import Signal
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
+from thermodata.schema.listed import with_count
 from thermodata.schema.unit_scale import with_power_of_ten
 
 _TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
 
+_FILES = 3  # that are shown
 _LEAST, _MOST = 1e-12, 1e12
 
 
-def with_scale_asked(found: Guess, signal: Signal) -> Guess:
-    """With a question where properties of a signal say a factor, an offset or a turned sign that nobody applies."""
-    if signal.scaling is not None or found.quantity in (None, "state", "label"):
+def with_scale_asked(found: Guess, signals: Mapping[str, Signal]) -> Guess:
+    """With a question where properties of a signal say a factor, an offset or a turned sign that nobody applies, in all
+    files or in some. signals: file -> the signal as it has it."""
+    if found.quantity in (None, "state", "label"):
         return found
-    asked = "; ".join(_asked(signal, found.unit))
-    return replace(found, sure=False, questions=(*found.questions, asked)) if asked else found
+    files: dict[str, list[str]] = {}
+    for file, signal in signals.items():
+        files.setdefault("" if signal.scaling is not None else "; ".join(_asked(signal, found.unit)), []).append(file)
+    several = len(files) > 1
+    asked = [f"in {with_count(of, _FILES)} {told}" if several else told for told, of in files.items() if told]
+    return replace(found, sure=False, questions=(*found.questions, "; ".join(asked))) if asked else found
 
 
 def _asked(signal: Signal, unit: str | None) -> Iterator[str]:
