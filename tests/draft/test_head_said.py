@@ -63,3 +63,26 @@ def test_heads_of_files_that_differ_are_asked_with_their_files_and_told_where_on
         campaign.write_text(text.replace("{id: b,", "{id: b, channels: {Weg_Z: {unit: mm}},"), encoding="utf-8")
         said = say("--store", tmp_path / "store", "ingest", campaign)
         assert (said.code, told in said.out) == (0, False)
+
+
+@pytest.mark.parametrize(
+    ("head", "quoted"),
+    [
+        ("# +Z means spindle grows towards table", ["dZ"]),
+        ("# sign: positive dX = tool moves away from the column", ["dX"]),
+        ("# probe moved by 50 um at 8:10", ["dZ", "dX"]),
+        ("Bemerkung: Tisch 100 µm nach +Z verfahren", ["dZ"]),
+        ("# Operator: A. Positive, block 3", []),
+        ("# steps of 1 min", []),
+    ],
+)
+def test_what_the_head_says_of_a_sign_or_a_jump_is_quoted_beside_its_displacements(
+    tmp_path: Path, say: Say, head: str, quoted: list[str]
+) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00,{20 + k / 30:.2f},{4 + k * 0.7:.2f},{2 + k * 0.2:.2f}" for k in range(60)]
+    names = "time,T_front_degC,dZ [um],dX [um]"
+    (tmp_path / "run1.csv").write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    told = [line.strip().split(":")[0] for line in lines if f"the head of the file says '{head}'" in line]
+    assert told == quoted

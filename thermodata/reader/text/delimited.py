@@ -21,6 +21,7 @@ from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
 from thermodata.reader.text.preamble.scales_said import scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
+from thermodata.reader.text.preamble.ways_said import WAY, ways_said
 from thermodata.reader.text.rows.footer import footer_notes
 from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
@@ -88,6 +89,8 @@ def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
     found = {n: dict(said) for n, said in scales_said([*rows[:last], *rows[first:]], names).items()}
     for name, line in units_said(above, names).items():
         found.setdefault(name, {})[HEAD] = line
+    for name, line in ways_said(rows[:first], names).items():
+        found.setdefault(name, {})[WAY] = line
     return found
 
 

@@ -7,7 +7,8 @@ The policy, a cell at a time (`docs/formats.md` states it for users; `to_float` 
 - **Thousands**: blanks and apostrophes part them; so does the other mark, where a fraction, a second group or a
   declared decimal mark proves it. `1.500` beside decimal commas could be either, so it is refused, but where the
   columns of the file tell it (`told_thousands`).
-- **Signs**: the minus of typography (U+2212) is one; `0.2-` and `(0.2)` are negative, with a fraction. **Exponents** are an e, or Fortran's `D+03` in full.
+- **Signs**: the minus of typography (U+2212) is one; `0.2-` and `(0.2)` are negative, with a fraction.
+- **Exponents** are an e, or Fortran's `D+03` in full.
 - **Integers** that a float64 would change (beyond 2**53) are kept exactly in a column of int64, else refused.
 - **Too large** for a float64 (`1e999`): refused. `inf` is a value. `1_000`, `0x1F` and `12 %` are no numbers.
 - **Truth values** (`TRUE`, `wahr`) make a column of bool; between numbers they are 1 and 0.
