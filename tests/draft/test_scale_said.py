@@ -150,3 +150,24 @@ def test_what_is_no_scale_of_a_column_is_not_asked_of_one(tmp_path: Path, say: S
     (tmp_path / "run1.csv").write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
     assert say("init", tmp_path).code in (0, 3)
     assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("below", "lost"), [(["Scale;0.01;0.1"], False), (["Gain;0.01;0.1", "Offset;-50;0"], False), (["A;0.01;0.1"], True)]
+)
+def test_a_row_of_scales_below_the_names_is_no_loss(tmp_path: Path, say: Say, below: list[str], lost: bool) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{2000 + 14 * k};{4 + 3 * k}" for k in range(60)]
+    text = "\n".join(["Time;T_front [degC];dZ [um]", *below, *rows, ""])
+    (tmp_path / "run1.csv").write_text(text, encoding="utf-8")
+    assert say("init", tmp_path).code in (0, 3)
+    assert ("damaged" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")) is lost
+
+
+@pytest.mark.parametrize(("head", "told"), [("Gain;10", True), ("Gain;1", False), ("Serial;10", False)])
+def test_a_factor_alone_above_several_columns_is_told(tmp_path: Path, say: Say, head: str, told: bool) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{20 + k / 7:.2f};{4 + 3 * k};{k}" for k in range(60)]
+    names = "Time;T_front [degC];dZ [um];T_rear [degC]"
+    path = tmp_path / "run1.csv"
+    path.write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
+    said = say("preview", path)
+    assert ("'Gain 10', of which column is not told: nothing is scaled" in said.out + said.err) is told
