@@ -30,3 +30,59 @@ def test_units_of_the_head_are_quoted(tmp_path: Path, say: Say, head: str, asked
     assert say("init", tmp_path).code == 0
     text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
     assert asked in text if asked else "the head of the file" not in text
+
+
+def _two_heads(folder: Path, second: str) -> None:
+    """A test in um and one in another unit, of which the lines above the names alone tell."""
+    for day, (name, unit) in enumerate([("a", "um"), ("b", second)]):
+        times = {"um": 1.0}.get(unit, 0.001)
+        rows = [f"2026-03-1{day} 08:{k:02d}:00;{(4 + k * 0.7) * times:.5g};{20 + k / 30:.2f}" for k in range(60)]
+        head = f"% Einheit Weg: {unit}\n% Einheit Temperatur: degC\nZeit;Weg_Z;T_vorn"
+        (folder / f"{name}.csv").write_text("\n".join([head, *rows, ""]), encoding="utf-8")
+
+
+@pytest.mark.parametrize(("second", "differ"), [("mm", True), ("um", False)])
+def test_heads_of_files_that_differ_are_asked_with_their_files_and_told_where_one_unit_is_taken(
+    tmp_path: Path, say: Say, second: str, differ: bool
+) -> None:
+    _two_heads(tmp_path, second)
+    assert say("init", tmp_path).code == 0
+    campaign = tmp_path / "campaign.yaml"
+    text = campaign.read_text(encoding="utf-8")
+    (line,) = [line for line in text.splitlines() if "signal: Weg_Z" in line]
+    assert ("the heads of the files differ" in line) is differ
+    assert not differ or ("(a.csv)" in line and "Einheit Weg: mm" in line and "(b.csv)" in line)
+    assert "the heads of the files differ" not in next(x for x in text.splitlines() if "signal: T_vorn" in x)
+    text = text.replace("quantity: displacement,", "quantity: displacement, unit: um,")
+    campaign.write_text(text, encoding="utf-8")
+    said = say("--store", tmp_path / "store", "ingest", campaign)
+    told = "Weg_Z: read in um throughout, and the heads of its files differ"
+    assert (told in said.out) is differ
+    assert said.code == (3 if differ else 0)
+    if differ:
+        campaign.write_text(text.replace("{id: b,", "{id: b, channels: {Weg_Z: {unit: mm}},"), encoding="utf-8")
+        said = say("--store", tmp_path / "store", "ingest", campaign)
+        assert (said.code, told in said.out) == (0, False)
+
+
+@pytest.mark.parametrize(
+    ("head", "quoted"),
+    [
+        ("# +Z means spindle grows towards table", ["dZ"]),
+        ("# sign: positive dX = tool moves away from the column", ["dX"]),
+        ("# probe moved by 50 um at 8:10", ["dZ", "dX"]),
+        ("Bemerkung: Tisch 100 µm nach +Z verfahren", ["dZ"]),
+        ("# Operator: A. Positive, block 3", []),
+        ("# steps of 1 min", []),
+    ],
+)
+def test_what_the_head_says_of_a_sign_or_a_jump_is_quoted_beside_its_displacements(
+    tmp_path: Path, say: Say, head: str, quoted: list[str]
+) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00,{20 + k / 30:.2f},{4 + k * 0.7:.2f},{2 + k * 0.2:.2f}" for k in range(60)]
+    names = "time,T_front_degC,dZ [um],dX [um]"
+    (tmp_path / "run1.csv").write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    told = [line.strip().split(":")[0] for line in lines if f"the head of the file says '{head}'" in line]
+    assert told == quoted

@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import scipy.io
+from nptdms import ChannelObject, RootObject, TdmsWriter
 
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.scale_said import with_scale_asked
@@ -37,15 +42,105 @@ def test_a_scale_of_the_head_is_asked_of_its_column_alone(tmp_path: Path, say: S
     assert 'unit: "0.1 um", instead_of: um' in told[0]
 
 
+N = 120
+COUNTS = np.round(400 * (1 - np.exp(-np.arange(N) / 40))).astype(np.int16)
+WARM = 20 + 9 * (1 - np.exp(-np.arange(N) / 60))
+
+
+def _mat(folder: Path, **beside: object) -> None:
+    own = {"time_s": np.arange(N) * 60.0, "T_front": WARM, "dZ": COUNTS, "dZ_unit": "um"}
+    scipy.io.savemat(folder / "run1.mat", {k: v for k, v in {**own, **beside}.items() if v is not None})
+
+
+def _parquet(folder: Path, of_column: dict[str, str], of_file: dict[str, str] | None = None) -> None:
+    fields = [("t [s]", pa.float64(), {}), ("T_front", pa.float64(), {}), ("dZ", pa.int16(), of_column)]
+    schema = pa.schema([pa.field(n, k, metadata=m or None) for n, k, m in fields], metadata=of_file)
+    pq.write_table(pa.table([np.arange(N) * 60.0, WARM, COUNTS], schema=schema), folder / "run1.parquet")
+
+
+def _tdms(folder: Path, **of_file: object) -> None:
+    clock = {"wf_increment": 60.0, "wf_start_offset": 0.0, "wf_samples": N}
+    channels = [("T_front", WARM, "degC"), ("dZ", COUNTS, "um")]
+    own = [ChannelObject("Log", n, v, {**clock, "unit_string": u}) for n, v, u in channels]
+    with TdmsWriter(folder / "run1.tdms") as file:
+        file.write_segment([RootObject(of_file), *own])
+
+
+def _named(values: object, names: object) -> dict[str, object]:
+    return {"time_s": np.arange(N) * 60.0, "T_front": None, "dZ": None, "data": values, "names": names}
+
+
+@pytest.mark.parametrize(
+    ("write", "asked"),
+    [
+        (lambda f: _mat(f, dZ_gain=0.1), "dZ_gain"),
+        (lambda f: _mat(f, scale_dZ=0.1, T_front_scale=1.0), "scale_dZ"),
+        (lambda f: _mat(f, gain={"T_front": 1.0, "dZ": 0.1}), "gain/dZ"),
+        (lambda f: _mat(f, cal={"dZ": {"factor": 0.1, "offset": 0.0}}), "cal/dZ/factor"),
+        (lambda f: _mat(f, dZ={"data": COUNTS, "unit": "um", "time": np.arange(N) * 60.0, "gain": 0.1}), "gain"),
+        (lambda f: _parquet(f, {"unit": "um", "scale_factor": "0.1"}), "scale_factor"),
+        (lambda f: _parquet(f, {}, {"PANDAS_ATTRS": '{"units": {"dZ": "um"}, "scale": {"dZ": 0.1}}'}), "scale/dZ"),
+        (lambda f: _tdms(f, dZ_gain=0.1, T_front_gain=1.0), "dZ_gain"),
+    ],
+)
+def test_a_scale_beside_the_data_is_asked_of_the_signal_that_it_is_called_after(
+    tmp_path: Path, say: Say, write: Callable[[Path], None], asked: str
+) -> None:
+    write(tmp_path)
+    assert say("init", tmp_path).code in (0, 3)
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    (told,) = [line for line in lines if "the file says" in line]
+    assert f"'{asked} = 0.1'" in told
+    assert "dZ" in told.split(":")[0]
+    assert 'unit: "0.1 um", instead_of: um' in told
+
+
+def test_a_vector_of_gains_is_asked_of_the_columns_of_the_matrix_that_has_as_many(tmp_path: Path, say: Say) -> None:
+    names, units = np.array(["T_front", "dZ"], object), np.array(["degC", "um"], object)
+    values = np.column_stack([WARM, COUNTS])
+    _mat(tmp_path, **_named(values, names), dZ_unit=None, units=units, gain=np.array([1.0, 0.1]))
+    assert say("init", tmp_path).code in (0, 3)
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    (told,) = [line for line in lines if "the file says" in line]
+    assert "'gain = 0.1'" in told
+    assert told.strip().startswith("dZ:")
+
+
+@pytest.mark.parametrize(
+    "write",
+    [
+        lambda f: _mat(f, dZ_gain=1.0, T_front_offset=0.0, sample_gain=3.0, rig="B"),
+        lambda f: _parquet(f, {"unit": "um", "scale_factor": "1", "add_offset": "0"}, {"T_rear.gain": "0.1"}),
+        lambda f: _tdms(f, dZ_gain=1.0, T_rear_gain=0.1),
+    ],
+)
+def test_a_scale_of_one_or_of_no_signal_of_the_file_is_not_asked(
+    tmp_path: Path, say: Say, write: Callable[[Path], None]
+) -> None:
+    write(tmp_path)
+    assert say("init", tmp_path).code in (0, 3)
+    assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+def test_a_scale_that_some_files_state_alone_is_asked_with_these(tmp_path: Path, say: Say) -> None:
+    for name, gain in {"a": 1.0, "b": 0.1, "c": 1.0}.items():
+        _mat(tmp_path, dZ_gain=gain)
+        (tmp_path / "run1.mat").rename(tmp_path / f"{name}.mat")
+    assert say("init", tmp_path).code in (0, 3)
+    lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
+    (told,) = [line for line in lines if "the file says" in line]
+    assert "in b.mat the file says 'dZ_gain = 0.1'" in told
+
+
 def test_properties_of_a_signal_that_scale_it_are_asked_unless_its_reader_applies_them() -> None:
     said = {"Factor": "0.1", "Offset": "-5.0", "Polarity": "inverted"}
     signal = Signal("Log/dZ", "log", "um", "float64", properties=said)
-    comment = with_scale_asked(guess_of(signal), signal).comment()
+    comment = with_scale_asked(guess_of(signal), {"a": signal}).comment()
     assert all(f"'{key} = {value}'" in comment for key, value in said.items())
     applied = Signal("Log/dZ", "log", "um", "float64", Scaling("linear", {"gain": 0.1, "offset": 0.0}), properties=said)
-    assert with_scale_asked(guess_of(applied), applied) == guess_of(applied)
+    assert with_scale_asked(guess_of(applied), {"a": applied}) == guess_of(applied)
     plain = Signal("Log/dZ", "log", "um", "float64", properties={"Factor": "1", "Offset": "0", "Polarity": "normal"})
-    assert with_scale_asked(guess_of(plain), plain) == guess_of(plain)
+    assert with_scale_asked(guess_of(plain), {"a": plain}) == guess_of(plain)
 
 
 @pytest.mark.parametrize("head", ["Gain;inf;1;1", "Gain;1e-300;1;1", "Gain;10", "Offset;-5", "Zero;true;true;true"])
@@ -55,3 +150,24 @@ def test_what_is_no_scale_of_a_column_is_not_asked_of_one(tmp_path: Path, say: S
     (tmp_path / "run1.csv").write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
     assert say("init", tmp_path).code in (0, 3)
     assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("below", "lost"), [(["Scale;0.01;0.1"], False), (["Gain;0.01;0.1", "Offset;-50;0"], False), (["A;0.01;0.1"], True)]
+)
+def test_a_row_of_scales_below_the_names_is_no_loss(tmp_path: Path, say: Say, below: list[str], lost: bool) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{2000 + 14 * k};{4 + 3 * k}" for k in range(60)]
+    text = "\n".join(["Time;T_front [degC];dZ [um]", *below, *rows, ""])
+    (tmp_path / "run1.csv").write_text(text, encoding="utf-8")
+    assert say("init", tmp_path).code in (0, 3)
+    assert ("damaged" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")) is lost
+
+
+@pytest.mark.parametrize(("head", "told"), [("Gain;10", True), ("Gain;1", False), ("Serial;10", False)])
+def test_a_factor_alone_above_several_columns_is_told(tmp_path: Path, say: Say, head: str, told: bool) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{20 + k / 7:.2f};{4 + 3 * k};{k}" for k in range(60)]
+    names = "Time;T_front [degC];dZ [um];T_rear [degC]"
+    path = tmp_path / "run1.csv"
+    path.write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
+    said = say("preview", path)
+    assert ("'Gain 10', of which column is not told: nothing is scaled" in said.out + said.err) is told

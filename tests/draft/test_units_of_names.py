@@ -34,6 +34,12 @@ def _seen(low: float, high: float) -> Values:
         ("X_ERR(IN)", 0, 0.003, "position", "in"),  # asked: or a displacement?
         ("COOLANT (IN)", 20, 30, "temperature", "degC"),  # an inlet
         ("pump_hp", 1, 9, None, None),  # high pressure
+        ("Log/n [1/s]", 0, 66, "rotational_speed", "1/s"),
+        ("/d.pos_X [m]", 0.1, 0.4, "position", "m"),
+        ("ns=2;s=torque_S [kNm]", 0, 0.04, "torque", "kNm"),
+        ("feed_X [mm/s]", 0, 100, "feed", "mm/s"),
+        ("P_spindle [kW]", 0, 4, "power", "kW"),
+        ("T_front [2]", 20, 30, "temperature", "degC"),  # the second of them
     ],
 )
 def test_the_end_of_a_name_is_its_unit_beside_a_quantity_that_has_it(

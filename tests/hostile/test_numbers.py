@@ -100,7 +100,19 @@ def test_the_minus_of_typography_and_an_exponent_of_fortran_are_numbers(lab: Lab
     np.testing.assert_allclose(lab.values("T_spindle", "a")[1], [2 + i / 8 for i in range(40)])
 
 
-@pytest.mark.parametrize("word", ["1D3", "12D+3", "D+03", "5−", "1−2", "−"])
+@pytest.mark.parametrize("by", ["table", "cnc"])
+@pytest.mark.parametrize(
+    ("cell", "value"), [("0,2-", -0.2), ("(0,2)", -0.2), ("1.234,50-", -1234.5), ("(1.234,50)", -1234.5)]
+)
+def test_a_minus_behind_a_number_and_brackets_around_it_make_it_negative(
+    read: Any, by: str, cell: str, value: float
+) -> None:
+    data = read(csv(["12,5", cell]), by=by)
+    np.testing.assert_array_equal(column(data)[:2], [12.5, value])
+    assert data.losses == ()
+
+
+@pytest.mark.parametrize("word", ["1D3", "12D+3", "D+03", "5−", "1−2", "−", "5-", "(5)", "-1.5-", "(-1.5)"])
 def test_words_with_a_d_or_a_minus_stay_words(read: Any, word: str) -> None:
     data = read(csv(["1.5"] * 30 + [word] + ["1.5"] * 9))
     assert np.isnan(next(iter(data.values.values()))[30])

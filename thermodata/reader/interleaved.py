@@ -20,7 +20,7 @@ from thermodata.reader.series_evidence import FEWEST, Header, Rows, Verdict, jud
 _MOST_WORDS, _MOST_NUMBERS = 200, 32  # that name series
 _BLANK = 0.1  # of the rows may name nothing
 _NUMBER, _TIME = re.compile(r"\d+"), re.compile(r"\d+[-.:/]\d+[-.:/ T\dZ+]*")
-_STATES = frozenset(
+STATES = frozenset(
     (
         *("on", "off", "true", "false", "yes", "no", "open", "closed", "run", "running", "stop", "stopped", "start"),
         *("idle", "ok", "nok", "error", "alarm", "ready", "busy", "auto", "manual", "active", "inactive", "normal"),
@@ -115,7 +115,7 @@ def _words(header: str, values: Array) -> _Words | None:
     words = sorted(set(cells) - {""})
     if not 1 < len(words) <= min(_MOST_NUMBERS if numbers else _MOST_WORDS, len(cells) // 3):
         return None
-    if cells.count("") > _BLANK * len(cells) or {w.casefold() for w in words} <= _STATES:
+    if cells.count("") > _BLANK * len(cells) or {w.casefold() for w in words} <= STATES:
         return None
     if not numbers and any(map(_TIME.fullmatch, words)):
         return None

@@ -28,8 +28,9 @@ def holds_units(header: str, words: Iterable[str]) -> bool:
     if bare not in UNIT_SHORT:
         return False
     told = {word for word in words if word}
-    return bool(told) and all(len(w) > 1 or not w.isalnum() for w in told) and all(map(_is_surely_unit, told))
+    return bool(told) and all(len(w) > 1 or not w.isalnum() for w in told) and all(map(is_surely_unit, told))
 
 
-def _is_surely_unit(word: str) -> bool:
+def is_surely_unit(word: str) -> bool:
+    """Whether a word is a unit known here, and no word of a state, a place or a statistic as well."""
     return word.casefold() not in _OTHERWISE and is_unit(word)

@@ -225,3 +225,36 @@ def test_a_unit_behind_the_first_look_converts_or_is_a_loss(tmp_path: Path) -> N
         "'dZ': a value in 'degC', which does not convert to um: '7500.375'"
     ]
     assert 60_001 / 8 * 1000 in values(data)["dZ"]
+
+
+@pytest.mark.parametrize(
+    ("header", "unit"),
+    [
+        ("Zeit,Kanal,Wert,Kanal,Wert", False),
+        ("time,channel1,value1,channel2,value2", False),
+        ("time,tag,value,unit,tag,value,unit", True),
+    ],
+)
+def test_several_names_and_values_of_a_row_are_told_apart_by_the_names(tmp_path: Path, header: str, unit: bool) -> None:
+    def row(k: int) -> str:
+        pairs = [("T_front", 20 + k / 8), ("T_rear", 10 + k / 8)][:: 1 if k < N // 2 else -1]
+        return f"{stamp(k)}," + ",".join(f"{n},{v}" + (",degC" if unit else "") for n, v in pairs)
+
+    data = read(tmp_path, header, [row(k) for k in range(N)])
+    assert values(data) == {"T_front": [20 + k / 8 for k in range(N)], "T_rear": [10 + k / 8 for k in range(N)]}
+    assert not data.losses
+    assert not any("not read" in note for note in data.recording.notes)
+    assert {s.unit for s in data.recording.signals} == {"degC" if unit else None}
+
+
+def test_a_row_may_hold_fewer_of_its_names_and_values(tmp_path: Path) -> None:
+    rows = [f"{stamp(k)},T_front,{20 + k / 8}" + (f",T_rear,{10 + k / 8}" if k % 2 else ",,") for k in range(N)]
+    data = read(tmp_path, "time,tag,value,tag,value", rows)
+    assert values(data)["T_front"] == [20 + k / 8 for k in range(N)]
+    assert values(data)["T_rear"][1::2] == [10 + k / 8 for k in range(1, N, 2)]
+    assert not data.losses
+
+
+def test_numbers_of_channels_before_values_are_no_names() -> None:
+    rows = [f"{stamp(k)},{k},{20 + k / 8},{2 * k},{10 + k / 8}" for k in range(N)]
+    assert long_table.claims(["time,channel1,value1,channel2,value2", *rows]) is None

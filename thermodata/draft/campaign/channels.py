@@ -30,12 +30,13 @@ from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.preamble.units_said import HEAD
+from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
 from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
-_MOST_SIGNALS = 2000
+_MOST_SIGNALS, _MOST_LINES = 2000, 2
 _STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
 _TAG_NUMBER = re.compile(r"(?i)(?:numeric|tag|item|point|node)[ _]?id$")
 _SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
@@ -93,7 +94,8 @@ def channels_of(
         only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
         lacking = tuple(t for t in group.tests if t not in having) if only else ()
         stream = signal.stream if len(streams) > 1 else None
-        note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
+        notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
+        note = "; ".join(filter(None, notes_of)) or None
         made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
     if beside:
         shown = with_count(beside, 4)
@@ -101,6 +103,13 @@ def channels_of(
             f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
         )
     return made, notes
+
+
+def _way(one: OneSignal) -> str | None:
+    """What the heads of its files say of the sign of a displacement, or of its jumps."""
+    lines = dict.fromkeys(s.properties[WAY] for f in one.files if (s := one.of(f)) and WAY in s.properties)
+    shown = "', '".join(list(lines)[:_MOST_LINES])
+    return f"the head of the file says '{shown}'" if lines else None
 
 
 def _is_of_others(one: OneSignal) -> bool:
@@ -145,11 +154,15 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     usual = units.most_common(1)[0][0]
     called_so: Counter[str] = Counter()
     seen: dict[str, Values | None] = {}
+    heads: dict[str, list[str]] = {}
+    own_signals: dict[str, Signal] = {}
     for f in one.files:
         own = one.of(f) or signal
         seen[str(f.path)] = f.sample.values.get((own.stream, own.name))
         values = joined(values, in_unit(seen[str(f.path)], own.unit, usual))
         called_so[own.properties.get("description", "")] += 1
+        own_signals[f.path.name] = own
+        heads.setdefault(own.properties.get(HEAD, ""), []).append(f.path.name)
     if signal.dtype == "str" and None in seen.values():
         values = None  # words in one test that are no switch's
     where = signal.properties.get(IN_LEGEND)
@@ -158,9 +171,9 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
     said = replace(said, sure=False) if where else said
-    if HEAD in signal.properties:
-        said, note = with_head(said, signal, note)
-    said = with_scale_asked(said, signal)
+    if any(heads):
+        said, note = with_head(said, signal, note, heads)
+    said = with_scale_asked(said, own_signals or {"": signal})
     if STATE_OF in signal.properties and said.quantity != "state":
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "

@@ -25,6 +25,7 @@ from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, forei
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.schema.quantity import is_unit, normal_unit
 from thermodata.schema.unit_letters import encoding_hint
 
@@ -123,7 +124,12 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         (_last(bare), _field(bare), _last(units.without_value(bare)), units.without_labels(_last(bare)))
     )
     written = (
-        (rate or next(filter(None, map(units.from_name, ends)), None) or units.inches(_last(name)))
+        (
+            _in_brackets(name)
+            or rate
+            or next(filter(None, map(units.from_name, ends)), None)
+            or units.inches(_last(name))
+        )
         if not unit
         else None
     )
@@ -167,6 +173,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if values is None:
         return found
     return implausible(found, text, values) if known else doubted(found, bare, values)
+
+
+def _in_brackets(name: str) -> str | None:
+    """The unit in the brackets of a name whose reader leaves it there: 'Log/n [1/s]'. What one count is, or how far the
+    values may go, is none."""
+    unit = split_unit(name)[1]
+    known = unit is not None and (looks_like_unit(unit) or is_unit(unit))
+    return unit if known and units.counts_or_range(_last(name)) is None else None
 
 
 def _small(found: Guess, own: str, values: Values | None) -> Guess:

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
-from thermodata.reader.text.preamble.units_said import HEAD, OTHERS
-from thermodata.schema.quantity import normal_unit
+from thermodata.reader.text import split_unit
+from thermodata.reader.text.preamble.units_said import OTHERS, units_in
+from thermodata.schema.listed import with_count
+from thermodata.schema.quantity import CANONICAL_UNIT, converts, normal_unit
 
+_FILES, _HEADS = 2, 4  # that are shown
 _LENGTHS_AND_HEAT = ("temperature", "temperature_difference", "displacement", "position")
 
 
-def with_head(said: Guess, signal: Signal, note: str | None) -> tuple[Guess, str | None]:
+def with_head(
+    said: Guess, signal: Signal, note: str | None, heads: Mapping[str, Sequence[str]]
+) -> tuple[Guess, str | None]:
     """The guess with the head's words in its question of the unit, or with such a question where the head says another
-    unit than was taken; and the note of a channel in volts with them."""
-    line = signal.properties[HEAD]
+    unit than was taken, or those of several files differ; and the note of a channel in volts with them. heads: what
+    they say, '' for nothing -> the files."""
+    line = next(filter(None, heads))
     told = f"the head of the file says '{line}'"
+    possible = {frozenset(u for u in units_in(text) if _fits(u, said.quantity)) for text in heads}
+    if len(possible - {frozenset()}) > 1:
+        shown = ", ".join(f"'{text}' ({with_count(files, _FILES)})" for text, files in list(heads.items())[:_HEADS])
+        name = parts_of(split_unit(signal.name)[0])[-1]
+        told = (
+            f"the heads of the files differ: {shown}: a test in another unit says so: channels: {{{name}: {{unit: ?}}}}"
+        )
+        if signal.unit is None and said.quantity and not any(q.startswith("unit") for q in said.questions):
+            return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}? {told}")), note
     asked = [q for q in said.questions if q.startswith("unit")]
     if asked:
         questions = tuple(f"{q}, {told}" if q == asked[0] else q for q in said.questions)
@@ -26,3 +43,7 @@ def with_head(said: Guess, signal: Signal, note: str | None) -> tuple[Guess, str
     if normal_unit(signal.unit or "") not in ("V", "mV"):  # which a scale of the logger makes another unit of
         return said, note
     return said, "; ".join(filter(None, (note, told)))
+
+
+def _fits(unit: str, quantity: str | None) -> bool:
+    return quantity in CANONICAL_UNIT and converts(unit, CANONICAL_UNIT[quantity])

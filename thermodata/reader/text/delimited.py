@@ -19,8 +19,9 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
 from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
-from thermodata.reader.text.preamble.scales_said import scales_said
+from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, lone_scales, scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
+from thermodata.reader.text.preamble.ways_said import WAY, ways_said
 from thermodata.reader.text.rows.footer import footer_notes
 from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
@@ -34,7 +35,6 @@ from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
 
 _FIRST_ROWS, _LAST_LINES = 500, 20
-_SCALES_BELOW = 2  # of which no time can be read
 _CUT = "the last line has no end and may be cut"
 
 
@@ -80,7 +80,7 @@ def _said_of(table: Table, column: int, heads: Mapping[str, Mapping[str, str]]) 
 def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
     """Name of a column -> what lines above the names, and the first below them, state of its unit and scale."""
     names, first = table.layout.names, table.layout.first
-    lines = table.sample.head[: first + _SCALES_BELOW]
+    lines = table.sample.head[: first + SCALES_BELOW]
     rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in lines]
     above = rows[: names_at(rows[:first], names)]
     # a first row of channels names the columns, too, and scales stand between it and the last that does
@@ -88,6 +88,8 @@ def _stated(table: Table) -> Mapping[str, Mapping[str, str]]:
     found = {n: dict(said) for n, said in scales_said([*rows[:last], *rows[first:]], names).items()}
     for name, line in units_said(above, names).items():
         found.setdefault(name, {})[HEAD] = line
+    for name, line in ways_said(rows[:first], names).items():
+        found.setdefault(name, {})[WAY] = line
     return found
 
 
@@ -103,6 +105,9 @@ def describe(table: Table, source: Source) -> Recording:
             hint="declare one time: table: {time: {column: ...}}, and a second source for the others",
         )
     notes = list(table.notes)
+    head = table.sample.head[: table.layout.first]
+    above = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in head]
+    notes += lone_scales(above, table.layout.names)
     start = of_day = None
     if table.absolute or any(timed.of_day for timed in table.groups):
         reader = RowReader(table, source, 1)

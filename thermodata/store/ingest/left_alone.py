@@ -36,7 +36,8 @@ class TestNote:
     lent: those that were estimated, as (offset_ns, drift_ppm, base_ns, suspect, key, notes) before and after the other
     tests were asked. dated: sources with dates of their own. start_s: on the absolute clock. warm: said to have
     started so. courses: (end [s], levels) of each of its tidy files. verdicts: (its channels, verdict) of each stream.
-    overruled: which rules of the campaign file found something.
+    overruled: which rules of the campaign file found something. heads: channel -> (the unit it was read in, what the
+    head of its file says of units), of those whose files say no unit beside.
     """
 
     __test__ = False
@@ -63,6 +64,7 @@ class TestNote:
     courses: list[list[Any]] = field(default_factory=list)
     verdicts: list[list[Any]] = field(default_factory=list)
     overruled: list[int] = field(default_factory=list)
+    heads: dict[str, list[str]] = field(default_factory=dict)
 
     def to_text(self) -> str:
         """One line."""

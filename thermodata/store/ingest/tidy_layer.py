@@ -23,6 +23,7 @@ from thermodata.store.ingest.empty_channels import empty_channels
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
 from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.other_heads import head_of, other_heads
 from thermodata.store.ingest.other_units import other_units
 from thermodata.store.ingest.tidy_rows import count, duration_s, step_s, tidy_rows
 from thermodata.store.tidy.between import Verdict, verdicts
@@ -114,6 +115,7 @@ def tidy_tests(
         note.notes += plan.notes
     layer.losses += empty_channels(campaign, known)
     layer.losses += other_units([x for x, _ in levels])
+    layer.losses += other_heads(known)
     layer.notes += idle(campaign.overrule, {name: note.overruled for name, note in known.items() if note.tidied})
     return layer
 
@@ -128,6 +130,7 @@ def _begun(plan: TestPlan) -> TestNote:
         channels=[[b.source, b.stream, b.name, b.is_text] for b in plan.bound.values()],
         dated=dated_sources(plan),
         warm=plan.test.start_state == "warm",
+        heads={n: [b.unit, head] for n, b in plan.bound.items() if b.unit and (head := head_of(b.signal))},
     )
 
 

@@ -7,7 +7,8 @@ The policy, a cell at a time (`docs/formats.md` states it for users; `to_float` 
 - **Thousands**: blanks and apostrophes part them; so does the other mark, where a fraction, a second group or a
   declared decimal mark proves it. `1.500` beside decimal commas could be either, so it is refused, but where the
   columns of the file tell it (`told_thousands`).
-- **Signs**: the minus of typography (U+2212) is one. **Exponents** are an e, or Fortran's `D+03` in full.
+- **Signs**: the minus of typography (U+2212) is one; `0.2-` and `(0.2)` are negative, with a fraction.
+- **Exponents** are an e, or Fortran's `D+03` in full.
 - **Integers** that a float64 would change (beyond 2**53) are kept exactly in a column of int64, else refused.
 - **Too large** for a float64 (`1e999`): refused. `inf` is a value. `1_000`, `0x1F` and `12 %` are no numbers.
 - **Truth values** (`TRUE`, `wahr`) make a column of bool; between numbers they are 1 and 0.
@@ -50,6 +51,8 @@ _ONE_GROUP = {
     ".": re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII),
     ",": re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}", re.ASCII),
 }
+# with a fraction, for '2-' and '(2)' are words as well
+_BEHIND = re.compile(r"(?P<behind>\d[\d.,]*[.,]\d+)-|\((?P<inside>\d[\d.,]*[.,]\d+)\)", re.ASCII)
 _PADDED_SIGN = re.compile(r"^([+-]) +")
 _INTEGER = re.compile(r"[+-]?\d{1,40}", re.ASCII)
 _FORTRAN = re.compile(r"([+-]?(?:\d+[.,]\d*|[.,]\d+))[dD]([+-]\d{2,3})", re.ASCII)  # it always writes all of these
@@ -58,10 +61,12 @@ _COMMA = re.compile(r"^[+-]?\d*,\d+(?:[eE][+-]?\d+)?$|^[+-]?\d+,\d*(?:[eE][+-]?\
 
 
 def spelled(text: str) -> str:
-    """A number as others write it: with a keyboard's sign for the minus of typography (some locales write it), and
-    Fortran's exponent (1.5D+03) by an e."""
+    """A number as others write it: with a keyboard's sign for the minus of typography (some locales write it), which
+    stands before it and not behind or as brackets (SAP, bookkeeping), and Fortran's exponent (1.5D+03) by an e."""
     if not text.isascii():
         text = text.replace("\u2212", "-")
+    if text.endswith(("-", ")")) and (negative := _BEHIND.fullmatch(text)) is not None:
+        return f"-{negative['behind'] or negative['inside']}"
     found = _FORTRAN.fullmatch(text)
     return f"{found[1]}e{found[2]}" if found else text
 

@@ -12,10 +12,12 @@ from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.unit_words import holds_units, may_be_a_machine
+from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import converts, is_unit, linear_conversion, normal_unit
 
 UNIT_OF = "unit_of"  # property of a signal: the one whose unit it says
 _SHOWN = 4
+_NOT_MEASURED = np.uint16(Flag.NOT_MEASURING)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +92,11 @@ def converts_here(word: str, unit: str) -> bool:
     return (len(word) > 1 or len(unit) > 1) and is_unit(word) and converts(word, unit)
 
 
-def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> Iterator[Block | Loss]:
-    """The blocks in one unit; rows in one that does not convert to it are left out, and a loss."""
+def in_one_unit(
+    items: Iterator[Block | Loss], said: UnitColumn, where: str, *, whole: bool = False
+) -> Iterator[Block | Loss]:
+    """The blocks in one unit; rows in one that does not convert to it are left out, and a loss. whole: no row is left
+    out, for it holds other values: this one counts as not measured."""
     others: dict[str, int] = {}
     for item in items:
         if isinstance(item, Loss) or said.column not in item.values:
@@ -109,9 +114,12 @@ def in_one_unit(items: Iterator[Block | Loss], said: UnitColumn, where: str) -> 
                 continue
             others[word] = others.get(word, 0) + int(rows.sum())
             lost |= rows
-        kept = np.flatnonzero(~lost)
+        kept = np.arange(lost.size) if whole else np.flatnonzero(~lost)
+        every = dict(item.flags or {})
+        if whole and lost.any():
+            every[said.of] = every.get(said.of, np.zeros(lost.size, np.uint16)) | (lost * _NOT_MEASURED)
         if kept.size:
-            flags = {k: v[kept] for k, v in (item.flags or {}).items()}
+            flags = {k: v[kept] for k, v in every.items()}
             of_rows = {k: v[kept] for k, v in {**item.values, said.of: values}.items()}
             yield Block(
                 item.stream, item.t_ns[kept], of_rows, flags or None, None if item.at is None else item.at[kept]

@@ -8,12 +8,9 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET
 
-FACTOR = re.compile(
-    r"(?i)fa[kc]tors?|faktoren|scal(?:e|ing)(?:[ _]?factor)?|skalierung(?:sfaktor)?|gain|multiplier|slope|verstärkung|"
-    r"facteur|fattore|násobek|měřítko|steigung|1 (?:digit|count|lsb|bit|inkrement)"
-)
-OFFSET = re.compile(r"(?i)(?:add[_ ])?offset|nullpunkt|zero|intercept|achsenabschnitt")
+SCALES_BELOW = 2  # rows of scales below the names, of which no time can be read
 _COUNT = re.compile(
     r"(?i)\b(?P<key>1 ?(?:digit|count|lsb|bit|inkrement)) ?(?:=|≙|entspricht|is) ?"
     r"(?P<number>\d+(?:[.,]\d+)?(?:e[-+]?\d+)?)"
@@ -36,6 +33,30 @@ def scales_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping
             for name in _named(text[: count.start()], names):
                 found.setdefault(name, {})[re.sub(r"^1 ?", "1 ", count["key"])] = count["number"]
     return found
+
+
+def is_row_of_scales(cells: Sequence[str]) -> bool:
+    """Whether a row below the names holds factors or offsets of the columns: 'Scale;0.01;0.1'."""
+    key = cells[0].strip().rstrip(":=").strip() if cells else ""
+    stated = [c for c in cells[1:] if c.strip()]
+    named = FACTOR.fullmatch(key) or OFFSET.fullmatch(key)
+    return bool(named and stated) and all(of_either_mark(c.strip()) is not None for c in stated)
+
+
+def lone_scales(above: Sequence[Sequence[str]], names: Sequence[str]) -> list[str]:
+    """A note on each factor or offset that stands alone above several columns, and may be of one or of all."""
+    if len(names) == 2:
+        return []  # of the one beside the time
+    notes = []
+    for cells in above:
+        stated = [c.strip() for c in cells[1:] if c.strip()]
+        key = cells[0].strip().rstrip(":=").strip() if cells else ""
+        number = of_either_mark(stated[0]) if len(stated) == 1 and len(cells) == 2 else None
+        if FACTOR.fullmatch(key) and number is not None and number not in (0.0, 1.0):
+            notes.append(
+                f"a line above the rows says '{key} {stated[0]}', of which column is not told: nothing is scaled"
+            )
+    return notes
 
 
 def _named(text: str, names: Sequence[str]) -> Sequence[str]:

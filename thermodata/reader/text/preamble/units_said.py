@@ -6,7 +6,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.schema.quantity import normal_unit
 
 HEAD = "head"  # property of a signal: what the head of its file says of units
 _UNITS = re.compile(
@@ -16,6 +17,8 @@ _UNITS = re.compile(
 # what is no degree Celsius, millimetre or micrometre
 OTHERS = re.compile(r"(?i)\b(?:fahrenheit|inch(?:es)?|imperial|deg\.? ?f)\b|[°º]F\b")
 _LONGEST, _MOST = 80, 2
+_PARTS = re.compile(r"[\s:;,=()\[\]'\"]+")
+_WORDS = {"fahrenheit": "degF", "celsius": "degC", "kelvin": "K", "inch": "inch", "inches": "inch", "imperial": "inch"}
 
 
 def units_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping[str, str]:
@@ -31,3 +34,11 @@ def units_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping[
         for name in own or bare.values():
             found.setdefault(name, []).append(text[:_LONGEST])
     return {name: "', '".join(lines[:_MOST]) for name, lines in found.items()}
+
+
+def units_in(line: str) -> frozenset[str]:
+    """The units that such a line names, in one spelling."""
+    parts = [p for p in _PARTS.split(line) if p]
+    return frozenset(
+        normal_unit(_WORDS.get(p.casefold(), p)) for p in parts if p.casefold() in _WORDS or looks_like_unit(p)
+    )

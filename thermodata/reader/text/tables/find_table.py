@@ -36,7 +36,7 @@ from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
 from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
 from thermodata.reader.text.tables.standing_columns import standing_columns
-from thermodata.reader.text.tables.table import Table, TimedGroup, bare_line
+from thermodata.reader.text.tables.table import Table, TimedGroup, header_lines
 from thermodata.reader.text.tables.told_thousands import told_thousands
 from thermodata.reader.text.tables.zone_named import zones_said
 from thermodata.reader.text.times.date_parts import PART
@@ -178,7 +178,7 @@ def find_table(
     if told_unit and told_unit.others:  # what is converted is whole no more
         kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
-    header = frozenset(bare_line(line) for line in head[: layout.first] if bare_line(line))
+    header = header_lines(head, layout.first, cells)
     above = ([line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first])
     begin, doubt = _begin(groups, above, body, declared_start(said), where)
     midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]

@@ -4,15 +4,19 @@ micrometres would stand in one channel."""
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from itertools import combinations
 
 from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
+from thermodata.reader.interleaved import STATES
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.listed import with_dots
 
 _FEWEST_ROWS = 10
+_MAY_NAME = re.compile(r"column \d+(?:#\d+)?")  # nobody called it anything
+_LOOKED_AT = 100  # rows whose cells are held to be numbers
 _MOST_NAMES = 200  # that one column may hold
 _SHARED = 0.6  # of the rows: no more times than this, where each is told of several names
 
@@ -37,7 +41,18 @@ def refuse_long(
     times: Sequence[int] = (),
 ) -> None:
     """FormatError for a table in which a column names what another one holds the value of: by its header, where that
-    column has several names, or by its rows, where each time comes once for each of several names."""
+    column has several names, or by its rows, where each time comes once for each of several names; for one whose rows
+    hold several names, each before its value, which change their places."""
+    moved = _moved(names, rows)
+    if moved:
+        raise FormatError(
+            "rows of several names, each before its value",
+            where=where,
+            expected="a column a signal",
+            got=f"'{names[moved[0]]}' and '{names[moved[1]]}' hold the same names in different rows",
+            hint="call the columns time,channel,value,channel,value in a line above: the reader cnc takes them apart; "
+            "else pivot it: a column a name",
+        )
     tag = name_column(names)
     if tag is None:
         tag = next((i for i in range(len(names)) if i not in times and _names_rows(rows, i, times)), None)
@@ -54,6 +69,39 @@ def refuse_long(
         got=f"'{names[tag]}' holds " + with_dots(said, 4),
         hint=_HINT,
     )
+
+
+def _moved(names: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[int, int] | None:
+    """Two columns of words before numbers that hold the same words, never in one row, and no states: names of values
+    that stand in other columns from row to row. Not of columns that are called otherwise: two spindles have tools."""
+    if len(rows) < _FEWEST_ROWS:
+        return None
+    width = min(map(len, rows))
+    words: dict[int, list[str]] = {}
+    for i in (i for i in range(width - 1) if _MAY_NAME.fullmatch(names[i]) or _stem(names[i]) in NAME_WORDS):
+        own = [clean(row[i]) for row in rows]
+        some = set(own)
+        if (
+            "" in some
+            or not len(some) <= min(_MOST_NAMES, len(own) // 3)
+            or _are_states(some)
+            or any(map(is_number, some))
+        ):
+            continue
+        if all(is_number(row[i + 1]) for row in rows[:: max(1, len(rows) // _LOOKED_AT)]):
+            words[i] = own
+    for a, b in combinations(words, 2):
+        if not set(words[a]).isdisjoint(words[b]) and all(x != y for x, y in zip(words[a], words[b], strict=True)):
+            return a, b
+    return None
+
+
+def _are_states(words: Collection[str]) -> bool:
+    return any(word.casefold() in STATES for word in words)
+
+
+def _stem(name: str) -> str:
+    return re.sub(r"[\s_.#()-]|\d+$", "", name).casefold()
 
 
 def _names_rows(rows: Sequence[Sequence[str]], column: int, times: Sequence[int]) -> bool:

@@ -5,7 +5,7 @@ How it is found: find_table.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -19,6 +19,7 @@ from thermodata.reader.text.names.header import told_alike
 from thermodata.reader.text.names.unit_column import UnitColumn
 from thermodata.reader.text.page.layout import Group, Layout
 from thermodata.reader.text.preamble.begin import Begin
+from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_scales
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.rows.quality_columns import Pairs
 from thermodata.reader.text.times.date_parts import PART
@@ -67,6 +68,13 @@ class TimedGroup:
 def bare_line(line: str) -> str:
     """A line without blanks around it, and without the byte order mark that it has where files were joined."""
     return line.strip().strip("\ufeff").strip()
+
+
+def header_lines(head: Sequence[str], first: int, cells: Callable[[str], Sequence[str]]) -> frozenset[str]:
+    """The lines above the data, and rows of scales below the names, by `bare_line`. first: the first row; cells: of a
+    line."""
+    below = (x for x in head[first : first + SCALES_BELOW] if is_row_of_scales([clean(c) for c in cells(x)]))
+    return frozenset(bare for line in (*head[:first], *below) if (bare := bare_line(line)))
 
 
 @dataclass(frozen=True)

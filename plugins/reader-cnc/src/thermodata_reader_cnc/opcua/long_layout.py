@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
 from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.text.cells.delimiter import fields
+from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import tells_quality, zero_is_good
 from thermodata.reader.text.cells.time_pattern import UNIX_MS, UNIX_NS, UNIX_US, TimeFormat, declared_format
@@ -26,6 +27,8 @@ _TIMES = (
 )
 _VALUES = ("tagval", "tagvalue", "varvalue", "floatvalue", *VALUE_WORDS)
 _TYPE = "datatype"
+_NUMBER_AT_END = re.compile(r"\d{1,2}$")
+_FEWEST = 2  # values of a row that come in pairs with their tags
 _ROWS = 2000  # below the header, by which the times are known
 
 
@@ -34,7 +37,8 @@ class Layout:
     """Columns of the parts. header: its line; times: the first that a row has is its time; tags: columns that name what
     is measured, together; constant: (column, cell) of those that name the same in all that was looked at; status: None
     where there is none; zero_good: whether its code 0 is, None where the codes do not tell; annotated: lines that begin
-    with '#' are none of it; unread: names of columns of numbers that differ and are none of these."""
+    with '#' are none of it; unread: names of columns of numbers that differ and are none of these; more: the same of
+    further values of each row, `Kanal;Wert;Kanal;Wert`."""
 
     delimiter: str
     row: int
@@ -50,12 +54,13 @@ class Layout:
     unit: int | None
     annotated: bool
     unread: tuple[str, ...] = ()
+    more: tuple[Layout, ...] = ()
 
     @property
     def wanted(self) -> set[int]:
         """The columns that say something of an event."""
         maybe = {k for k in (self.status, self.unit) if k is not None}
-        return {*self.times, *self.tags, self.value, *maybe}
+        return {*self.times, *self.tags, self.value, *maybe}.union(*(each.wanted for each in self.more))
 
     @property
     def grid(self) -> Grid:
@@ -106,11 +111,14 @@ def find_layout(
             value = next((names.index(n) for n in _values(names) if n in names), None)
             status = _status(names)
             influx = {"_time", "_value"} <= set(raw)
+            pairs = value_pairs(names, [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS]])
+            if pairs:
+                value = pairs[0][1]
             if value is None or not times:
                 continue
             if influx:
                 times, status = (raw.index("_time"),), None
-            tag = next((names.index(n) for n in NAME_WORDS if n in names), None)
+            tag = pairs[0][0] if pairs else next((names.index(n) for n in NAME_WORDS if n in names), None)
             if not influx and tag is None and ("sourcetimestamp" not in names or status is None):
                 continue
             body = [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS] if not text.startswith("#")]
@@ -122,7 +130,7 @@ def find_layout(
             if status is not None:
                 sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
                 zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
-            taken = {*times, value, status, tag}
+            taken = {*times, value, status, tag, *(k for pair in pairs for k in pair)}
             units = [k for k, c in enumerate(raw) if k not in taken and holds_units(c, (clean(r[k]) for r in body))]
             series = Series((), {})
             if influx:
@@ -133,11 +141,12 @@ def find_layout(
                 used = {
                     *times,
                     value,
+                    *(k for pair in pairs[1:] for k in pair),
                     *(k for k, n in enumerate(names) if k in units or n == _TYPE or tells_quality(n) is not None),
                 }
                 t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
                 series = series_of(names, rows, t_ns, tag, used)
-            return Layout(
+            found = Layout(
                 delimiter,
                 row,
                 clean_line(line),
@@ -153,7 +162,42 @@ def find_layout(
                 influx,
                 tuple(raw[k] for k in series.unread),
             )
+            statuses = [k for k, n in enumerate(names) if tells_quality(n) is not None]
+            return replace(found, more=_more(found, pairs, units, statuses))
     return None
+
+
+def _more(
+    first: Layout, pairs: Sequence[tuple[int, int]], units: Sequence[int], statuses: Sequence[int]
+) -> tuple[Layout, ...]:
+    """The further values of a row: each with the unit and the status that stand in its own columns, or the row's."""
+    return tuple(
+        replace(
+            first,
+            tags=tuple(tag if k == pairs[0][0] else k for k in first.tags),
+            value=value,
+            unit=units[n] if len(units) == len(pairs) else first.unit,
+            status=statuses[n] if len(statuses) == len(pairs) else first.status,
+        )
+        for n, (tag, value) in enumerate(pairs)
+        if n
+    )
+
+
+def value_pairs(names: Sequence[str], rows: Sequence[Sequence[str]]) -> list[tuple[int, int]]:
+    """(column of the tag, column of its value) of a row that holds several of them, by names that come again, numbered
+    or not: 'kanal;wert;kanal;wert'. names: bare; rows: below them. Nothing where a row holds one."""
+    stems = [_NUMBER_AT_END.sub("", n) for n in names]
+    tags = [k for k, n in enumerate(stems) if n in NAME_WORDS]
+    values = [k for k, n in enumerate(stems) if n in _VALUES]
+    if len(tags) != len(values) or len(tags) < _FEWEST or len({stems[k] for k in (*tags, *values)}) != _FEWEST:
+        return []
+    order = [k for pair in zip(tags, values, strict=True) for k in pair]
+    turned = [k for pair in zip(values, tags, strict=True) for k in pair]
+    if sorted(order) not in (order, turned):
+        return []
+    words = [clean(cells[k]) for cells in rows if len(cells) == len(names) for k in tags]
+    return [] if not words or any(map(is_number, words)) else list(zip(tags, values, strict=True))
 
 
 def _status(names: Sequence[str]) -> int | None:

@@ -64,33 +64,37 @@ def _events(
     times = [next((text for text in each if text), "") for each in zip(*stamps, strict=True)]
     ns = timestamp.parse(times, layout.form)
     losses, end = _not_rows(layout, rows.bad, rows.nul, rows.line[ns == NAT].tolist(), data, line, name)
-    values = columns[layout.value]
-    tags = layout.named(columns, rows.n)
-    statuses = [None] * rows.n if layout.status is None else columns[layout.status]
-    written = [""] * rows.n if layout.unit is None else columns[layout.unit]
-    of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0], tags, values, statuses, written)
-    for number, time, good, stamp, tag, value, status, unit in zip(*of_row, strict=True):
+    of_row = (rows.line.tolist(), times, (ns != NAT).tolist(), stamps[0])
+    parts = [_parts(each, columns, rows.n) for each in (layout, *layout.more)]
+    for number, time, good, stamp, *told in zip(*of_row, *parts, strict=True):
         while losses and losses[0][0] <= number:
             yield losses.pop(0)[1]
         if end is not None and number >= end:
             break
-        if not good:
-            continue
-        if not tag:
-            yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
-            continue
-        flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
-        if status is not None and not is_good(status, bool(layout.zero_good)):
-            flag |= BAD
-        if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
-            value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
-        value, wrong = in_unit_of(tag, value or "", (unit or "").strip(), units)
-        if wrong is not None:
-            yield Loss(f"{part} {number + 1}", reason=f"'{tag}': a value {wrong}: '{value[:40]}'")
-            continue
-        yield Event(time, tag, value or GONE, number + 1, part, flag)
+        for tag, value, status, unit in told if good else ():
+            if not tag:
+                if value or not layout.more:
+                    yield Loss(f"{part} {number + 1}", reason=f"a value without a tag: '{value or ''}'")
+                continue
+            flag = 0 if stamp else int(Flag.CLOCK_SUSPECT)
+            if status is not None and not is_good(status, bool(layout.zero_good)):
+                flag |= BAD
+            if value and value.count(",") == 1 and "." not in value and to_float(value, ",") is not None:
+                value = value.replace(",", ".")  # a value with a decimal comma is quoted, or stands between other marks
+            value, wrong = in_unit_of(tag, value or "", (unit or "").strip(), units)
+            if wrong is not None:
+                yield Loss(f"{part} {number + 1}", reason=f"'{tag}': a value {wrong}: '{value[:40]}'")
+                continue
+            yield Event(time, tag, value or GONE, number + 1, part, flag)
     yield from (loss for _, loss in losses)
     return end is not None
+
+
+def _parts(layout: Layout, columns: dict[int, list[str | None]], n: int) -> Iterator[tuple[str | None, ...]]:
+    """(tag, value, status, unit) of each of n rows."""
+    statuses = [None] * n if layout.status is None else columns[layout.status]
+    written = [""] * n if layout.unit is None else columns[layout.unit]
+    return zip(layout.named(columns, n), columns[layout.value], statuses, written, strict=True)
 
 
 def _not_rows(

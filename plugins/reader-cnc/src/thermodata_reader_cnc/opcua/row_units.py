@@ -3,7 +3,7 @@ the value is large. A tag has one unit, the first that its rows name, and values
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from thermodata.errors import FormatError, UsageError
@@ -19,14 +19,7 @@ def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str
     convert."""
     units: dict[str, str] = {}
     others: dict[str, dict[str, None]] = {}
-    if layout.unit is None or not layout.tags:
-        return units, []
-    for line in lines:
-        cells = [clean(c) for c in fields(line, layout.delimiter)]
-        if len(cells) != layout.width or is_empty(cells[layout.unit]):
-            continue
-        tag = layout.named({k: [c] for k, c in enumerate(cells)}, 1)[0]
-        unit = cells[layout.unit]
+    for tag, unit in _said(layout, lines):
         first = units.setdefault(tag, unit)
         if (factor := conversion(unit, first)) is None:
             raise FormatError(
@@ -41,6 +34,18 @@ def units_of(layout: Layout, lines: Sequence[str], where: str) -> tuple[dict[str
     return units, [
         f"'{tag}' is given in {units[tag]}, also where its rows say {', '.join(some)}" for tag, some in others.items()
     ]
+
+
+def _said(layout: Layout, lines: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """(tag, unit) of each value whose row says one."""
+    parts = [(each, each.unit) for each in (layout, *layout.more) if each.tags]
+    for line in lines if any(unit is not None for _, unit in parts) else ():
+        cells = [clean(c) for c in fields(line, layout.delimiter)]
+        if len(cells) != layout.width:
+            continue
+        for each, unit in parts:
+            if unit is not None and not is_empty(cells[unit]):
+                yield each.named({k: [c] for k, c in enumerate(cells)}, 1)[0], cells[unit]
 
 
 @lru_cache(maxsize=1024)

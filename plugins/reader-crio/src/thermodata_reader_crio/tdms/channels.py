@@ -12,6 +12,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Scaling, Signal
+from thermodata.reader.text.preamble.scale_words import stated_of
 from thermodata_reader_crio.tdms.channel_clock import clock_of
 from thermodata_reader_crio.tdms.chunk_layout import BOOL
 from thermodata_reader_crio.tdms.raw_columns import TEXT, Column
@@ -146,6 +147,7 @@ class _Maker:
         self._texts: dict[int, dict[str, str]] = {}
         self._scalings: dict[tuple[int, int, int], Scaling | None] = {}
         self._layers: dict[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {}
+        self._above: dict[str, dict[str, dict[str, str]]] = {}
 
     def channels(self, group: str, short: str, full: str, found: list[Column], kind: int) -> list[Channel]:
         """The channels of one object of the file: one, or the two parts of complex numbers."""
@@ -160,7 +162,8 @@ class _Maker:
         unit = own.get("unit_string") or own.get("NI_UnitDescription") or None
         unit = str(unit) if unit else None
         scale = None if full in self._unscaled or short in self._unscaled else self._scaling(group, full, own)
-        properties = self._text(own)
+        stated = self._stated(group, short)
+        properties = {**stated, **self._text(own)} if stated else self._text(own)
         if found[0].part in ("re", "im"):
             notes.append(f"{full}: complex numbers, delivered as two signals")
             return [_channel(f"{full} ({c.part})", short, [c], scale, unit, properties, clock) for c in found]
@@ -192,12 +195,27 @@ class _Maker:
             known = self._texts[id(own)] = {k: str(v) for k, v in own.items()}
         return known
 
-    def _scaling(self, group: str, full: str, own: Mapping[str, Any]) -> Scaling | None:
+    def _stated(self, group: str, short: str) -> Mapping[str, str]:
+        """What its group and the file state of a channel's scale, in properties called after it: 'dZ_gain'."""
+        known = self._above.get(group)
+        if known is None:
+            known = self._above[group] = {}
+            for key, value in (pair for layer in self._above_of(group)[::-1] for pair in layer.items()):
+                if (found := stated_of(key)) is not None:
+                    known.setdefault(found[0].casefold(), {})[key] = str(value)
+        return known.get(short.casefold(), _NONE) if known else _NONE
+
+    def _above_of(self, group: str) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+        """The properties of a group and of the file."""
         above = self._layers.get(group)
         if above is None:
             properties = self._index.properties
             above = properties.get(_path_of(group), _NONE), properties.get("/", _NONE)
             self._layers[group] = above
+        return above
+
+    def _scaling(self, group: str, full: str, own: Mapping[str, Any]) -> Scaling | None:
+        above = self._above_of(group)
         layers = own, *above
         key = id(own), id(above[0]), id(above[1])
         if key not in self._scalings:

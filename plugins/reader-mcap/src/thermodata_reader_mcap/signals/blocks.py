@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, field
 
@@ -23,6 +23,7 @@ from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.header_stamps import stamps
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH
 from thermodata_reader_mcap.signals.plan import Plan, wanted_topic
+from thermodata_reader_mcap.signals.units_of_channels import Other, in_units_of_topic
 
 BATCH = 16 << 20  # bytes of messages that are collected,
 PART = 2 << 20  # and that become columns at a time
@@ -116,29 +117,38 @@ class Writer:
         payloads = batch.payloads[part]
         if len(batch.members) == 1:
             made = self._reader(next(iter(batch.members)))
-            return [] if made is None else list(columns(topic, made, payloads))
+            return [] if made is None else self._made(topic, next(iter(batch.members)), made, payloads)
         kinds = np.concatenate(batch.kinds)[part]
-        groups: dict[int, tuple[Decoder, list[int]]] = {}
+        groups: dict[int, tuple[Decoder, Channel, list[int]]] = {}
         for channel, kind in batch.members.items():
             made = self._reader(channel)
             if made is not None:
                 same = next(
                     (
                         k
-                        for k, (other, _) in groups.items()
-                        if other is made or (other.json and made.json and _text(other) == _text(made))
+                        for k, (other, first, _) in groups.items()
+                        if (other is made or (other.json and made.json and _text(other) == _text(made)))
+                        and self._others(topic, first, other) == self._others(topic, channel, made)
                     ),
                     kind,
                 )
-                groups.setdefault(same, (made, []))[1].append(kind)
+                groups.setdefault(same, (made, channel, []))[2].append(kind)
         parts: dict[int, list[Columns]] = {}
         places: dict[int, Int1D] = {}
-        for key, (made, members) in groups.items():
+        for key, (made, channel, members) in groups.items():
             mine = np.flatnonzero(np.isin(kinds, members))
             if mine.size:
                 places[key] = mine
-                parts[key] = list(columns(topic, made, [payloads[k] for k in mine.tolist()]))
+                parts[key] = self._made(topic, channel, made, [payloads[k] for k in mine.tolist()])
         return [merged(parts, places)] if parts else []
+
+    def _others(self, topic: Topic, channel: Channel, made: Decoder) -> tuple[Other, ...]:
+        return self.plan.sent.others(channel, made, topic)
+
+    def _made(self, topic: Topic, channel: Channel, made: Decoder, payloads: Sequence[bytes]) -> list[Columns]:
+        """Messages of one channel as columns, in the units of the topic."""
+        others = self._others(topic, channel, made)
+        return [in_units_of_topic(part, others) for part in columns(topic, made, payloads)]
 
     def _blocks(self, topic: Topic, part: Columns, logs: U64, publishes: U64) -> Iterator[Block | Loss]:
         kept, kind = part.kept, self.plan.options.time

@@ -12,6 +12,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.series import Declaration, Series
+from thermodata.reader.text.names.unit_column import UnitColumn
 from thermodata_reader_mcap.container.attachments import extras
 from thermodata_reader_mcap.container.data_section import Damage, data_section, is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions
@@ -20,12 +21,15 @@ from thermodata_reader_mcap.container.messages import LATEST_NS, Content, collec
 from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
+from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
 from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, readers
+from thermodata_reader_mcap.signals.units_in_messages import units_said
+from thermodata_reader_mcap.signals.units_of_channels import UnitsOfChannels
 
 WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
 _SEARCHED = 64 << 20  # the same, of a file whose chunks do not say which topics they hold
@@ -35,8 +39,9 @@ EARLIEST_NS = 10**17  # log times before 1973 count from the start of the record
 @dataclass(slots=True)
 class Plan:
     """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
-    ("log_time", "publish_time"). series: of topics on which several sensors send. complete: whether the file ends well
-    and nothing in it is seen to be damaged."""
+    ("log_time", "publish_time"). units: which fields say those of others, message by message; sent: in which units
+    channels send. series: of topics on which several sensors send. complete: whether the file ends well and nothing in
+    it is seen to be damaged."""
 
     options: Options
     summary: Summary
@@ -46,6 +51,8 @@ class Plan:
     stamped: dict[str, str]
     series: dict[str, Series]
     naming: dict[str, Naming]
+    units: tuple[UnitColumn, ...]
+    sent: UnitsOfChannels
     start_ns: int | None
     relative: bool
     complete: bool
@@ -162,6 +169,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
             stamped[topic] = PUBLISH
     series, more = _senders(found, batches, stamped, chosen_options.series)
     notes += more
+    kept = {chosen_options.stamp} if chosen_options.stamp is not None else set[Path]()
+    units = units_said([t for t in found.topics if t not in series], found.topics, found.readers, batches, kept, notes)
     return Plan(
         chosen_options,
         said,
@@ -171,6 +180,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         stamped,
         series,
         {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
+        units,
+        found.sent,
         start,
         relative,
         is_complete(view) and not damaged,
@@ -183,6 +194,7 @@ class _Found:
     topics: dict[str, Topic] = field(default_factory=dict)
     readers: dict[Channel, Decoder] = field(default_factory=dict)
     unsupported: dict[str, str] = field(default_factory=dict)
+    sent: UnitsOfChannels = field(default_factory=UnitsOfChannels)
 
 
 def _mine(found: _Found, topic: Topic) -> dict[Channel, Decoder]:
@@ -205,7 +217,8 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
         if problems:
             result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))
         if found is not None:
-            result.topics[topic] = found
+            result.topics[topic] = result.sent.settle(found, made)
+            notes += filter(None, (result.sent.note(found, made),))
             result.readers.update(made)
         elif not problems:
             result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"

@@ -11,6 +11,7 @@ from threading import Lock
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
 from thermodata.reader.match import BY_PLACE
 from thermodata.reader.series import TakenApart
+from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata_reader_mcap.container.mapped_file import opened
 from thermodata_reader_mcap.container.messages import collect_messages
 from thermodata_reader_mcap.container.summary import Summary
@@ -100,17 +101,24 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
             apart = [TakenApart(one, f"{path.name} topic '{topic}'") for topic, one in found.series.items()]
             whole = True
             for loss in collect_messages(view, met, lambda: met.pending >= BATCH):
-                yield from _split(writer.flush(), apart)
+                yield from _split(_in_one_unit(writer.flush(), found, path.name), apart)
                 if loss is not None:
                     whole = False
                     yield loss
-            yield from _split(writer.flush(), apart)
+            yield from _split(_in_one_unit(writer.flush(), found, path.name), apart)
             for one in apart:
                 yield from one.rest()
             if whole and met.recordings < 2:
                 yield from _contradictions(view, found.summary, writer)
             yield from writer.rest()
             met.batches.clear()
+
+
+def _in_one_unit(items: Iterator[Block | Loss], found: Plan, where: str) -> Iterator[Block | Loss]:
+    """The same with the values of each field whose messages say its unit in one unit."""
+    for said in found.units:
+        items = in_one_unit(items, said, where, whole=True)
+    return items
 
 
 def _split(items: Iterator[Block | Loss], apart: Sequence[TakenApart]) -> Iterator[Block | Loss]:

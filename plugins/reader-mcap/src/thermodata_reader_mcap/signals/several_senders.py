@@ -38,9 +38,9 @@ def senders(
     if declared.columns is None:
         if not any(leaf.dtype == "str" for leaf in topic.leaves) or len(topic.leaves) > _MOST_LEAVES:
             return Found()  # an id that is a number names its topic's fields only beside words: counters look like it
-        if all(len(set(column)) < 2 for column in _cells(words, batches, made, _GLANCE)[2]):
+        if all(len(set(column)) < 2 for column in looked_at(words, batches, made, _GLANCE)[2]):
             return Found()
-    logs, pieces, cells = _cells(leaves, batches, made, _LOOKED_AT)
+    logs, pieces, cells = looked_at(leaves, batches, made, _LOOKED_AT)
     order = np.argsort(np.array(logs, np.int64), kind="stable")
     values, flags = dict[str, Array](), dict[str, Array]()
     for leaf, column in zip(leaves, cells, strict=True):
@@ -62,7 +62,7 @@ def senders(
     )
 
 
-def _cells(
+def looked_at(
     leaves: Sequence[Leaf], batches: Mapping[Channel, Batch], made: Mapping[Channel, Decoder], most: int
 ) -> tuple[list[int], list[int], list[list[Any]]]:
     """Log times of some messages of each channel, in which piece they stand, and what they hold at each leaf."""

@@ -55,3 +55,10 @@ def unit_of(scope: Scope, path: str) -> str | None:
     """The one unit that is said of a matrix as a whole: T_unit of T."""
     name = path.rsplit("/", 1)[-1]
     return next((u for s in upwards(scope) if (u := s.unit_of.get(name))), None)
+
+
+def scales_of(scope: Scope, count: int, path: str) -> list[dict[str, str]]:
+    """Of each column of a matrix, the factors and offsets that vectors of as many numbers state: {'gain': '0.1'}."""
+    around = ("", *path.split("/"))
+    lists = [x for s in upwards(scope) for x in s.scales if len(x.lines) == count and x.of in around]
+    return [{x.called: x.lines[i] for x in reversed(lists)} for i in range(count)]

@@ -8,7 +8,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
 from thermodata_reader_table.mat import names as say
-from thermodata_reader_table.mat.described_by import fitting, unit_of
+from thermodata_reader_table.mat.described_by import fitting, scales_of, unit_of
 from thermodata_reader_table.mat.stream_plan import (
     LOOK,
     MOST_SIGNALS,
@@ -46,11 +46,12 @@ def sort_matrices(plan: Plan, scope: Scope) -> None:
             continue
         units = fitting(scope, "units", count, path) or [unit_of(scope, path) or ""] * count
         names = [f"{path}/{h}" if h else "" for h in heads] if heads and len(scope.matrices) > 1 else heads
+        said = scales_of(scope, count, path)
         made = []
         for i in range(count):
             own = (names[i] if names else "") or (f"{path}(:,{i + 1})" if axis == 0 else f"{path}({i + 1},:)")
             unit = (units[i] if i < len(units) else "") or split_unit(own if names else "")[1]
-            made.append(Column(own, unit or None, node.dtype, length, partial(node.line, i, axis)))
+            made.append(Column(own, unit or None, node.dtype, length, partial(node.line, i, axis), said[i]))
         at = _time_column(plan, scope, path, node, axis, heads, length)
         if at is not None:
             scope.times.append(TimeVector(made[at].name, length, made[at].load, unit=made[at].unit))

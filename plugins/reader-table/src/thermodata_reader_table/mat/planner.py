@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.clocks.time_groups import one_time
+from thermodata.reader.text.preamble.scale_words import spellings
 from thermodata_reader_table.mat.date_vectors import take_date_vectors
 from thermodata_reader_table.mat.described_by import settle_lists
 from thermodata_reader_table.mat.matrices import sort_matrices
 from thermodata_reader_table.mat.signal_structs import as_record
-from thermodata_reader_table.mat.stream_plan import MOST_SIGNALS, Plan, Scope
+from thermodata_reader_table.mat.stream_plan import MOST_SIGNALS, Column, Plan, Scope
 from thermodata_reader_table.mat.time_assignment import assign_columns, assign_record
 from thermodata_reader_table.mat.tree import Node, Numbers, Odd, Struct, Text, Tree
 from thermodata_reader_table.mat.variable_roles import lose_object, sort_variable
@@ -52,7 +54,16 @@ def plan_streams(tree: Tree, said: Mapping[str, Any], where: str) -> Plan:
     if not any(s.columns for s in plan.streams):
         raise _nothing(plan, variables)
     plan.streams = [s for s in plan.streams if s.columns]
+    if plan.stated:
+        for stream in plan.streams:
+            stream.columns = [_with_stated(plan, column) for column in stream.columns]
     return plan
+
+
+def _with_stated(plan: Plan, column: Column) -> Column:
+    """A signal with what variables called after it state of its scale."""
+    said = {k: v for name in spellings(column.name) for k, v in plan.stated.get(name, {}).items()}
+    return replace(column, said={**said, **column.said}) if said else column
 
 
 def _scope(plan: Plan, fields: Mapping[str, Node], path: str, above: Scope | None) -> None:

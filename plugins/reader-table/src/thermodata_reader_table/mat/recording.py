@@ -22,9 +22,9 @@ def describe(path: Path, source: Source) -> Recording:
     with opened(path) as tree:
         found = Clocked(tree, source, path.name)
         signals = tuple(
-            Signal(name, s.name, column.unit or split_unit(name)[1], column.dtype, None, s.properties)
+            Signal(name, s.name, c.unit or split_unit(name)[1], c.dtype, None, {**c.said, **s.properties})
             for s in found.streams
-            for name, column in zip(s.names, s.columns, strict=True)
+            for name, c in zip(s.names, s.columns, strict=True)
         )
         start: int | None = None
         if found.absolute:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from thermodata.reader.text.preamble.scale_words import states_scale
 from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Struct, Text
 
 _DATA = ("data", "values", "value", "y", "samples", "ydata", "y_values/values", "signal", "y_data")
@@ -66,6 +67,7 @@ class Record:
     unit: str | None
     time_unit: str | None
     odd: tuple[str, ...] = ()  # fields for a name or a unit that hold no text
+    said: Mapping[str, str] = field(default_factory=dict)  # fields that state a scale: {'gain': '0.1'}
 
 
 def _get(fields: Mapping[str, Node], paths: tuple[str, ...]) -> tuple[str, Node] | None:
@@ -112,4 +114,10 @@ def as_record(struct: Struct) -> Record | None:
         one_text(unit[1]) if unit else None,
         one_text(x_unit[1]) if x_unit else None,
         tuple(f[0] for f in (title, unit, x_unit) if f and isinstance(f[1], Numbers) and f[1].size),
+        {k: said for k, v in fields.items() if states_scale(k) and (said := _said(v)) is not None},
     )
+
+
+def _said(node: Node) -> str | None:
+    number = one_number(node)
+    return one_text(node) if number is None else f"{number:.12g}"

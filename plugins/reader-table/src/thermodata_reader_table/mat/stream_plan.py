@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +12,7 @@ from thermodata.plugin import Array, Loss
 from thermodata_reader_table.mat.tree import Numbers
 
 MOST_SIGNALS = 100_000  # of a file
+MOST_SCALES = 1000  # in one vector of factors
 LOOK = 2000  # values by which a time is judged
 
 
@@ -31,13 +32,15 @@ class TimeVector:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """One signal: load(start, stop) of its rows; texts where it is one of words."""
+    """One signal: load(start, stop) of its rows; texts where it is one of words; said: what the file states of it
+    alone."""
 
     name: str
     unit: str | None
     dtype: str
     length: int
     load: Callable[[int, int], Array]
+    said: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -51,8 +54,8 @@ class Stream:
 
 @dataclass(frozen=True, slots=True)
 class Listed:
-    """Names or units of columns, in their order. of: the variable that they are called after, '' for none; called:
-    the variable that holds them."""
+    """Names, units or scales of columns, in their order. of: the variable that they are called after, '' for none;
+    called: the variable that holds them."""
 
     called: str
     of: str
@@ -71,6 +74,7 @@ class Scope:
     times: list[TimeVector] = field(default_factory=list)
     names: list[Listed] = field(default_factory=list)
     units: list[Listed] = field(default_factory=list)
+    scales: list[Listed] = field(default_factory=list)
     unit_of: dict[str, str] = field(default_factory=dict)
     time_unit: str | None = None
     step_s: float | None = None
@@ -80,11 +84,13 @@ class Scope:
 @dataclass
 class Plan:
     """What is found so far. where: the file's name; wanted: the declared time, by name or number of its column; cut:
-    whether the file is."""
+    whether the file is; stated: of signals by their names in small letters, the scales that variables called after them
+    state, by the paths of these."""
 
     where: str
     wanted: Any = None
     cut: bool = False
+    stated: dict[str, dict[str, str]] = field(default_factory=dict)
     streams: list[Stream] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     losses: list[Loss] = field(default_factory=list)

@@ -125,6 +125,7 @@ def assign_record(plan: Plan, scope: Scope, path: str, record: Record) -> None:
                 node.dtype,
                 vector.length,
                 partial(node.line, i, side),
+                record.said,
             )
         )
 

@@ -8,10 +8,11 @@ import numpy as np
 
 from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
+from thermodata.reader.text.preamble.scale_words import stated_of, states_scale
 from thermodata_reader_table.mat import names as say
 from thermodata_reader_table.mat.signal_structs import one_number, one_text
 from thermodata_reader_table.mat.signal_structs import texts as lines_of
-from thermodata_reader_table.mat.stream_plan import LOOK, Column, Listed, Plan, Scope, TimeVector, rises
+from thermodata_reader_table.mat.stream_plan import LOOK, MOST_SCALES, Column, Listed, Plan, Scope, TimeVector, rises
 from thermodata_reader_table.mat.tree import Cells, Node, Numbers, Odd, Struct, Structs, Text, refusal
 
 
@@ -48,15 +49,34 @@ def _numbers(plan: Plan, scope: Scope, name: str, path: str, node: Numbers) -> N
         elif value and say.names_rate(name):
             scope.step_s = 1.0 / value
         scope.properties[name] = f"{value:.12g}"
+        _state(plan, path, scope.properties[name])
     elif node.is_vector:
         if _is_time(plan, name, path, node):
             scope.times.append(
                 TimeVector(path, node.size, node.vector, unit=split_unit(name)[1] or say.unit_in_name(name))
             )
         else:
+            scope.scales += _scales(scope, name, node)
             scope.columns.append(Column(path, split_unit(name)[1], node.dtype, node.size, node.vector))
     elif node.size:
         scope.matrices.append((path, node))
+
+
+def _state(plan: Plan, path: str, text: str) -> None:
+    """Notes what a variable called after a signal states of its scale: 'dZ_gain', 'cal/dZ/gain'."""
+    found = stated_of(path)
+    if found is not None:
+        name = path.rsplit("/", 1)[-1]
+        key = name if stated_of(name) else path
+        plan.stated.setdefault(found[0].casefold(), {}).setdefault(key, text)
+
+
+def _scales(scope: Scope, name: str, node: Numbers) -> list[Listed]:
+    """The factors or offsets of a matrix's columns that a short vector holds: 'gain', 'T_gain'."""
+    found = stated_of(name)
+    if node.size > MOST_SCALES or (found is None and not states_scale(name)):
+        return []
+    return [Listed(name, found[0] if found else "", tuple(f"{v:.12g}" for v in node.vector(0, node.size).tolist()))]
 
 
 def _is_time(plan: Plan, name: str, path: str, node: Numbers) -> bool:
@@ -82,6 +102,7 @@ def _texts(plan: Plan, scope: Scope, name: str, path: str, node: Text | Cells, i
         if say.names_units(name):
             scope.units.append(_listed(scope, name, lines))
         scope.properties[name] = lines[0][:500]
+        _state(plan, path, scope.properties[name])
     elif lines:
         if say.names_units(name) or say.unit_of(name, scope.known) in scope.known:
             scope.units.append(_listed(scope, name, lines))

@@ -10,7 +10,6 @@ import numpy as np
 
 from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
 from thermodata.reader.series import TakenApart
-from thermodata.reader.text import split_unit
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
@@ -32,7 +31,14 @@ def describe(path: Path, source: Source) -> Recording:
     good = found.t_ns[found.t_ns != NAT]
     told = related_columns(table) if apart.series is None else Related()
     signals = tuple(
-        Signal(n, STREAM, split_unit(n)[1], table.dtype(i), properties=told.properties(n), held=n in told.stands)
+        Signal(
+            n,
+            STREAM,
+            table.units[i],
+            table.dtype(i),
+            properties={**table.said[i], **told.properties(n)},
+            held=n in told.stands,
+        )
         for i, n in enumerate(table.names)
         if i not in (table.time, *table.beside)
     )

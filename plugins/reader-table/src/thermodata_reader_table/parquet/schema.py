@@ -41,7 +41,7 @@ def flat(schema: Any) -> tuple[Any, list[Place]]:
             for inner in field.type:
                 add(inner, (*place, inner.name), f"{name}/{inner.name}", depth + 1)
         elif not pt.is_nested(field.type):
-            fields.append(pa.field(name, field.type))
+            fields.append(pa.field(name, field.type, metadata=field.metadata))
             places.append(place)
 
     for field in schema:

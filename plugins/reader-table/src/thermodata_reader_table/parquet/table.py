@@ -14,7 +14,6 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
-from thermodata.reader.text import split_unit
 from thermodata.reader.text.clocks.time_columns import column as find_column
 from thermodata.reader.text.clocks.time_columns import find_time, time_of
 from thermodata.reader.text.clocks.time_groups import one_time
@@ -27,6 +26,7 @@ from thermodata.reader.text.times.in_memory import times_of_numbers
 from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
+from thermodata_reader_table.parquet.field_metadata import said_of_fields, units_of
 from thermodata_reader_table.parquet.footer_check import check_footer
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
 
@@ -76,6 +76,10 @@ class Table:
             )
         self.names = unique([str(n).strip() for n in self.schema.names])
         self.notes = left_out(self.file.schema_arrow)
+        # what the metadata of each column say of it, and its unit by its name or by them
+        self.said = said_of_fields(self.schema, self.file.schema_arrow.metadata)
+        self.units, others = units_of(self.names, self.said)
+        self.notes += others
         if not self.names:
             raise FormatError("no column of numbers, text or times", where=path.name)
         period = one_time(source.table, path.name).get("period")
@@ -111,7 +115,6 @@ class Table:
         self.beside = tuple(find_column(w, self.names, self.path.name) for w in others)
         if wanted == UNKNOWN and UNKNOWN not in self.names:
             raise unanswered("time.column", "the name of the column of times", self.path.name)
-        units = [split_unit(n)[1] for n in self.names]
         if wanted is not None:
             column = find_column(wanted, self.names, self.path.name)
             if self.beside:
@@ -124,7 +127,7 @@ class Table:
             elif "t_ns" in self.names:
                 column, unit = self.names.index("t_ns"), "ns"
             else:
-                column = self._of_cells(said, units)
+                column = self._of_cells(said, self.units)
             kind = self.schema.field(column).type
             if self.beside:
                 return column, None
@@ -143,7 +146,7 @@ class Table:
             )
         if pt.is_duration(kind):
             return column, "duration"
-        text = with_step(unit or units[column] or unit_of_time(self.names[column]))
+        text = with_step(unit or self.units[column] or unit_of_time(self.names[column]))
         if text is None:
             found = next(self.batches(1000), None)
             values = np.zeros(0) if found is None else numbers(found.column(column))

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from thermodata.reader.text.preamble.scale_words import states_scale
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.json.text import loads
 from thermodata_reader_mcap.encodings.topic import Hint
@@ -44,10 +45,10 @@ class JsonDecoder:
         if isinstance(kind, list):
             kind = next((k for k in kind if k != "null"), None)
         unit = next((node[k] for k in _UNIT_KEYS if isinstance(node.get(k), str)), None)
-        said = node.get("description")
-        return Hint(
-            kind if isinstance(kind, str) else None, unit, (("description", said),) if isinstance(said, str) else ()
-        )
+        said = {k: node[k] for k in node if k == "description" and isinstance(node[k], str)}
+        bare = {k.removeprefix("x-"): v for k, v in node.items()}
+        said |= {k: str(v) for k, v in bare.items() if states_scale(k) and isinstance(v, str | int | float)}
+        return Hint(kind if isinstance(kind, str) else None, unit, tuple(said.items()))
 
 
 def json_schema(data: bytes) -> Any:
