@@ -1,5 +1,5 @@
-"""Files whose local times all lie in the hour that repeats in autumn: another source, a file that goes on, or the test's
-start tells in which pass; where nothing does, it is said and asked."""
+"""Files whose local times all lie in the hour that repeats in autumn: another source, a file that goes on, or the
+test's start tells in which pass; where nothing does, it is said and asked."""
 
 from __future__ import annotations
 

@@ -69,8 +69,8 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
     if timezone is None:
         return local, [f"{NO_ZONE}: times are taken as UTC"]
     if _newest_first(local):
-        utc, notes = local_to_utc_ns(naive[::-1], timezone)
-        return utc[::-1], notes
+        turned, said = local_to_utc_ns(naive[::-1], timezone)
+        return turned[::-1], said
     tz = zone(timezone)
     valid = local != NAT
     if not valid.any():
