@@ -19,7 +19,8 @@ from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
-from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.layout import Layout, find
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
     NOT_TAKEN,
