@@ -6,7 +6,11 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
+import scipy.io
 
 from tests.draft.labs import workbook
 from thermodata.draft.make import draft_files
@@ -148,3 +152,26 @@ def test_an_epoch_of_no_year_that_is_logged_is_not_used_and_said(tmp_path: Path)
     path = written(tmp_path, "# time: seconds since 1970-01-01", "time [s]", 0)
     assert first_time(path) is None
     assert any("not used" in n for n in described(readers()["table"], path, Source()).notes)
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize(
+    ("name", "first", "asks"),
+    [("time_s", since(2000), "s since 2000-01-01 UTC"), ("time_gps", since(1980, 1, 6) + 18, ""), ("time_s", 3e7, "")],
+)
+def test_arrays_of_such_seconds_are_asked_too(tmp_path: Path, kind: str, name: str, first: float, asks: str) -> None:
+    path, times = tmp_path / f"run.{kind}", first + 60.0 * np.arange(40)
+    if kind == "parquet":
+        pq.write_table(pa.table({name: times, "T": np.linspace(20, 25, 40)}), path)
+    else:
+        scipy.io.savemat(path, {name: times, "T": np.linspace(20, 25, 40)})
+    if asks:
+        with pytest.raises(QuestionError) as asked:
+            first_time(path)
+        assert f"'{asks}'" in asked.value.ask
+        assert first_time(path, unit=asks) == AT
+    elif kind == "parquet" and name == "time_gps":
+        with pytest.raises(QuestionError, match="GPS"):
+            first_time(path)
+    else:
+        assert first_time(path) == (AT if name == "time_gps" else None)

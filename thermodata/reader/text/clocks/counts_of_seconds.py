@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN
-from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged
+from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
 
 _SCALES = {
     "gps": "GPS time, ahead of UTC by its leap seconds",
@@ -58,6 +58,9 @@ def far_question(name: str, values: Array, unit: str, where: str) -> QuestionErr
     values, seconds = values[np.isfinite(values)], SECONDS.get(unit)
     if seconds is None or not values.size or not _FROM_START_S < float(values.min()) * seconds < REACH_S:
         return None
+    known = found_epoch(values) or ""
+    if known.startswith("unix") and EPOCHS[known].seconds == seconds:
+        return None  # which leaves nothing open
     of = next(u for u in ("s", "min", "h", "d", "ms", "us", "ns") if SECONDS[u] == seconds)
     begins = {z: np.datetime64(z, "s") + np.timedelta64(round(float(values[0]) * seconds), "s") for z in _ZEROS}
     fits = {f"{of} since {z} UTC": at for z, at in begins.items() if _FIRST <= at < _LAST}
@@ -75,6 +78,15 @@ def far_question(name: str, values: Array, unit: str, where: str) -> QuestionErr
         declare={"time": {"unit": UNKNOWN}},
         meanwhile={"time": {"unit": unit}},
     )
+
+
+def ask_what_counts(name: str, values: Array, unit: str | None, where: str) -> None:
+    """Raises the question of what times count from, where one is open. unit: what the file says, None where nothing."""
+    known = None if unit is None else known_unit(unit)
+    if known not in EPOCHS and (asked := scale_question(name, values, where)) is not None:
+        raise asked
+    if known is not None and (asked := far_question(name, values, known, where)) is not None:
+        raise asked
 
 
 def _when(number: float, unit: str) -> str:
