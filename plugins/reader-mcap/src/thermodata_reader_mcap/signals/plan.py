@@ -22,6 +22,7 @@ from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
+from thermodata_reader_mcap.signals.batches_of_samples import Samples, find_samples, parted
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
@@ -35,8 +36,8 @@ EARLIEST_NS = 10**17  # log times before 1973 count from the start of the record
 @dataclass(slots=True)
 class Plan:
     """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
-    ("log_time", "publish_time"). series: of topics on which several sensors send. complete: whether the file ends well
-    and nothing in it is seen to be damaged."""
+    ("log_time", "publish_time"). samples: of topics whose messages hold several each. series: of topics on which
+    several sensors send. complete: whether the file ends well and nothing in it is seen to be damaged."""
 
     options: Options
     summary: Summary
@@ -46,6 +47,7 @@ class Plan:
     stamped: dict[str, str]
     series: dict[str, Series]
     naming: dict[str, Naming]
+    samples: dict[str, Samples]
     start_ns: int | None
     relative: bool
     complete: bool
@@ -128,6 +130,11 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     if said.damaged:
         notes.append("the summary at the end of the file is damaged; it was not needed")
     batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
+    samples: dict[str, Samples] = {}
+    if chosen_options.time == LOG:  # else it is declared when each message was
+        samples, more = find_samples(batches)
+        notes += more
+        batches = {c: parted(b, samples[c.topic]).batch if c.topic in samples else b for c, b in batches.items()}
     found = _topics(batches, chosen_options, source, whole, notes)
     unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
     if unknown and not found.topics:
@@ -171,6 +178,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         stamped,
         series,
         {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
+        samples,
         start,
         relative,
         is_complete(view) and not damaged,
