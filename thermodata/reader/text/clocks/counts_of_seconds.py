@@ -23,20 +23,23 @@ _FROM_START_S = 2.8e8  # nine years: a control that ran for so long had its upda
 _FIRST, _LAST = np.datetime64("2010-01-01"), np.datetime64("2040-01-01")  # when what is so large is likely logged
 
 
-def scale_question(name: str, values: Array, where: str, column: int | None = None) -> QuestionError | None:
+def scale_question(
+    name: str, values: Array, where: str, column: int | None = None, unit: str | None = None
+) -> QuestionError | None:
     """Asks whether times are of the scale that their name hints at; None where it hints at none, or they are of no year
-    in it. column: its number, from 1, where its name does not tell it for a time."""
+    in it, or where their unit says what they count from. column: its number, from 1, where its name does not tell it
+    for a time."""
     match = _HINT.search(name)
     values = values[np.isfinite(values)]
-    if match is None or not values.size:
+    if match is None or not values.size or (unit is not None and known_unit(unit) in EPOCHS):
         return None
     word = (match["scale"] or match["begins"]).lower()
     scale = "tai" if word == "ptp" else word
-    unit = next((u for u in EPOCHS if u.split("_")[0] == scale and is_logged(values, u)), None)
-    if unit is None:
+    own = next((u for u in EPOCHS if u.split("_")[0] == scale and is_logged(values, u)), None)
+    if own is None:
         return None
     other = found_epoch(values)
-    said = {"time": {**({} if column is None else {"column": column}), "unit": unit}}
+    said = {"time": {**({} if column is None else {"column": column}), "unit": own}}
     instead = "" if other is None else f"; as {other} it is {_when(values[0], other)}"
     shown = ", ".join(f"{key}: {value}" for key, value in said["time"].items())
     return QuestionError(
@@ -46,8 +49,8 @@ def scale_question(name: str, values: Array, where: str, column: int | None = No
         expected="a unit",
         hint=f"declare table: {{time: {{{shown}}}}}{instead}",
         times=[name],
-        ask=f"unit of the time: is '{name}' in {unit} ({_SCALES[scale]})? {values[0]:.14g} is "
-        f"{_when(values[0], unit)} UTC then{instead}",
+        ask=f"unit of the time: is '{name}' in {own} ({_SCALES[scale]})? {values[0]:.14g} is "
+        f"{_when(values[0], own)} UTC then{instead}",
         declare=said,
         meanwhile=said,
     )
@@ -83,7 +86,7 @@ def far_question(name: str, values: Array, unit: str, where: str) -> QuestionErr
 def ask_what_counts(name: str, values: Array, unit: str | None, where: str) -> None:
     """Raises the question of what times count from, where one is open. unit: what the file says, None where nothing."""
     known = None if unit is None else known_unit(unit)
-    if known not in EPOCHS and (asked := scale_question(name, values, where)) is not None:
+    if (asked := scale_question(name, values, where, unit=known)) is not None:
         raise asked
     if known is not None and (asked := far_question(name, values, known, where)) is not None:
         raise asked

@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.reader.text.cells.cell import Cell, number_of
 from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
-from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
+from thermodata.reader.text.clocks.counts_of_seconds import far_question, scale_question
 from thermodata.reader.text.clocks.time_questions import epoch_in, of_day_question, size_of_clock
 from thermodata.reader.text.names.time_header import unit_of_time
 from thermodata.reader.time_units import check_unit, with_step
@@ -27,8 +27,8 @@ def unit_of_numbers(
     name, cells, notes = names[place], [row[place] for row in data], list[str]()
     values = np.array([v for c in cells if (v := number_of(c)) is not None])
     text = with_step(declared or units[place] or unit_of_time(name))
-    if declared is None and text is not None:
-        ask_what_counts(name, values, text, where)
+    if declared is None and text is not None and (asked := scale_question(name, values, where, unit=text)) is not None:
+        raise asked
     if text is None:
         if (of_day := of_day_question(place, names, data, where)) is not None:
             raise of_day
@@ -45,5 +45,7 @@ def unit_of_numbers(
         text = epoch
     known = check_unit(str(text), where)
     refuse_beyond(name, values, known, where, declared=declared is not None)
+    if declared is None and (asked := far_question(name, values, known, where)) is not None:
+        raise asked
     quick = quick_note(name, values, known)
     return known, [*notes, *([quick] if quick else [])]
