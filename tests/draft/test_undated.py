@@ -96,3 +96,12 @@ def test_a_file_that_speaks_as_a_note_on_its_start_is_asked_once(tmp_path: Path)
     (tmp_path / "log.txt").write_text("x")
     [found] = described_files(Quoting(), tmp_path / "log.txt", PurePosixPath("log.txt"))
     assert len(found.asked) == 1
+
+
+@pytest.mark.parametrize(("first", "asks"), [("02:05", True), ("01:05", False), ("02:25", False), ("03:05", False)])
+def test_local_times_within_the_hour_that_repeats_ask_which_pass(tmp_path: Path, first: str, asks: bool) -> None:
+    at = np.datetime64(f"2026-10-25T{first}:00") + np.arange(90) * np.timedelta64(30, "s")
+    (tmp_path / "one.csv").write_text("\n".join(["time;T [degC]", *(f"{x};{20 + i}" for i, x in enumerate(at)), ""]))
+    (source,) = draft_files(tmp_path).draft.sources
+    (asked,) = [q for q in source.questions if q.startswith("timezone?")]
+    assert ("start: 2026-10-25T02:05:00+02:00 for the first pass, 2026-10-25T02:05:00+01:00" in asked) is asks

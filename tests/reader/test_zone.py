@@ -49,6 +49,30 @@ def test_a_file_wholly_inside_the_repeated_hour_is_a_noted_guess() -> None:
     assert "a guess" in notes[0]
 
 
+@pytest.mark.parametrize("every", [25, 45, 60, 75, 90, 110, 180])
+@pytest.mark.parametrize("begins", range(0, 60, 7))
+@pytest.mark.parametrize("newest_first", [False, True])
+def test_autumn_with_seldom_rows_stands_where_the_steps_are_even(every: int, begins: int, newest_first: bool) -> None:
+    utc, local = walk(f"2025-10-25T10:{begins:02}", 2400, AUTUMN)
+    utc, local = utc[::every], local[::every]
+    if newest_first:
+        utc, local = utc[::-1], local[::-1]
+    got, notes = local_to_utc_ns(local, "Europe/Prague")
+    np.testing.assert_array_equal(got, utc)
+    assert not any("a guess" in note for note in notes)
+
+
+@pytest.mark.parametrize("every", [1, 10])
+def test_autumn_with_a_pause_takes_the_pass_that_the_rows_join(every: int) -> None:
+    utc, local = walk("2025-10-25T23:00", 600, AUTUMN)
+    utc, local = utc[::every], local[::every]
+    rows = np.arange(utc.size) * every
+    for gap in ((120, 400), (-1, 120), (75, 119)):  # behind the first pass; before the second; in between
+        kept = (rows < gap[0]) | (rows >= gap[1])
+        got, _ = local_to_utc_ns(local[kept], "Europe/Prague")
+        np.testing.assert_array_equal(got, utc[kept])
+
+
 def test_jitter_is_not_the_repeated_hour() -> None:
     utc, local = walk("2025-10-25T23:00", 80, AUTUMN)  # ends in the first pass
     local[70] -= np.timedelta64(61, "s")  # 1 s before its predecessor

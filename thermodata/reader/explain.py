@@ -10,6 +10,7 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.archives import packed, packed_by
+from thermodata.reader.foreign_files import foreign_file
 from thermodata.reader.guard import described
 from thermodata.reader.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
@@ -23,14 +24,12 @@ _MAGIC: tuple[tuple[bytes, str], ...] = (
     (b"\x89MCAP", "MCAP"),
     (b"PAR1", "Parquet"),
     (b"PK\x03\x04", "a ZIP file (XLSX, DOCX and others are)"),
-    (b"\x89HDF\r\n", "HDF5 (MAT 7.3 is)"),
     (b"MATLAB 5.0", "MAT 5 of MATLAB"),
     (b"MDF     ", "MDF of a measuring system"),
     (b"UnFinMF ", "MDF that was not finished"),
     (b"%PDF", "PDF"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
-    (b"SQLite format 3", "an SQLite database"),
     (b"\xd0\xcf\x11\xe0", "an old Office file (XLS, DOC): save it as XLSX"),
     (b"\x7fELF", "a program"),
     (b"MZ", "a program"),
@@ -124,6 +123,8 @@ def _kind(start: Head) -> str:
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what
+    if (foreign := foreign_file(start)) is not None:
+        return foreign
     text = decode_head(start.start)
     if text is None:
         return f"binary; it starts with {start.start[:8].hex(' ')}"
@@ -175,6 +176,8 @@ def _advice(start: Head, found: dict[str, str], others: dict[str, str]) -> str |
         return "no reader is installed"
     kind = _kind(start)
     text = decode_head(start.start)
+    if kind == foreign_file(start):
+        return None
     says = tuple(what for _, what in (*_MAGIC, *_TEXTS) if ": " in what)
     if packed_by(start.start) is not None or kind.startswith((_ARCHIVE, *says)) or kind == _no_table(text or ""):
         return None  # it says already what to do

@@ -6,12 +6,14 @@ The one list of units of time, for readers of text and of arrays alike.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.since import since
 from thermodata.reader.zone import NAT
 
 _DAY = 86400.0
@@ -56,34 +58,74 @@ SECONDS = {
 @dataclass(frozen=True, slots=True)
 class Epoch:
     """seconds: of one unit; zero_s: its zero on the Unix scale [s]; local: in the time of the place, not in UTC; years:
-    the units are years, each as long as it is, and `seconds` is their mean."""
+    the units are years, each as long as it is, and `seconds` is their mean; leaps: by how many leap seconds it was
+    ahead of UTC in 1980, where it counts them, and UTC does not; None where it does not either."""
 
     seconds: float
     zero_s: int
     local: bool
     years: bool = False
+    leaps: int | None = None
 
     def ns(self, values: Array) -> Int1D:
         """Nanoseconds on the Unix scale, in UTC or local time, shape as values; NAT where a number is no time."""
-        return _ns_of_years(values) if self.years else to_ns(values, self.seconds, self.zero_s)
+        if self.years:
+            return _ns_of_years(values)
+        ns = to_ns(values, self.seconds, self.zero_s)
+        return ns if self.leaps is None else _without_leaps(ns, self.leaps)
 
 
-EPOCHS = {
-    "datenum": Epoch(_DAY, -719529 * 86400, True),
-    "excel": Epoch(_DAY, -25569 * 86400, True),
-    "excel1904": Epoch(_DAY, -24107 * 86400, True),
-    "mjd": Epoch(_DAY, -40587 * 86400, False),  # modified Julian days, since 1858-11-17
-    "jd": Epoch(_DAY, -210_866_760_000, False),  # Julian days, which begin at noon
-    "unix": Epoch(1.0, 0, False),
-    "posix": Epoch(1.0, 0, False),
-    "unix_ms": Epoch(1e-3, 0, False),
-    "unix_us": Epoch(1e-6, 0, False),
-    "unix_ns": Epoch(1e-9, 0, False),
-    "labview": Epoch(1.0, -2082844800, False),
-    "filetime": Epoch(1e-7, -11644473600, False),
-    "ticks": Epoch(1e-7, -62135596800, True),  # of .NET, which programs mostly take in local time
-    "decimal_year": Epoch(365.2425 * _DAY, -62167219200, True, years=True),  # 2026.5 is in the middle of 2026
-}
+class _Epochs(dict[str, Epoch]):
+    """The counts from a date by their names, and any other that states its own: 's since 2000-01-01'."""
+
+    def __missing__(self, name: str) -> Epoch:
+        found = since(name)
+        if found is None:
+            raise KeyError(name)
+        unit, zero = found
+        return Epoch(SECONDS[unit], zero.zero_s, zero.local)
+
+    def __contains__(self, name: object) -> bool:
+        return super().__contains__(name) or (isinstance(name, str) and since(name) is not None)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            return default
+
+
+_STEPS = {"": 1.0, "_ms": 1e-3, "_us": 1e-6, "_ns": 1e-9}
+EPOCHS = _Epochs(
+    {
+        "datenum": Epoch(_DAY, -719529 * 86400, True),
+        "excel": Epoch(_DAY, -25569 * 86400, True),
+        "excel1904": Epoch(_DAY, -24107 * 86400, True),
+        "mjd": Epoch(_DAY, -40587 * 86400, False),  # modified Julian days, since 1858-11-17
+        "jd": Epoch(_DAY, -210_866_760_000, False),  # Julian days, which begin at noon
+        "unix": Epoch(1.0, 0, False),
+        "posix": Epoch(1.0, 0, False),
+        "unix_ms": Epoch(1e-3, 0, False),
+        "unix_us": Epoch(1e-6, 0, False),
+        "unix_ns": Epoch(1e-9, 0, False),
+        "labview": Epoch(1.0, -2082844800, False),
+        "filetime": Epoch(1e-7, -11644473600, False),
+        "ticks": Epoch(1e-7, -62135596800, True),  # of .NET, which programs mostly take in local time
+        "decimal_year": Epoch(365.2425 * _DAY, -62167219200, True, years=True),  # 2026.5 is in the middle of 2026
+        "ntp": Epoch(1.0, -2208988800, False),
+        # both count leap seconds, too; PTP's own scale is TAI
+        **{f"gps{of}": Epoch(seconds, 315964800, False, leaps=0) for of, seconds in _STEPS.items()},
+        **{f"tai{of}": Epoch(seconds, 0, False, leaps=19) for of, seconds in _STEPS.items()},
+    }
+)
+# the midnights at whose beginning UTC lagged by a second more, since 1980
+_LEAPS = np.array(
+    [
+        *("1981-07", "1982-07", "1983-07", "1985-07", "1988-01", "1990-01", "1991-01", "1992-07", "1993-07", "1994-07"),
+        *("1996-01", "1997-07", "1999-01", "2006-01", "2009-01", "2012-07", "2015-07", "2017-01"),
+    ],
+    "datetime64[s]",
+).astype(np.int64)
 # other words for them: of Windows' OLE automation, in which Gantner and .NET count Excel's days
 _ALSO = {
     "ole": "excel",
@@ -100,6 +142,7 @@ _ALSO = {
     "unix ms": "unix_ms",
 }
 _WITHOUT_STEP = ("epoch", "unix time")
+_LOGGED_NS = (978_307_200 * 10**9, 4_102_444_800 * 10**9)  # 2001 to 2100
 REACH_S = 9e9  # beyond which nanoseconds in int64 end
 
 
@@ -107,6 +150,8 @@ def known_unit(text: str) -> str | None:
     """A unit of time, or a count from a date, by its name here: 'excel' of '[OLE]'. None where it is none."""
     low = text.strip().strip("[]()").strip().lower()
     low = _ALSO.get(low, low)
+    if low not in SECONDS and (stated := since(low)) is not None:
+        return stated[1].unit(stated[0])
     return low if low in SECONDS or low in EPOCHS else None
 
 
@@ -130,6 +175,13 @@ def check_unit(text: str, where: str) -> str:
     )
 
 
+def is_logged(values: Array, unit: str) -> bool:
+    """Whether counts from a date, shape (n,), are of years in which anything is logged."""
+    ns = EPOCHS[unit].ns(values)
+    ns = ns[ns != NAT]
+    return bool(ns.size) and _LOGGED_NS[0] < int(ns.min()) and int(ns.max()) < _LOGGED_NS[1]
+
+
 def is_absolute(unit: str) -> bool:
     return unit in EPOCHS
 
@@ -138,11 +190,11 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     """Nanoseconds of a count of units; NAT where it is no number or beyond 285 years."""
     out = np.full(values.shape, NAT, np.int64)
     each = round(seconds * 1e9)
-    zero = zero_s * 10**9 // each  # in units: FILETIME's zero is no time in int64 nanoseconds
+    zero, rest = divmod(zero_s * 10**9, each)  # in units: FILETIME's zero is no time in int64 nanoseconds
     if values.dtype.kind in "iu":
         low, high = (int((sign * REACH_S - zero_s) / seconds) for sign in (-1, 1))
         whole = (values >= max(low, np.iinfo(np.int64).min)) & (values <= min(high, np.iinfo(np.int64).max))
-        out[whole] = (values[whole].astype(np.int64) + zero) * each
+        out[whole] = (values[whole].astype(np.int64) + zero) * each + rest
         return out
     with np.errstate(over="ignore", invalid="ignore"):
         full = values.astype(np.float64)
@@ -156,6 +208,13 @@ def to_ns(values: Array, seconds: float, zero_s: int = 0) -> Int1D:
     else:
         out = (base.astype(np.int64) + zero) * each + np.rint(part * each).astype(np.int64)
     return out if safe is full else np.where(good, out, NAT)
+
+
+def _without_leaps(ns: Int1D, leaps: int) -> Int1D:
+    """UTC of times that count leap seconds; they are of the Unix scale but for those."""
+    lag_s = leaps + np.searchsorted(_LEAPS * 10**9 + (np.arange(_LEAPS.size) + leaps + 1) * 10**9, ns, side="right")
+    utc: Int1D = np.where(ns == NAT, NAT, ns - lag_s.astype(np.int64) * 10**9)
+    return utc
 
 
 def _ns_of_years(values: Array) -> Int1D:

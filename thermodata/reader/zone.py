@@ -11,12 +11,15 @@ import numpy.typing as npt
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Bool1D, Int1D
+from thermodata.reader.newest_first import Steps
 
 NAT = np.iinfo(np.int64).min
 NO_ZONE = "no time zone declared"  # begins the note on local times whose zone nobody says
 _S = 1_000_000_000
 # A clock that steps back by less is jitter; by more, inside a repeated hour, it is the hour that repeats.
 _STEP_BACK = 60 * _S
+# The place of the hour between two passes is sure where each other one costs more by this: a step grows twice as long.
+_TELLS = 0.69
 
 
 def zone(name: str) -> ZoneInfo:
@@ -58,13 +61,16 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
 
     naive: shape (n,), datetime64; NaT stays the smallest int64 (`zone.NAT`). timezone None: taken as UTC, with
     a note. The hour that repeats in autumn is told apart by the step back of the clock inside it; where no row
-    steps back, by the neighbour that it joins. Times that do not exist in spring keep the offset of before.
+    steps back, by the usual step of the rows. Times that do not exist in spring keep the offset of before.
 
     FormatError where the times run straight on through a change of the zone: that clock keeps one offset all year.
     """
     local = naive.astype("datetime64[ns]").astype(np.int64)
     if timezone is None:
         return local, [f"{NO_ZONE}: times are taken as UTC"]
+    if _newest_first(local):
+        turned, said = local_to_utc_ns(naive[::-1], timezone)
+        return turned[::-1], said
     tz = zone(timezone)
     valid = local != NAT
     if not valid.any():
@@ -127,18 +133,47 @@ def _keeps_one_offset(timezone: str, when: str, before: int, after: int) -> Form
 
 
 def _second_pass(local: Int1D, inside: Bool1D, shift: int) -> tuple[Bool1D, bool]:
-    """Which rows of a repeated hour are its second pass, and whether the order of the rows proves it."""
+    """Which rows of a repeated hour are its second pass, and whether the order of the rows proves it.
+
+    Where no row steps back, the hour between the passes is put where it fits the usual step best: rows of every 90 min
+    that stand at 01:50 and 02:20 have it between them. It costs a step as much as it grows out of all proportion."""
     second, sure = np.zeros(local.shape, bool), True
     edges = np.flatnonzero(np.diff(np.concatenate(([0], inside.astype(np.int8), [0]))))
+    usual = _usual_step(local)
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        steps = np.diff(local[start:stop])
-        if steps.size and steps.min() < -_STEP_BACK:
-            second[start + 1 + int(np.argmax(steps < -_STEP_BACK)) : stop] = True
+        back = np.flatnonzero(np.diff(local[start:stop]) < -_STEP_BACK)
+        if back.size:
+            second[start + 1 + int(back[0]) : stop] = True
             continue
-        joins_before = start > 0 and local[start - 1] != NAT and 0 <= local[start] - local[start - 1] < shift
-        joins_after = stop < local.size and local[stop] != NAT and 0 <= local[stop] - local[stop - 1] < shift
-        if joins_after and not joins_before:
-            second[start:stop] = True
-        elif joins_before == joins_after:
+        before, after = (bool(0 <= i < local.size and local[i] != NAT) for i in (start - 1, stop))
+        # the hour may stand before each row and behind the last; it stands nowhere where the file begins or ends inside
+        costs = np.zeros(stop - start + 1)
+        steps = np.diff(local[start - before : stop + after])
+        if usual and steps.size:
+            first = 0 if before else 1
+            costs[first : first + steps.size] = _cost(steps, shift, usual)
+        at = int(np.argmin(costs))
+        if (np.delete(costs, at) - costs[at] > _TELLS).all() and (before or after or steps.size):
+            second[start + at : stop] = True
+        else:
             sure = False
     return second, sure
+
+
+def _newest_first(local: Int1D) -> bool:
+    steps = Steps()
+    steps.add(local[local != NAT])
+    return steps.newest_first
+
+
+def _usual_step(local: Int1D) -> float:
+    steps = np.diff(local[local != NAT])
+    steps = steps[steps > 0]
+    return float(np.median(steps)) if steps.size else 0.0
+
+
+def _cost(steps: Int1D, shift: int, usual: float) -> npt.NDArray[np.float64]:
+    """How much further from the usual step each of these becomes with an hour more, in powers of e."""
+    now, then = np.maximum(steps, usual / 10) / usual, (steps + shift) / usual
+    cost: npt.NDArray[np.float64] = np.abs(np.log(then)) - np.abs(np.log(now))
+    return cost

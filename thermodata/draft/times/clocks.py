@@ -11,6 +11,7 @@ from zoneinfo import ZoneInfo
 from thermodata.calibration.clock import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import named_zone
 from thermodata.errors import ThermodataError
 from thermodata.reader.step_back import likely_cause, said
@@ -71,7 +72,8 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     ]
     hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
     if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
-        return "timezone? it logs local times without a zone; taken as UTC. " + likely + said
+        asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
+        return asked + which_pass(group.files, likely)
     fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
     ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
     return f"timezone? local times, {ahead} from the other sources' UTC: " + (

@@ -13,6 +13,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.reader.repeated_hour import repeated_hour
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.quotes import clean
@@ -171,6 +172,9 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     data = "\n".join((*last, "")).encode()
     ends = [int(b.t_ns[-1]) for b in reader.read(Chunk(data, 0, 0, False)) if isinstance(b, Block)]
     before, after = (utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends])))
+    hour = repeated_hour(source.timezone, start)
+    if hour is not None and all(ns < hour.at_ns + hour.summer_ns for ns in ends):
+        after = before  # all rows lie in one of its passes, and those at the end were read without their zone
     notes = []
     if table.zone is not None and {before, after} != {utc_offset_ns(table.zone[0], start // 10**9)}:
         notes.append(f"the line above the rows says '{table.zone[1][:60]}'; the declared {source.timezone} is used")

@@ -18,7 +18,7 @@ from thermodata.store.ingest.inventory import Row
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_to_json
 from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan
-from thermodata.store.tidy.source_clock import Clock, Span, is_relative
+from thermodata.store.tidy.source_clock import Clock, Span, is_relative, recorded
 
 
 def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
@@ -80,7 +80,7 @@ def _source_row(plan: TestPlan, source: SourcePlan, stream: str, raws: Sequence[
     complete = [r.complete for r in raws]
     told = json.loads(clock_to_json(clock)) if clock.notes or clock.key else []
     notes = told + list(dict.fromkeys(n for r in raws for n in r.notes))
-    first = min(r.first_ns + (r.start_ns or 0 if r.clock == "relative" else 0) for r in raws)
+    first = min(recorded(r)[0] for r in raws)
     steps = sorted(r.step_ns for r in raws if r.step_ns > 0)
     middle = steps[(len(steps) - 1) // 2 : len(steps) // 2 + 1]
     return {

@@ -20,7 +20,7 @@ class RawStream:
     the largest recorded time. ordered: whether no row is earlier than the one before it (None: nobody looked).
     newest_first: the rows stand from the last to the first; what reads them turns them round.
     unordered: the reader says that rows need not stand in the order of their times. of_day_ns: the time of day of the
-    first row, where the file has no date.
+    first row, where the file has no date. moved_ns: what is added to its times in a test, see `tidy.second_pass`.
     """
 
     key: str
@@ -47,6 +47,7 @@ class RawStream:
     newest_first: bool = False
     unordered: bool = False
     of_day_ns: int | None = None
+    moved_ns: int = 0
     # as it was read; a copy that was changed has none
     _told: str | None = field(default=None, init=False, repr=False, compare=False)
 

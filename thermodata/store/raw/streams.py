@@ -14,6 +14,7 @@ from thermodata.reader.guard import described, guarded
 from thermodata.reader.units_met import units_met
 from thermodata.schema.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
+from thermodata.store.raw.open_pass import pass_notes
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.writer import StreamWriter
 
@@ -107,6 +108,9 @@ def read_raw(
             ) from error
         check()
         late = [note for met in units if (note := met.note(recording.notes)) is not None]
+        late += pass_notes(
+            reader, path, source, recording, [(w.first_ns, w.last_ns) for w in writers.values() if w.rows]
+        )
         recording = dataclasses.replace(recording, notes=(*recording.notes, *late))
         streams = [
             _finish(store, writer, stream, key, path, source_path, sha256, reader, recording, losses)

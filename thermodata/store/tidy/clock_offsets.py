@@ -18,6 +18,7 @@ from thermodata.schema.quantity import value_in
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy.keys import channel_text
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.second_pass import choose_passes
 from thermodata.store.tidy.series import TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, bases, first_ns, is_relative
 
@@ -29,6 +30,7 @@ def clocks_of(
     store: Path, plan: TestPlan, calibrations: Mapping[str, CalibrationResult], known: Mapping[str, Clock]
 ) -> dict[str, Clock]:
     """The clocks of a test's sources. known: estimates of earlier runs by their key, for estimating reads data."""
+    choose_passes(plan)
     base, notes = bases(plan)
     plan.notes += notes
     clocks: dict[str, Clock] = {}
@@ -127,7 +129,7 @@ def _key(
     return key_of(
         "clock 1",
         repr([r.key for r in source.raws]),
-        repr([r.key for r in there.raws]),
+        repr([r.key if not r.moved_ns else (r.key, r.moved_ns) for r in there.raws]),
         source.spec.clock.model_dump_json(),
         repr((other.offset_ns, other.drift_ppm, other.base_ns)),
         repr(declared),

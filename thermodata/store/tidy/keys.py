@@ -11,6 +11,7 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.schema.campaign import Channel
 from thermodata.schema.campaign_channels import MEASURED
 from thermodata.store.base.files import key_of
+from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.on_change import BY_HAND
 from thermodata.store.tidy.overrule import rules_of
@@ -60,7 +61,7 @@ def member_key(
             parts += [
                 source,
                 stream,
-                repr([(r.key, r.path) for r in source_plan.streams.get(stream, [])]),
+                repr([(r.key, r.path, *_moved(r)) for r in source_plan.streams.get(stream, [])]),
                 repr(
                     (
                         clock.offset_ns,
@@ -75,12 +76,16 @@ def member_key(
     if any(s == SCHEDULE for s, _ in members):
         # the schedule's grid ends with the reference sources
         parts += [
-            repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]),
+            repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws]),
             json.dumps(plan.test.conditions, sort_keys=True, default=str),
         ]
     if any(s in plan.sources and plan.sources[s].shared for s, _ in members):
-        parts.append(repr([(r.key, clocks[s.name]) for s in plan.reference for r in s.raws]))
+        parts.append(repr([(r.key, *_moved(r), clocks[s.name]) for s in plan.reference for r in s.raws]))
     return key_of(*parts)
+
+
+def _moved(raw: RawStream) -> tuple[int, ...]:
+    return (raw.moved_ns,) if raw.moved_ns else ()
 
 
 def _collect(plan: TestPlan, bound: Bound, into: dict[str, Bound]) -> None:

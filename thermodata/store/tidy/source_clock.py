@@ -167,16 +167,22 @@ def is_relative(source: SourcePlan) -> bool:
 
 def first_ns(source: SourcePlan) -> int:
     """The first recorded time of a source [ns]."""
-    return min(_start_of(raw) + raw.first_ns for raw in source.raws)
+    return min(recorded(raw)[0] for raw in source.raws)
 
 
 def last_ns(source: SourcePlan) -> int:
-    return max(_start_of(raw) + raw.last_ns for raw in source.raws)
+    return max(recorded(raw)[1] for raw in source.raws)
+
+
+def recorded(raw: RawStream) -> tuple[int, int]:
+    """The first and the last recorded time of a file [ns]."""
+    return _start_of(raw) + raw.first_ns, _start_of(raw) + raw.last_ns
 
 
 def _start_of(raw: RawStream) -> int:
     # a relative clock whose file says when it began is an absolute one
-    return raw.start_ns if raw.clock == "relative" and raw.start_ns is not None else 0
+    own = raw.start_ns if raw.clock == "relative" and raw.start_ns is not None else 0
+    return own + raw.moved_ns
 
 
 def span(plan: TestPlan, clocks: dict[str, Clock]) -> Span:

@@ -16,7 +16,8 @@ from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.cells.number import decimal_mark, values_of
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.zone_words import stated_zone
-from thermodata.reader.text.page.layout import STREAM, Group, Layout
+from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.head_start import ORDERS
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.another_header import another_in_sheet, repeated_in_sheet

@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
@@ -44,6 +45,8 @@ def counted_by(name: str, values: Array) -> str | None:
 def count_question(name: str, values: Array, where: str, column: int | None = None) -> QuestionError | None:
     """Asks whether a time is such a count, in the draft that reads it so meanwhile; None where it is none. column: its
     number, from 1, where its name does not tell it for a time."""
+    if (scale := scale_question(name, values, where, column)) is not None:
+        return scale
     unit = counted_by(name, values)
     if unit is None:
         return None

@@ -7,37 +7,33 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-import numpy as np
-
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError, nearest
 from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
-from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyond
 from thermodata.reader.text.clocks.odd_clocks import clock_question
 from thermodata.reader.text.clocks.start_and_end import interval_note
 from thermodata.reader.text.clocks.time_questions import (
     ZONED_ROWS,
-    epoch_in,
     joined_question,
     no_time,
     of_day_question,
-    size_of_clock,
     time_question,
     without_word,
     worded_time,
     zone_question,
 )
+from thermodata.reader.text.clocks.unit_of_numbers import unit_of_numbers
 from thermodata.reader.text.clocks.zoned_beside import beside_note, zoned_beside
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times.clock_numbers import columns_of_clock
 from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.spans import are_spans
 from thermodata.reader.text.times.time_cells import part_question, with_parts, zone_notes
-from thermodata.reader.time_units import SECONDS, check_unit, with_step
+from thermodata.reader.time_units import SECONDS
 
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 
@@ -121,25 +117,8 @@ def time_of(
         form = said_clock(name, units[columns[0]], cells)
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
-    text = with_step(unit or units[columns[0]] or unit_of_time(name))
-    if text is None:
-        if (of_day := of_day_question(columns[0], names, data, where)) is not None:
-            raise of_day
-        text = size_of_clock(name, cells, where)
-        notes.append(
-            f"time column '{name}' has no unit: by its size it is {text}; declare table: {{time: {{unit: ...}}}} "
-            "if that is wrong"
-        )
-    elif unit is None and (epoch := epoch_in(name, str(text), cells, where)) is not None:
-        notes.append(
-            f"time column '{name}' counts {text} from a date by its size: {epoch}; "
-            "declare table: {time: {unit: ...}} if that is wrong"
-        )
-        text = epoch
-    known, values = check_unit(str(text), where), np.array([v for c in cells if (v := number_of(c)) is not None])
-    refuse_beyond(name, values, known, where, declared=unit is not None)
-    quick = quick_note(name, values, known)
-    return columns, known, None, [*notes, *([quick] if quick else [])]
+    known, more = unit_of_numbers(columns[0], names, units, data, unit, where)
+    return columns, known, None, [*notes, *more]
 
 
 def find_time(

@@ -70,7 +70,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     numbers = [i for i in range(width) if sum(is_number(r[i]) for r in data) > 0.6 * len(data)]
     if len(data) < _FEWEST_ROWS or len(numbers) * 2 < width:
         return None
-    place, rising = _likely_time(data)
+    place, rising = likely_time(data)
     if rising is not None and (counted := count_question(names[place], rising, where, place + 1)) is not None:
         return counted
     if rising is not None and all(name == f"column {i + 1}" for i, name in enumerate(names)):
@@ -95,7 +95,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     )
 
 
-def _likely_time(data: Sequence[Sequence[Cell]]) -> tuple[int, Array | None]:
+def likely_time(data: Sequence[Sequence[Cell]]) -> tuple[int, Array | None]:
     """(place, numbers) of the column that may be the time: the first one where its numbers rise in even steps, but for
     another that does where the first only numbers the rows."""
     first = _rising(data, 0)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import PurePath
 
 from thermodata.errors import FormatError
+from thermodata.reader.text.cells.delimiter import find_delimiter
 
 # a measurement with its tags, its fields, and a time in nanoseconds or the like; what begins with a quote is a text and
 # nothing else: were there two ways to read it, a line of n of them would be tried in 2^n ways
@@ -16,7 +18,9 @@ _PAIR = re.compile(r"(?<![\w.:/-])([^\W\d][\w.]{0,30})\s?[=:]\s?[+-]?\d+(?:\.\d+
 _DECIMAL_COMMA = re.compile(r"([=:]\s?[+-]?\d+),\d+(?![\d.])")  # 'T1=21,97': no cell of its own begins there
 _CELL_OF_NUMBERS = re.compile(r"[;\t,|]\s*\"?[+-]?\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?\"?\s*(?=[;\t,|]|$)")
 _MESSAGE = re.compile(r"[^\s{}\"]+(?: [^\s{}\"]+)? +\{\".*\}")
+_SCRAPED = re.compile(r"[a-zA-Z_:][\w:]*(?:\{[^{}]*\})? [+-]?(?:\d|NaN|Inf)[^\s]*(?: -?\d+)?")
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
+_FEWEST_FIXED, _RAGGED = 5, 0.15
 _FEWEST = 2
 
 
@@ -35,6 +39,33 @@ def refuse_foreign(lines: Sequence[str], where: str) -> None:
         what, do = known
         first = next(line for line in lines if line.strip())
         raise FormatError(f"{what}, no table", where=where, expected="a table", got=first.strip()[:60], hint=do)
+
+
+def fixed_width(lines: Sequence[str]) -> bool:
+    """Whether nothing but blanks parts the cells of lines that are all as long, some cells being empty or joined."""
+    full = [line.rstrip("\r\n") for line in lines if line.strip()][:-1]  # the last one may be cut
+    if len(full) < _FEWEST_FIXED or any(c in line for line in full for c in ",;|\t"):
+        return False
+    width = max(map(len, full))
+    numbers = sum(len(re.findall(r"(?<![\w.])[+-]?\d+(?:\.\d+)?", line)) > 2 for line in full)
+    alike = sum(abs(len(line) - width) <= _RAGGED * width for line in full)
+    even = min(numbers, alike) >= _NEARLY_ALL * len(full)
+    return even and foreign_text(lines) is None and find_delimiter(full) is None
+
+
+def by_width(name: str) -> str:
+    """What to do with a text of fixed width."""
+    return (
+        'make a CSV of its columns of fixed width: python -c "import pandas; '
+        f"pandas.read_fwf('{name}').to_csv('{PurePath(name).stem}.csv', index=False)\", and see that none is cut in two"
+    )
+
+
+def _is_scrape(lines: Sequence[str]) -> bool:
+    """Whether it is what a server gives to Prometheus: '# TYPE ...', and 'name{label="x"} 21.3 1773298800000'."""
+    points = [line for line in lines if not line.startswith("#")]
+    told = any(line.startswith(("# TYPE ", "# HELP ")) for line in lines)
+    return told and bool(points) and all(map(_SCRAPED.fullmatch, points[:-1] or points))
 
 
 def _is_line_protocol(lines: Sequence[str]) -> bool:
@@ -75,6 +106,12 @@ def _is_messages_of_json(lines: Sequence[str]) -> bool:
 
 
 _KNOWN = (
+    (
+        _is_scrape,
+        "the text of a scrape of Prometheus",
+        "export what is stored as CSV, with a column a series: in Grafana Inspect, Data, Download CSV; or write a CSV "
+        "of time,name,value, a row a sample",
+    ),
     (
         _is_line_protocol,
         "InfluxDB's line protocol",

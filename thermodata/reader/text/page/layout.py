@@ -17,6 +17,8 @@ from thermodata.reader.text.names.described import descriptions
 from thermodata.reader.text.names.header import split_unit, unique
 from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
 from thermodata.reader.text.page.first_data import first_data, width_of
+from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
+from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
@@ -24,28 +26,7 @@ from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
 from thermodata.reader.time_units import EPOCHS, SECONDS
 
-STREAM = "table"
 _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
-
-
-@dataclass(frozen=True)
-class Group:
-    """Columns with one time. stream: its name; time: columns of the time, from 0; seconds: of one unit of a relative
-    time, None for dates; epoch: of times counted from a date (clocks.EPOCHS); columns: its signals; counted: no column
-    holds the time, `seconds` pass from row to row."""
-
-    stream: str
-    time: tuple[int, ...]
-    seconds: float | None
-    form: str | None
-    epoch: str | None
-    columns: tuple[int, ...]
-    counted: bool = False
-
-    @property
-    def dated(self) -> bool:
-        """Whether its times are texts, not numbers."""
-        return self.seconds is None and self.epoch is None
 
 
 @dataclass(frozen=True)
@@ -135,10 +116,17 @@ def find(
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
     asked = between is not None
     lost = lines_between(above, width, skip, names, units, where, asked) if header is None else []
+    stated = stated_epoch(said.get("time"), map(texts_of, above))
     try:
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
+        if stated is not None:
+            groups, notes = from_epoch(stated, groups, notes, names, units, data)
     except QuestionError as question:
-        raise with_interval(question, map(texts_of, above)) from None
+        answer = None if stated is None else answer_of(stated, names, units, data)
+        if stated is None or answer is None:
+            raise with_interval(question, map(texts_of, above)) from None
+        groups, notes = _groups(answer, names, units, data, where)
+        notes = [*notes, stated.note(answer["unit"])]
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(names[i], [r[i] for r in data], groups[0].seconds, map(texts_of, above)) for i in time]
     noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused, *against) if note))

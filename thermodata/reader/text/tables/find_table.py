@@ -15,11 +15,12 @@ from thermodata.reader.text.cells import delimiter as delimiters
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.cells.zone_words import stated_zone
-from thermodata.reader.text.file.foreign_texts import refuse_foreign
+from thermodata.reader.text.file.foreign_texts import by_width, fixed_width, refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
-from thermodata.reader.text.page.layout import STREAM, Group, Layout, find
+from thermodata.reader.text.page.group import STREAM, Group
+from thermodata.reader.text.page.layout import Layout, find
 from thermodata.reader.text.page.second_header import second_header
 from thermodata.reader.text.preamble.begin import (
     NOT_TAKEN,
@@ -111,7 +112,7 @@ def find_table(
             where=where,
             expected="lines with as many cells between ';', tabs, commas, '|' or blanks",
             got=repr(head[0][:60]),
-            hint="declare table: {delimiter: ...}",
+            hint=by_width(where) if fixed_width(head) else "declare table: {delimiter: ...}",
         )
     blanks = delimiter == delimiters.BLANKS
     if blanks:

@@ -14,7 +14,7 @@ from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, have_days
 from thermodata.reader.text.times.local_clock import DayCount, LocalClock
-from thermodata.reader.time_units import EPOCHS, to_ns
+from thermodata.reader.time_units import EPOCHS, Epoch, to_ns
 from thermodata.reader.zone import NAT
 
 
@@ -26,7 +26,7 @@ class RowClock:
         epoch = EPOCHS.get(timed.group.epoch or "")
         local = epoch.local if epoch is not None else bool(timed.formats) and not timed.zoned and not timed.of_day
         local = local or (begin is not None and begin.of_day)
-        self.epoch = epoch
+        self.epoch: Epoch | None = epoch
         self.clock = LocalClock(timezone if local else None)
         self.days = DayCount(self.timed.formats[0].cycle_ns) if self.timed.of_day else DayCount()
         self.joined_days = Days()
@@ -100,7 +100,7 @@ class RowClock:
             cells = rows.columns[group.time[0]]
             if self.epoch is None:
                 return to_ns(cells.values, group.seconds or 1.0)
-            ns = self.epoch.ns(cells.values)
+            ns: Int1D = self.epoch.ns(cells.values)
             if cells.values.dtype.kind == "i":  # no NaN in them, and 0 is a date
                 ns[cells.empty] = NAT
                 ns[[row for row, _ in cells.odd]] = NAT

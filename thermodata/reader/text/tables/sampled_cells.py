@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.reader.text.page.layout import Group, Layout
+from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import column_times, row_time
 from thermodata.reader.text.times.days import filled

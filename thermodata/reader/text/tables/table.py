@@ -17,7 +17,8 @@ from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
 from thermodata.reader.text.names.header import told_alike
 from thermodata.reader.text.names.unit_column import UnitColumn
-from thermodata.reader.text.page.layout import Group, Layout
+from thermodata.reader.text.page.group import Group
+from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.begin import Begin
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_scales
 from thermodata.reader.text.rows.grid import Grid

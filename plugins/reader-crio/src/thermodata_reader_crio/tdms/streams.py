@@ -51,7 +51,7 @@ class Stream:
         """(times of rows [first, last), which of them have one: None for all). read: the time channel's values."""
         if self.time_channel is not None:
             assert read is not None
-            return self.time_channel.times(read)
+            return self.time_channel.times(read, first)
         assert self.clock is not None
         return self.clock.times(first, last), None
 
@@ -69,7 +69,7 @@ def streams_of(
     that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    clocks = [c for c in filled if c.clock is None and is_time(c, source)]
+    clocks = [c for c in filled if c.clock is None and is_time(c, source, file)]
     apart = set(map(id, clocks))
     late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
     used: set[int] = set()
@@ -80,7 +80,7 @@ def streams_of(
         own = tuple([c.in_stream(name) for c in part])
         if time is not None:
             used.add(id(time))
-            yield Stream(name, own, None, time_channel(time, file, notes))
+            yield Stream(name, own, None, time_channel(time, file, source, notes))
             continue
         clock = part[0].clock
         if clock is None:
@@ -102,7 +102,7 @@ def streams_of(
         # a time channel beside waveforms is a signal like any other
         if id(c) not in used:
             name = _name(group, taken)
-            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, notes))
+            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, source, notes))
 
 
 def _name(group: str, taken: dict[str, int]) -> str:

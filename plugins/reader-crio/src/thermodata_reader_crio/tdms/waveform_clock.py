@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
+from thermodata.reader.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
 from thermodata_reader_crio.tdms.metadata import Timestamp
 
@@ -35,7 +36,7 @@ class Waveform:
 
 def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     """A channel's waveform clock, or None where it has no usable increment."""
-    increment = properties.get("wf_increment")
+    increment, unit_s = properties.get("wf_increment"), _unit_s(properties.get("wf_xunit_string"))
     if (
         isinstance(increment, bool)
         or not isinstance(increment, int | float)
@@ -51,8 +52,14 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     usable = (
         not isinstance(offset, bool) and isinstance(offset, int | float) and math.isfinite(offset) and abs(offset) < 1e9
     )
-    offset_ns = round(Fraction(repr(float(offset))) * 1_000_000_000) if usable else 0
-    return Waveform(start_ns, offset_ns, step_ns(float(increment)))
+    offset_ns = round(Fraction(repr(float(offset))) * unit_s * 1_000_000_000) if usable else 0
+    return Waveform(start_ns, offset_ns, step_ns(float(increment)) * unit_s)
+
+
+def _unit_s(text: Any) -> Fraction:
+    """The unit in which the increment and the offset of a waveform count [s]: seconds where it names no other."""
+    seconds = SECONDS.get(text.strip().lower(), 1.0) if isinstance(text, str) else 1.0
+    return Fraction(repr(seconds))
 
 
 @dataclass(frozen=True, eq=False)

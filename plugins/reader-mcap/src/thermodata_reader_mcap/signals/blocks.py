@@ -20,6 +20,7 @@ from thermodata_reader_mcap.encodings.decoder import Decoder, UnsupportedError
 from thermodata_reader_mcap.encodings.decoders import columns, decoder
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
+from thermodata_reader_mcap.signals.batches_of_samples import parted
 from thermodata_reader_mcap.signals.header_stamps import stamps
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH
 from thermodata_reader_mcap.signals.plan import Plan, wanted_topic
@@ -69,6 +70,8 @@ class Writer:
         batches, self.content.batches = self.content.batches, {}
         for name, batch in batches.items():
             topic = self.plan.topics.get(str(name))
+            if topic is not None and topic.name in self.plan.samples:
+                batch = self._apart(topic, batch)
             logs, publishes = batch.times()
             for channel, places in batch.places().items():
                 if topic is None or self._reader(channel) is None:
@@ -83,6 +86,10 @@ class Writer:
         for (topic, _, part, logs, publishes), made in self._ahead(jobs):
             for each in made:
                 yield from self._blocks(topic, each, logs[part], publishes[part])
+
+    def _apart(self, topic: Topic, batch: Batch) -> Batch:
+        """Each sample of the batch's messages as a message."""
+        return parted(batch, self.plan.samples[topic.name]).batch
 
     def _ahead(self, jobs: list[Job]) -> Iterator[tuple[Job, list[Columns]]]:
         """The columns of each job, in order; a few are parsed at the same time, for the parsers leave the

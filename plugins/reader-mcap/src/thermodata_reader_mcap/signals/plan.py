@@ -24,6 +24,7 @@ from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
+from thermodata_reader_mcap.signals.batches_of_samples import Samples, find_samples, parted
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
@@ -40,8 +41,8 @@ EARLIEST_NS = 10**17  # log times before 1973 count from the start of the record
 class Plan:
     """topics: by name; readers: how each channel's messages decode. stamped: the times that are signals, by topic
     ("log_time", "publish_time"). units: which fields say those of others, message by message; sent: in which units
-    channels send. series: of topics on which several sensors send. complete: whether the file ends well and nothing in
-    it is seen to be damaged."""
+    channels send. samples: of topics whose messages hold several each. series: of topics on which several sensors send.
+    complete: whether the file ends well and nothing in it is seen to be damaged."""
 
     options: Options
     summary: Summary
@@ -53,6 +54,7 @@ class Plan:
     naming: dict[str, Naming]
     units: tuple[UnitColumn, ...]
     sent: UnitsOfChannels
+    samples: dict[str, Samples]
     start_ns: int | None
     relative: bool
     complete: bool
@@ -135,6 +137,11 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     if said.damaged:
         notes.append("the summary at the end of the file is damaged; it was not needed")
     batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
+    samples: dict[str, Samples] = {}
+    if chosen_options.time == LOG:  # else it is declared when each message was
+        samples, more = find_samples(batches)
+        notes += more
+        batches = {c: parted(b, samples[c.topic]).batch if c.topic in samples else b for c, b in batches.items()}
     found = _topics(batches, chosen_options, source, whole, notes)
     unknown = [f"topic '{t}' is not read: {why}" for t, why in found.unsupported.items()]
     if unknown and not found.topics:
@@ -182,6 +189,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
         {c.topic: one.naming for c, one in found.readers.items() if isinstance(one, NamedDecoder)},
         units,
         found.sent,
+        samples,
         start,
         relative,
         is_complete(view) and not damaged,

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Loss, Source
 from thermodata_reader_mcap.container.mapped_file import opened
-from thermodata_reader_mcap.container.message_batches import U64
+from thermodata_reader_mcap.container.message_batches import U64, Batch
 from thermodata_reader_mcap.container.messages import Content, collect_messages
 from thermodata_reader_mcap.container.records import HEAD, MESSAGE_HEAD, Bytes
 from thermodata_reader_mcap.encodings.columns import Columns
 from thermodata_reader_mcap.encodings.topic import Topic
+from thermodata_reader_mcap.signals.batches_of_samples import parted
 from thermodata_reader_mcap.signals.blocks import BATCH, Job, Writer
 from thermodata_reader_mcap.signals.plan import Plan, content, plan, wanted_topic
 
@@ -56,7 +57,10 @@ def _message(
             every = np.arange(item.t_ns.size)
             rows = every if sender is None else found.series[topic].rows(item).get(sender, every[:0])
             if row < done + rows.size:
-                return None if writer.numbers is None else int(writer.numbers[rows[row - done]])
+                if writer.numbers is None:
+                    return None
+                number = int(writer.numbers[rows[row - done]])
+                return int(np.concatenate(writer.origins)[number]) if writer.origins else number
             done += rows.size
     return None
 
@@ -67,8 +71,16 @@ class _Counting(Writer):
     out for their time."""
 
     numbers: Int1D | None = None
+    origins: list[Int1D] = field(default_factory=list)  # of samples: the message that each came in
+    messages: int = 0
     base: int = 0
     size: int = 0
+
+    def _apart(self, topic: Topic, batch: Batch) -> Batch:
+        found = parted(batch, self.plan.samples[topic.name])
+        self.origins.append(found.origin + self.messages)
+        self.messages += len(batch.payloads)
+        return found.batch
 
     def _ahead(self, jobs: list[Job]) -> Iterator[tuple[Job, list[Columns]]]:
         for job in jobs:

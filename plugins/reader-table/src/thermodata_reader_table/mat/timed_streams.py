@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D, Source
 from thermodata.reader import time_units
+from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.times import in_memory
@@ -103,6 +104,8 @@ class Clocked:
         assert time.load is not None
         declared = one_time(self.source.table, self.where).get("unit")
         text = time_units.with_step(declared or time.unit)
+        if declared is None:
+            ask_what_counts(time.path, time.load(0, LOOK), text, self.where)
         if text is not None:
             try:
                 return time_units.check_unit(str(text), f"{self.where} {time.path}")

@@ -14,6 +14,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
+from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_columns import column as find_column
 from thermodata.reader.text.clocks.time_columns import find_time, time_of
 from thermodata.reader.text.clocks.time_groups import one_time
@@ -147,9 +148,13 @@ class Table:
         if pt.is_duration(kind):
             return column, "duration"
         text = with_step(unit or self.units[column] or unit_of_time(self.names[column]))
+        found = next(self.batches(1000), None)
+        cells = None if found is None else found.column(column)
+        whole = cells is not None and pt.is_integer(kind)  # which may be longer than a float64 tells
+        values = np.zeros(0) if cells is None else cells.drop_null().to_numpy() if whole else numbers(cells)
+        if unit is None:
+            ask_what_counts(self.names[column], values, text, self.path.name)
         if text is None:
-            found = next(self.batches(1000), None)
-            values = np.zeros(0) if found is None else numbers(found.column(column))
             text = found_epoch(values)
             if text is None:
                 raise unit_question(self.names[column], values, self.path.name)

@@ -1,0 +1,82 @@
+"""Clocks of TDMS files that do not count in seconds: a waveform's own unit of x, channels of text that hold dates."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from thermodata_reader_crio import Reader
+
+from thermodata.errors import QuestionError
+from thermodata.plugin import Block, Source
+from thermodata.reader.guard import described, guarded
+
+nptdms = pytest.importorskip("nptdms")
+T0 = np.datetime64("2026-03-12T07:00:00", "ns").astype(np.int64)
+BEGAN = datetime(2026, 3, 12, 8)
+
+
+def written(path: Path, channels: dict[str, Any], **properties: Any) -> Path:
+    with nptdms.TdmsWriter(str(path)) as writer:
+        own = {name: {} if name in ("Timestamp", "Note") else properties for name in channels}
+        writer.write_segment([nptdms.ChannelObject("Log", n, np.array(v), own[n]) for n, v in channels.items()])
+    return path
+
+
+def times(path: Path, source: Source) -> list[int]:
+    reader = Reader()
+    recording = described(reader, path, source)
+    return [int(t) for b in guarded(reader, path, source, recording) if isinstance(b, Block) for t in b.t_ns]
+
+
+@pytest.mark.parametrize(
+    ("unit", "step_s"),
+    [("min", 60), ("h", 3600), ("ms", 1e-3), ("s", 1), ("", 1), ("Sekunden", 1), ("mm", 1), (" Min ", 60)],
+)
+def test_a_waveform_counts_in_its_unit_of_x(tmp_path: Path, unit: str, step_s: float) -> None:
+    start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 1.0, "wf_start_offset": 2.0}
+    more = {"wf_xunit_string": unit} if unit else {}
+    path = written(tmp_path / "a.tdms", {"T": np.arange(5.0)}, **start, **more)
+    assert times(path, Source()) == [T0 + (2 + k) * round(step_s * 1e9) for k in range(5)]
+
+
+def stamps(form: str, n: int = 30) -> list[str]:
+    return [(BEGAN + timedelta(minutes=k)).strftime(form) for k in range(n)]
+
+
+@pytest.mark.parametrize("options", [{}, {"time": "Timestamp"}])
+@pytest.mark.parametrize("form", ["%d.%m.%Y %H:%M:%S", "%Y-%m-%dT%H:%M:%S", "%Y/%m/%d %H:%M:%S.000"])
+def test_a_channel_of_texts_is_the_time(tmp_path: Path, options: dict[str, Any], form: str) -> None:
+    path = written(tmp_path / "a.tdms", {"Timestamp": stamps(form), "T": np.arange(30.0)})
+    source = Source(timezone="Europe/Berlin", options={**options, "block_rows": 7})
+    assert times(path, source) == [T0 + k * 60 * 10**9 for k in range(30)]
+    assert [s.name for s in described(Reader(), path, source).signals] == ["Log/T"]
+    assert any("no time zone" in n for n in described(Reader(), path, Source(options=options)).notes)
+
+
+def test_texts_whose_day_and_month_are_open_are_asked(tmp_path: Path) -> None:
+    cells = [s.replace("12/03", "03/04") for s in stamps("%d/%m/%Y %H:%M:%S")]
+    path = written(tmp_path / "a.tdms", {"Timestamp": cells, "T": np.arange(30.0)})
+    with pytest.raises(QuestionError):
+        times(path, Source())
+    april = times(path, Source(table={"time": {"format": "dmy"}}))
+    assert april[0] == np.datetime64("2026-04-03T08:00:00", "ns").astype(np.int64)
+
+
+def test_other_texts_are_no_time(tmp_path: Path) -> None:
+    path = written(
+        tmp_path / "a.tdms", {"Note": stamps("%Y-%m-%d %H:%M:%S"), "Timestamp": ["x"] * 30, "T": np.arange(30.0)}
+    )
+    recording = described(Reader(), path, Source())
+    assert recording.clock == "relative"
+    assert [s.name for s in recording.signals] == ["Log/Note", "Log/Timestamp", "Log/T"]
+
+
+def test_a_declared_time_of_other_texts_is_refused_in_words(tmp_path: Path) -> None:
+    path = written(tmp_path / "a.tdms", {"Timestamp": ["x"] * 30, "T": np.arange(30.0)})
+    with pytest.raises(Exception, match="time") as refused:
+        times(path, Source(options={"time": "Timestamp"}))
+    assert "ValueError" not in str(refused.value)

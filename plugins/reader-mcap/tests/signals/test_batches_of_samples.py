@@ -1,0 +1,97 @@
+"""Messages that hold several samples each: each sample stands at its own time."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from thermodata_reader_mcap import Reader
+
+from thermodata.plugin import Source
+
+T0 = 1_772_434_800_000_000_000
+N = 5  # samples of a message
+STEP = 6_000_000_000
+
+
+def batches(many: int, made: Any) -> list[tuple[str, int, dict[str, Any]]]:
+    """Messages, each logged with its last sample. made: what one holds, of the numbers of its samples."""
+    rows = [list(range(k * N, (k + 1) * N)) for k in range(many)]
+    return [("/daq", T0 + STEP * ks[-1] + 3_000_000, made(ks)) for ks in rows]
+
+
+def at(k: int, scale: float = 1e9) -> float:
+    return (T0 + STEP * k) / scale
+
+
+FORMS: dict[str, Any] = {
+    "times beside": lambda ks: {"t": [at(k) for k in ks], "dZ": ks},
+    "texts beside": lambda ks: {"timestamps": [datetime.fromtimestamp(at(k), UTC).isoformat() for k in ks], "dZ": ks},
+    "ms beside": lambda ks: {"time": [at(k, 1e6) for k in ks], "dZ": ks},
+    "step in s": lambda ks: {"t0": at(ks[0]), "dt": 6.0, "dZ": ks},
+    "step in ms": lambda ks: {"t0": at(ks[0]), "dt_ms": 6000, "dZ": ks},
+    "step in ms by what follows": lambda ks: {"start": at(ks[0], 1e6), "period": 6000, "dZ": ks},
+    "rate": lambda ks: {"timestamp": at(ks[0]), "sample_rate": 1 / 6, "dZ": ks},
+    "text and step": lambda ks: {"t0": datetime.fromtimestamp(at(ks[0]), UTC).isoformat(), "dt": 6, "dZ": ks},
+    "inside": lambda ks: {"id": 4, "data": {"t0": at(ks[0]), "dt": 6.0, "dZ": ks}},
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("many", [3, 60])
+def test_each_sample_stands_at_its_own_time(tmp_path: Path, write: Any, read: Any, form: str, many: int) -> None:
+    path = write(tmp_path / "a.mcap", batches(many, FORMS[form]))
+    recording, times, values, _, losses = read(path)
+    name = "/daq.data.dZ" if form == "inside" else "/daq.dZ"
+    assert not losses
+    assert values[name] == list(range(many * N))
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(many * N), atol=1000)
+    assert any("holds several samples" in n and "wrong" not in n for n in recording.notes)
+    assert not any("[0]" in s.name or "dt" in s.name for s in recording.signals)
+
+
+def test_what_a_message_holds_once_stands_with_its_first_sample(tmp_path: Path, write: Any, read: Any) -> None:
+    made = batches(4, lambda ks: {"t0": at(ks[0]), "dt": 6.0, "dZ": ks, "T": float(ks[0]), "xyz": [1.0, 2.0, 3.0]})
+    _, times, values, _, _ = read(write(tmp_path / "a.mcap", made))
+    good = np.isfinite(np.array(values["/daq.T"], float))
+    assert times["/daq"][good].tolist() == [T0 + STEP * N * k for k in range(4)]
+    assert np.array(values["/daq.T"], float)[good].tolist() == [0, 5, 10, 15]
+
+
+def test_a_clock_of_the_samples_that_is_far_from_the_log_is_told(tmp_path: Path, write: Any, read: Any) -> None:
+    made = [(topic, ns + 3600 * 10**9, held) for topic, ns, held in batches(4, FORMS["times beside"])]
+    recording, times, *_ = read(write(tmp_path / "a.mcap", made))
+    assert times["/daq"][0] == T0
+    assert any("3600 s from the log times" in n for n in recording.notes)
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda ks: {"t": at(ks[0]), "position": [1.0 * k for k in ks]},  # a vector at one time
+        lambda ks: {"t0": at(ks[0]), "dt": 30.0, "position": [1.0 * k for k in ks]},  # the time between messages
+        lambda ks: {"t": [0, 6, 12, 18, 24], "dZ": ks},  # of which nothing says when
+        lambda ks: {"names": ["a", "b", "c", "d", "e"], "dZ": ks},
+    ],
+)
+def test_the_nearest_others_stay_as_they_are(tmp_path: Path, write: Any, read: Any, made: Any) -> None:
+    sent = batches(6, made)
+    recording, times, *_ = read(write(tmp_path / "a.mcap", sent))
+    assert times["/daq"].tolist() == [ns for _, ns, _ in sent]
+    assert not any("holds several samples" in n for n in recording.notes)
+    assert any("counts from no date" in n for n in recording.notes) == isinstance(sent[0][2].get("t"), list)
+
+
+def test_a_declared_time_keeps_messages_whole(tmp_path: Path, write: Any, read: Any) -> None:
+    path = write(tmp_path / "a.mcap", batches(4, FORMS["step in s"]))
+    _, times, values, _, _ = read(path, Source(options={"time": "publish_time"}))
+    assert len(times["/daq"]) == 4
+    assert values["/daq.dZ[1]"] == [1, 6, 11, 16]
+
+
+def test_a_sample_is_found_in_its_message(tmp_path: Path, write: Any) -> None:
+    path = write(tmp_path / "a.mcap", batches(4, FORMS["step in s"]))
+    assert Reader().locate(path, Source(), "/daq", 12).startswith("message 3,")

@@ -1,0 +1,127 @@
+"""Files whose local times all lie in the hour that repeats in autumn: another source, a file that goes on, or the
+test's start tells in which pass; where nothing does, it is said and asked."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from thermodata.store import Store
+from thermodata.store.ingest.run import IngestSummary, ingest
+
+pytestmark = pytest.mark.usefixtures("installed_readers")
+
+CAMPAIGN = """\
+schema: thermodata/campaign/1
+id: lab
+machine: {{id: m1}}
+sources:
+  nc: {{reader: {reader}, files: "nc_{{test}}*.{ext}", timezone: Europe/Berlin{more}}}
+channels:
+  T_m: {{source: nc, signal: T_m, quantity: temperature, unit: degC}}
+tests:
+  - {{id: a, kind: spindle, role: calibration{start}}}
+"""
+BESIDE = (
+    '\n  daq: {reader: table, files: "daq_{test}.csv"}\nchannels:',
+    "\n  T_f: {source: daq, signal: T_f, quantity: temperature, unit: degC}\ntests:",
+)
+LOCAL = datetime(2026, 10, 25, 2, 5)
+
+
+def written(path: Path, first: datetime, minutes: int, name: str, zone: str = "") -> None:
+    rows = [(first + timedelta(minutes=i), 20 + i / 10) for i in range(minutes)]
+    if path.suffix == ".parquet":
+        pq.write_table(pa.table({"time": pa.array([t for t, _ in rows]), name: [v for _, v in rows]}), path)
+    else:
+        path.write_text(f"time;{name}\n" + "".join(f"{t:%Y-%m-%d %H:%M:%S}{zone};{v}\n" for t, v in rows))
+
+
+def made(folder: Path, *, reader: str = "table", ext: str = "csv", more: str = "", start: str = "") -> IngestSummary:
+    text = CAMPAIGN.format(reader=reader, ext=ext, more=more, start=start)
+    if any(folder.glob("daq_*")):
+        text = text.replace("\nchannels:", BESIDE[0]).replace("\ntests:", BESIDE[1])
+    (folder / "campaign.yaml").write_text(text)
+    return ingest(Store(folder / "s.store", create=True), folder / "campaign.yaml")
+
+
+def first_of(folder: Path, channel: str) -> datetime:
+    with Store(folder / "s.store").reader() as con:
+        row = con.execute(f"select epoch_ns(min(t)) from sample where channel = '{channel}'").fetchone()
+    assert row is not None
+    return datetime(1970, 1, 1) + timedelta(seconds=row[0] / 1e9)
+
+
+def asked(summary: IngestSummary) -> list[str]:
+    return [str(x["reason"]) for x in summary.losses if "nothing says in which pass" in str(x["reason"])]
+
+
+@pytest.mark.parametrize(("reader", "ext"), [("cnc", "csv"), ("table", "csv"), ("table", "parquet")])
+@pytest.mark.parametrize("hour", [0, 1])
+def test_a_source_in_utc_tells_the_pass(tmp_path: Path, reader: str, ext: str, hour: int) -> None:
+    written(tmp_path / f"nc_a.{ext}", LOCAL, 45, "T_m")
+    written(tmp_path / "daq_a.csv", datetime(2026, 10, 25, hour, 5), 45, "T_f", "Z")
+    summary = made(tmp_path, reader=reader, ext=ext)
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+    assert not summary.losses
+    assert any(f"{'second' if hour else 'first'} pass" in n and "as 'daq' says" in n for n in summary.notes)
+
+
+def test_a_longer_source_tells_it_where_both_end_together(tmp_path: Path) -> None:
+    written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
+    written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 22, 0), 230, "T_f", "Z")  # to 01:49
+    assert not made(tmp_path).losses
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, 1, 5)
+
+
+@pytest.mark.parametrize(("zone", "hour"), [("+02:00", 0), ("+01:00", 1)])
+def test_where_nothing_tells_it_it_is_asked_and_the_start_answers(tmp_path: Path, zone: str, hour: int) -> None:
+    written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
+    written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 22, 0), 400, "T_f", "Z")  # before, in and behind both
+    (said,) = asked(made(tmp_path))
+    assert f"start: 2026-10-25T02:05:00{zone}" in said
+    assert not asked(made(tmp_path, start=f', start: "2026-10-25T02:05:00{zone}"'))
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+
+
+@pytest.mark.parametrize("hour", [0, 1])
+def test_a_file_that_goes_on_tells_it(tmp_path: Path, hour: int) -> None:
+    written(tmp_path / "nc_a_1.csv", LOCAL, 50, "T_m")
+    beside = datetime(2026, 10, 25, 2, 55) + timedelta(minutes=5) if hour else datetime(2026, 10, 25, 1, 0)
+    written(tmp_path / "nc_a_2.csv", beside, 60, "T_m")
+    summary = made(tmp_path)
+    assert not asked(summary)
+    assert first_of(tmp_path, "T_m") == (datetime(2026, 10, 25, 1, 5) if hour else datetime(2026, 10, 24, 23, 0))
+
+
+def test_a_source_whose_clock_is_declared_asks_nothing(tmp_path: Path) -> None:
+    written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
+    assert not made(tmp_path, more=", clock: {offset: 1 h}").losses
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, 1, 5)
+
+
+@pytest.mark.parametrize(
+    ("first", "zone"),
+    [
+        (LOCAL, "Z"),  # not local
+        (LOCAL - timedelta(hours=1), ""),  # goes on behind the hour, in one pass or two
+        (LOCAL - timedelta(days=30), ""),
+        (LOCAL - timedelta(hours=2), ""),  # ends before it
+    ],
+)
+def test_the_nearest_others_ask_nothing(tmp_path: Path, first: datetime, zone: str) -> None:
+    written(tmp_path / "nc_a.csv", first, 55, "T_m", zone)
+    summary = made(tmp_path)
+    assert not summary.losses
+    assert not any("the hour that repeats" in n or "pass" in n for n in summary.notes)
+
+
+@pytest.mark.parametrize(("minutes", "told"), [(150, True), (180, False), (90, False)])
+def test_a_log_that_ends_an_hour_before_the_other_is_told(tmp_path: Path, minutes: int, told: bool) -> None:
+    written(tmp_path / "nc_a.csv", datetime(2026, 10, 25, 1, 30), 90, "T_m")
+    written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 23, 30), minutes, "T_f", "Z")
+    assert any("may be of the second pass" in str(x["reason"]) for x in made(tmp_path).losses) is told

@@ -1,0 +1,47 @@
+"""The hour that a zone repeats in autumn: when it is, and how its two passes are written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta, timezone
+
+from thermodata.reader.zone import utc_offset_ns
+
+_HOUR_S = 3600
+# begins the note on a file that tells local times and ends within a first pass, which nothing but their order proves
+ENDS = "its last local time lies in the hour that repeats"
+ALL = "all its local times lie in the hour that repeats"
+
+
+@dataclass(frozen=True, slots=True)
+class RepeatedHour:
+    """at_ns: when the second pass begins [ns UTC]; shift_ns: how much later than the first it is; summer_ns: how far
+    local times are ahead of UTC in the first [ns]."""
+
+    at_ns: int
+    shift_ns: int
+    summer_ns: int
+
+    def in_first(self, utc_ns: int) -> bool:
+        return self.at_ns - self.shift_ns <= utc_ns < self.at_ns
+
+    def written(self, first_pass_ns: int, second: bool) -> str:
+        """A time of the first pass, or the one that is written alike in the second, in ISO 8601 with its offset."""
+        ahead_ns = self.summer_ns - (self.shift_ns if second else 0)
+        zone = timezone(timedelta(seconds=ahead_ns / 1e9))
+        moment = datetime.fromtimestamp((first_pass_ns + (self.shift_ns if second else 0)) // 10**9, UTC)
+        return moment.astimezone(zone).isoformat(timespec="seconds")
+
+
+def repeated_hour(zone: str, utc_ns: int) -> RepeatedHour | None:
+    """The hour that a zone repeats where an instant lies in its first pass; None where it lies in none."""
+    s = utc_ns // 10**9
+    before, later = utc_offset_ns(zone, s), utc_offset_ns(zone, s + 2 * _HOUR_S)
+    if later >= before:
+        return None
+    low, high = s, s + 2 * _HOUR_S
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if utc_offset_ns(zone, middle) == before else (low, middle)
+    found = RepeatedHour(high * 10**9, before - later, before)
+    return found if found.in_first(utc_ns) else None

@@ -1,0 +1,100 @@
+"""Units of time that state what they count from: 's since 2000-01-01 00:00:00 UTC', 'Sekunden seit 01.01.1904'."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from functools import lru_cache
+
+_UNITS = {
+    "s": r"s|secs?|sek|seconds?|sekunden?|secondes|segundos|secondi|sekund",
+    "min": r"min|mins|minutes?|minuten|minuti|minutos|minut",
+    "h": r"h|hrs?|hours?|stunden|std|heures|ore|horas|hodin",
+    "d": r"d|days?|tage|tagen|jours|giorni|dias|dn[ií]",
+    "ms": r"ms|msec|milliseconds?|millisekunden",
+    "us": r"us|µs|μs|usec|microseconds?|mikrosekunden",
+    "ns": r"ns|nanoseconds?|nanosekunden",
+}
+_SINCE = r"since|seit(?:\s+dem)?|after|depuis(?:\s+le)?|desde(?:\s+el)?|dal|od"
+_MONTHS = ["jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"]
+_DATE = (
+    r"(?P<y>\d{4})-(?P<m>\d{1,2})-(?P<d>\d{1,2})(?!\d)|(?P<d2>\d{1,2})(?P<mark>[./])(?P<m2>\d{1,2})(?P=mark)"
+    r"(?P<y2>\d{4})"
+    rf"|(?P<d3>\d{{1,2}})\.?[ -](?P<n3>{'|'.join(_MONTHS)})[a-z]*\.?[ -](?P<y3>\d{{4}})"
+    rf"|(?P<n4>{'|'.join(_MONTHS)})[a-z]*\.? (?P<d4>\d{{1,2}}),? (?P<y4>\d{{4}})"
+    r"|(?P<y5>1900|1904|1970|1980|2000)(?![\d.:/-])"
+)
+_CLOCK = r"(?:(?:\s*,)?[ t]\s*(?P<hh>\d{1,2}):(?P<mm>\d{2})(?::(?P<ss>\d{2})(?:[.,]0*)?)?)?"
+_ZONE = r"(?:\s*\(?(?P<zone>z|utc|gmt|ut)(?![a-z])(?P<own>[+-]\d{1,2}(?::?\d{2})?)?|\s*(?P<off>[+-]\d{2}:?\d{2}))?"
+_MOMENT = re.compile(rf"(?i)(?:{_DATE}){_CLOCK}{_ZONE}")
+_COUNT = re.compile(
+    rf"(?i)(?<![\w.])(?<!\d )(?:{'|'.join(f'(?P<u_{unit}>{words})' for unit, words in _UNITS.items())})\.?\s*"
+    rf"(?:[\])]\s*)?(?:elapsed |passed |vergangen )?(?:{_SINCE})\s+(?:the )?(?=\d|{'|'.join(_MONTHS)})"
+)
+# what all programs count in seconds from is in UTC, said or not
+_OF_PROGRAMS = frozenset(datetime(y, m, d) for y, m, d in ((1900, 1, 1), (1904, 1, 1), (1970, 1, 1), (1980, 1, 6)))
+_OF_UNIX = datetime(1970, 1, 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Zero:
+    """What times count from. zero_s: on the Unix scale [s]; local: in the time of the place, not in UTC."""
+
+    zero_s: int
+    local: bool
+
+    def unit(self, of: str) -> str:
+        """The unit of a count of 's', 'min', 'd', ... from there, as `since` reads it."""
+        moment = _OF_UNIX + timedelta(seconds=self.zero_s)
+        return f"{of} since {moment.isoformat()}{'' if self.local else 'z'}".lower()
+
+
+@lru_cache(maxsize=1024)
+def since(text: str) -> tuple[str, Zero] | None:
+    """(unit, zero) of a text that says a count from a date somewhere in it; None where it says none."""
+    low = text.lower()
+    if not any(word in low for word in ("since", "seit", "after", "depuis", "desde", "dal", "od ")):
+        return None
+    count = _COUNT.search(low)
+    if count is None:
+        return None
+    unit = next(name for name in _UNITS if count[f"u_{name}"])
+    zero = moment_in(low[count.end() :], seconds=unit != "d")
+    return None if zero is None else (unit, zero)
+
+
+def moment_in(text: str, seconds: bool = True) -> Zero | None:
+    """The moment that a text begins with, as what times count from; None where it is none, or where its day and month
+    may be either way round. seconds: whether smaller units than days count from it."""
+    match = _MOMENT.match(text.lower().strip())
+    if match is None:
+        return None
+    part = match.groupdict()
+    year, month, day = (
+        _first(part, keys) for keys in (("y", "y2", "y3", "y4", "y5"), ("m", "m2"), ("d", "d2", "d3", "d4"))
+    )
+    if (name := part["n3"] or part["n4"]) is not None:
+        month = str(_MONTHS.index(name) + 1)
+    if part["y5"]:
+        month, day = "1", "6" if year == "1980" else "1"
+    if year is None or month is None or day is None or (part["mark"] == "/" and month != day):
+        return None
+    try:
+        # days of a year are counted from the day before its first
+        hour, minute, second = (int(part[k] or 0) for k in ("hh", "mm", "ss"))
+        moment = datetime(int(year), int(month), int(day) or 1, hour, minute, second)
+    except ValueError:
+        return None
+    moment -= timedelta(days=int(day) == 0)
+    offset = part["own"] or part["off"]
+    zoned = part["zone"] is not None or offset is not None or (seconds and moment in _OF_PROGRAMS)
+    ahead = timedelta(0)
+    if offset is not None:
+        digits = offset[1:].replace(":", "")
+        ahead = timedelta(hours=int(digits[:2]), minutes=int(digits[2:] or 0)) * (-1 if offset[0] == "-" else 1)
+    return Zero(round((moment - ahead - _OF_UNIX).total_seconds()), not zoned)
+
+
+def _first(part: dict[str, str | None], keys: tuple[str, ...]) -> str | None:
+    return next((part[k] for k in keys if part[k] is not None), None)

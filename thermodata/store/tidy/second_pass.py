@@ -1,0 +1,120 @@
+"""In which pass of the hour that repeats in autumn a file was written whose local times all lie in it: what else was
+recorded in the test says it, or its declared start."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from thermodata.reader.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
+from thermodata.reader.zone import NO_ZONE
+from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.tidy.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.source_clock import recorded, start_ns
+
+_TOGETHER_NS = 120 * 10**9  # by how much logs that begin or end together differ
+_JOINED_NS = 600 * 10**9  # the pause between two parts of a recording
+
+
+def choose_passes(plan: TestPlan) -> None:
+    """Moves files that were written in a second pass into it; a problem of the plan where nothing tells the pass."""
+    for source in plan.sources.values():
+        zone, clock = source.spec.timezone, source.spec.clock
+        if zone is None or not source.raws or clock.offset is not None or clock.align_to is not None:
+            continue
+        first = [r for r in source.raws if _says(r, ALL)]
+        hour = repeated_hour(zone, min(recorded(r)[0] for r in first)) if first else None
+        if hour is not None:
+            _choose(plan, source, first, hour)
+        elif not first:
+            _compare_ends(plan, source, zone)
+
+
+def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour) -> None:
+    begin, end = min(recorded(r)[0] for r in raws), max(recorded(r)[1] for r in raws)
+    later, by = _later(plan, source, raws, (begin, end), hour)
+    if later is None:
+        first, second = (hour.written(begin, second=x) for x in (False, True))
+        plan.problems.append(
+            f"test '{plan.test.id}': all local times of '{source.name}' ({raws[0].source_path}) lie in the hour that "
+            f"{source.spec.timezone} repeats, and nothing says in which pass: they are taken as of the first; try: "
+            f"start: {second} in the test where they are of the second, or start: {first}"
+        )
+        return
+    if later:
+        mine = {id(r) for r in raws}
+        source.raws = [replace(r, moved_ns=hour.shift_ns) if id(r) in mine else r for r in source.raws]
+    plan.notes.append(
+        f"test '{plan.test.id}': all local times of '{source.name}' lie in the hour that {source.spec.timezone} "
+        f"repeats: taken as of its {'second' if later else 'first'} pass, {hour.written(begin, second=later)}, as {by}"
+    )
+
+
+def _later(
+    plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], span: tuple[int, int], hour: RepeatedHour
+) -> tuple[bool | None, str]:
+    """Whether files are of the second pass, None where nothing says it; and what does."""
+    begin, end = span
+    passes = {False: (begin, end), True: (begin + hour.shift_ns, end + hour.shift_ns)}
+    if plan.test.start is not None and _has_offset(plan.test.start):
+        declared = start_ns(plan.test.start, plan, source)
+        return abs(passes[True][0] - declared) < abs(passes[False][0] - declared), "the test's start says"
+    siblings = [recorded(r) for r in source.raws if r not in raws]
+    joined = [k for k, (a, b) in passes.items() if any(_joins((a, b), other) for other in siblings)]
+    if len(joined) == 1:
+        return joined[0], "its other files join it"
+    others = {s.name: [recorded(r) for r in s.raws] for s in plan.sources.values() if s is not source and _is_known(s)}
+    for tells in (_overlap, _go_together):
+        fits = [k for k, own in passes.items() if any(tells(own, x) for spans in others.values() for x in spans)]
+        if len(fits) == 1:
+            by = next(n for n, spans in others.items() if any(tells(passes[fits[0]], x) for x in spans))
+            return fits[0], f"'{by}' says"
+    return None, ""
+
+
+def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
+    """A log that begins with another and ends in the first pass just as much earlier as the hour lasts: its last rows
+    may be of the second pass."""
+    if not any(_says(r, ENDS) for r in source.raws):
+        return
+    begin, end = (f(recorded(r)[i] for r in source.raws) for i, f in enumerate((min, max)))
+    hour = repeated_hour(zone, end)
+    for other in plan.sources.values() if hour is not None else ():
+        if other is source or hour is None or not _is_known(other):
+            continue
+        there = (min(recorded(r)[0] for r in other.raws), max(recorded(r)[1] for r in other.raws))
+        if abs(there[0] - begin) <= _TOGETHER_NS and abs(there[1] - end - hour.shift_ns) <= _TOGETHER_NS:
+            plan.problems.append(
+                f"test '{plan.test.id}': '{source.name}' begins with '{other.name}' and ends in the hour that {zone} "
+                f"repeats, by as much earlier: its last rows, {hour.written(end, second=False)}, may be of the second "
+                "pass; try: end the file before them, a file and a test of its own for what follows; or, where they "
+                "are right, clock: {offset: 0 s} of the source"
+            )
+
+
+def _says(raw: RawStream, what: str) -> bool:
+    return any(note.startswith(what) for note in raw.notes)
+
+
+def _is_known(source: SourcePlan) -> bool:
+    """Whether its times hang on no pass, and on no zone that nobody says."""
+    doubtful = any(_says(r, ALL) or any(NO_ZONE in n for n in r.notes) for r in source.raws)
+    return bool(source.raws) and source.is_dated and not doubtful
+
+
+def _has_offset(start: str) -> bool:
+    from datetime import datetime
+
+    return datetime.fromisoformat(start).tzinfo is not None
+
+
+def _overlap(own: tuple[int, int], other: tuple[int, int]) -> bool:
+    return own[0] <= other[1] and other[0] <= own[1]
+
+
+def _go_together(own: tuple[int, int], other: tuple[int, int]) -> bool:
+    return any(abs(a - b) <= _TOGETHER_NS for a, b in zip(own, other, strict=True))
+
+
+def _joins(own: tuple[int, int], sibling: tuple[int, int]) -> bool:
+    return 0 <= own[0] - sibling[1] <= _JOINED_NS or 0 <= sibling[0] - own[1] <= _JOINED_NS
