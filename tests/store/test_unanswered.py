@@ -23,6 +23,10 @@ tests: [{id: a, role: calibration}]
         ("hall.dor", "hall.door"),
         ("hal.door", "hall.door"),
         ("spindle.bearing.frnt", "spindle.bearing.front"),
+        # not 'spindle', whose temperature stands in for that of a bearing
+        ("spindle.housing", "headstock"),
+        ("Spindle.head", "headstock"),
+        ("spindle_housing", "headstock"),
     ],
 )
 def test_a_place_with_an_unknown_part_is_meant_as_a_whole_unless_a_part_is_spelt_alike(at: str, meant: str) -> None:
