@@ -142,3 +142,73 @@ def test_logged_sources_are_no_one_table(view: StoreView, tmp_path: Path) -> Non
 def test_a_name_too_long_for_matlab_is_refused_not_cut() -> None:
     with pytest.raises(UsageError, match="too long for MATLAB"):
         mat_module._safe("T_" + "x" * 80)
+
+
+def test_excel_gets_numbers_and_dates_with_units_in_the_second_row(view: StoreView, tmp_path: Path) -> None:
+    import python_calamine
+
+    done = export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="10 s")
+    book = python_calamine.CalamineWorkbook.from_path(str(tmp_path / "x.xlsx"))
+    assert book.sheet_names == ["grid", "about"]
+    names, units, first, *rest = book.get_sheet_by_name("grid").to_python()
+    assert names == done.columns == ["time_utc", "t_s", *list(names)[2:]]
+    assert dict(zip(names, units, strict=True))["T_front"] == "degC"
+    grid = view.binned("c", "sp9000", "10 s").to_arrow_table()
+    assert len(rest) + 1 == done.rows == grid.num_rows
+    assert first[0].isoformat().startswith(START[:19])
+    at = names.index("T_front")
+    assert [row[at] for row in (first, *rest)] == pytest.approx(grid["T_front"].to_pylist())
+    about = book.get_sheet_by_name("about").to_python()
+    assert ["test", "sp9000"] in [row[:2] for row in about]
+    assert "glued čidlo" in next(row for row in about if row[0] == "T_front")
+
+
+def test_as_logged_excel_has_a_sheet_a_source_and_the_answer_the_rows_of_each(view: StoreView, tmp_path: Path) -> None:
+    import python_calamine
+
+    done = export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="logged")
+    assert done.streams == {"daq": 400, "nc": 40}
+    book = python_calamine.CalamineWorkbook.from_path(str(tmp_path / "x.xlsx"))
+    assert {n: len(book.get_sheet_by_name(n).to_python()) - 2 for n in ("daq", "nc")} == done.streams
+    names, _, *rows = book.get_sheet_by_name("nc").to_python()
+    assert rows[8][names.index("mode")] == "idle"
+
+
+def test_a_test_with_more_rows_than_a_sheet_is_refused(
+    view: StoreView, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.export import xlsx
+
+    monkeypatch.setattr(xlsx, "MOST_ROWS", 100)
+    with pytest.raises(UsageError, match="does not fit into a sheet"):
+        export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="logged")
+    assert not (tmp_path / "x.xlsx").exists()
+
+
+def test_the_times_of_csv_say_that_they_are_utc(view: StoreView, tmp_path: Path) -> None:
+    done = export_test(view, "c", "sp9000", tmp_path / "x.csv", step="10 s")
+    lines = (tmp_path / "x.csv").read_text().splitlines()
+    assert lines[0].startswith('"campaign","test","time_utc","t_s [s]"')
+    assert lines[1].split(",")[2] == f'"{START}Z"'
+    assert "time_utc" in done.columns
+    data = load(Reader(), tmp_path / "x.csv", Source(timezone="Europe/Berlin"))  # the mark counts, not the timezone
+    stream = data.recording.signals[0].stream
+    assert data.t_ns[stream][0] == np.datetime64(START, "ns").astype(np.int64)
+
+
+def test_the_answer_names_the_time_as_the_file_does(view: StoreView, tmp_path: Path) -> None:
+    for suffix, time in (("mat", "time"), ("mf4", "time"), ("csv", "time_utc"), ("parquet", "t")):
+        done = export_test(view, "c", "sp9000", tmp_path / f"x.{suffix}", step="10 s")
+        assert time in done.columns
+        assert done.streams is None
+        assert set(done.units) <= set(done.columns)
+
+
+def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="says another format") as caught:
+        export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="10 s", kind="parquet")
+    assert "x.parquet" in str(caught.value.hint)
+    with pytest.raises(UsageError, match="does not say the format") as caught:
+        export_test(view, "c", "sp9000", tmp_path / "x.ods", step="10 s")
+    assert "x.xlsx" in str(caught.value.hint)
+    export_test(view, "c", "sp9000", tmp_path / "x.data", step="10 s", kind="csv")
