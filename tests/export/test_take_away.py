@@ -212,3 +212,46 @@ def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, t
         export_test(view, "c", "sp9000", tmp_path / "x.ods", step="10 s")
     assert "x.xlsx" in str(caught.value.hint)
     export_test(view, "c", "sp9000", tmp_path / "x.data", step="10 s", kind="csv")
+
+
+def test_an_own_csv_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Path) -> None:
+    """But for a displacement whose sign nobody knew: it says so in the file."""
+    from thermodata.cli import main
+
+    lab, back = tmp_path / "lab", tmp_path / "back"
+    lab.mkdir()
+    back.mkdir()
+    t = np.datetime64("2026-03-01T08:00:00", "s") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
+    rows = [f"{a},{22 + i / 100:.2f},{i / 50:.2f},{i / 40:.3f}" for i, a in enumerate(t)]
+    (lab / "warm.csv").write_text("time,T [degC],Z [um],X [um]\n" + "\n".join(rows) + "\n")
+    (lab / "campaign.yaml").write_text("""
+schema: thermodata/campaign/1
+id: c
+sources: {daq: {reader: table, files: "{test}.csv", timezone: UTC}}
+channels:
+  T_front: {source: daq, signal: T, quantity: temperature, unit: degC, at: spindle.bearing.front}
+  disp_Z: {source: daq, signal: Z, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: s}
+  disp_X: {source: daq, signal: X, quantity: displacement, unit: um, axis: X, at: tcp}
+calibrations: {s: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}}
+tests: [{id: warm, kind: spindle, role: calibration}]
+""")
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, lab / "campaign.yaml")
+    export_test(StoreView(store), "c", "warm", back / "warm.csv", step="30 s")
+    assert "disp_X (sign unknown) [um]" in (back / "warm.csv").read_text().splitlines()[0]
+    assert main(["--store", str(tmp_path / "other"), "init", str(back)]) == 0
+    text = (back / "campaign.yaml").read_text()
+    lines = {line.split(":")[0].strip(): line for line in text.splitlines()}
+    assert "?" not in lines["log"]
+    assert "calibration: sign_disp_Z" in lines["disp_Z"]
+    assert "?" not in lines["disp_Z"]
+    assert "which way does it count?" in lines["disp_X"]
+    assert not {"campaign_2", "test_2", "# t_s_2"} & lines.keys()
+    again = Store(tmp_path / "again", create=True)
+    ingest(again, back / "campaign.yaml")
+    own, other = (
+        StoreView(s).binned(c, "warm", "30 s").to_arrow_table()["disp_Z"].to_pylist()
+        for s, c in ((store, "c"), (again, "back"))
+    )
+    assert other == pytest.approx(own)
+    assert own[-1] < own[0] - 10, "turned to the machine's axis in the first store, and not again in the other"

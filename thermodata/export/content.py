@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from thermodata.view import StoreView
 
 LOGGED = "logged"
-TIME_UTC = "time_utc"  # a column of times in UTC, which a table has to say
 _INFO = (
     "source",
     "stream",

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
-from thermodata.export.content import LOGGED, TIME_UTC, check_test, read_content
+from thermodata.export.content import LOGGED, check_test, read_content
+from thermodata.schema.exported import TIME_UTC, UNSIGNED
 from thermodata.schema.listed import listed
 from thermodata.store.base.files import whole_file
 
@@ -117,7 +118,10 @@ def _write_table(
         import pyarrow.csv
 
         table = _with_utc(table)
-        names = [f"{c} [{units[c]}]" if units.get(c) else c for c in table.column_names]
+        bare = _unsigned(view, campaign, test)
+        names = [
+            c + (UNSIGNED if c in bare else "") + (f" [{units[c]}]" if c in units else "") for c in table.column_names
+        ]
         pyarrow.csv.write_csv(table.rename_columns(names), part)
     return {"grid": table.num_rows}, list(table.column_names), units
 
@@ -135,6 +139,16 @@ def _with_utc(table: Any) -> Any:
     since = ns.cast(pa.int64()).drop_null().to_numpy()
     unit = next((u for u, size in (("s", 10**9), ("ms", 10**6), ("us", 10**3)) if not (since % size).any()), "ns")
     return table.set_column(at, TIME_UTC, pc.strftime(ns.cast(pa.timestamp(unit)), "%Y-%m-%dT%H:%M:%SZ"))
+
+
+def _unsigned(view: StoreView, campaign: str, test: str) -> set[str]:
+    """Displacements that nothing turned to the machine's axes: a file that leaves the store has to say it."""
+    found = view.sql(
+        "select channel from channel where campaign = ? and test = ? and quantity in ('displacement', 'tilt') "
+        "and sign = 'unknown'",
+        [campaign, test],
+    ).fetchall()
+    return {str(channel) for (channel,) in found}
 
 
 def _units(view: StoreView, campaign: str, test: str, columns: list[str]) -> dict[str, str]:

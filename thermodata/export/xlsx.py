@@ -16,8 +16,9 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from thermodata.errors import UsageError
-from thermodata.export.content import TIME_UTC, Content, Stream
+from thermodata.export.content import Content, Stream
 from thermodata.export.mat import flag_bits
+from thermodata.schema.exported import TIME_UTC
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384  # of a sheet
 _NAME = 31  # characters of a sheet's name

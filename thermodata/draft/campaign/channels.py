@@ -32,7 +32,8 @@ from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_count
+from thermodata.schema.exported import OF_TEST, UNSIGNED, is_own_export
+from thermodata.schema.listed import listed, with_count
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS = 2000
@@ -58,11 +59,16 @@ def channels_of(
     }
     made, seen, beside = [], set(), list[str]()
     streams = {one.signal.stream for one in found}
+    exported = is_own_export([split_unit(one.signal.name)[0] for one in found])
+    if exported:
+        notes.append(f"{group.source}: an export of thermodata; {listed(OF_TEST)} say of which test: left out")
     for one in found[:_MOST_SIGNALS]:
         signal = one.signal
         if signal.name in seen and signal.name not in twice:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
+        if exported and split_unit(signal.name)[0] in OF_TEST:
+            continue
         said, note = _said(one)
         if said.quantity is None and signal.unit is None and _counts_rows(one):
             notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
@@ -81,11 +87,14 @@ def channels_of(
         if jump is not None and said.quantity == "voltage":
             said = _moved_probe(said, called(signal))
         named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
-        name = channel_name(_wished(_with_series(signal), said), taken)
+        name = channel_name(_wished(_with_series(signal), said).replace(UNSIGNED, ""), taken)
+        turned = exported and said.axis is not None and UNSIGNED not in signal.name
         calibration = None
         in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
         if said.quantity == "displacement" and in_volts:
             calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and jump is None and turned:
+            calibration = f"sign_{name}"
         elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
             calibration, said = sign_of(name, signal, said, jump, calibrations)
         own = {id(f) for f in one.files}
@@ -94,7 +103,10 @@ def channels_of(
         lacking = tuple(t for t in group.tests if t not in having) if only else ()
         stream = signal.stream if len(streams) > 1 else None
         note = "; ".join(filter(None, (note, scale_note(one.of(f) or signal for f in one.files)))) or None
-        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
+        as_exported = turned and calibration == f"sign_{name}"
+        made.append(
+            DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note, as_exported)
+        )
     if beside:
         shown = with_count(beside, 4)
         notes.append(

@@ -147,8 +147,8 @@ def _of_log(campaign: Campaign, log: Path) -> Campaign:
     return campaign.model_copy(update={"tests": tests})
 
 
-def _listed(value: str | list[str]) -> list[str]:
-    return [value] if isinstance(value, str) else list(value)
+def _listed(value: str | list[str] | None) -> list[str]:
+    return [] if value is None else [value] if isinstance(value, str) else list(value)
 
 
 def _campaign_file(folder: Path) -> Path | None:
