@@ -88,6 +88,17 @@ def test_logs_without_displacement_are_predicted(ask: Say, logs: Path) -> None:
     assert np.ptp(first["predicted"]) > 5.0
 
 
+def test_one_log_is_predicted_as_its_test(ask: Say, refused: Callable[..., str], logs: Path) -> None:
+    whole = {t["test"]: t for t in json.loads(ask("predict", "baseline", logs, "--json").out)["tests"]}
+    (one,) = json.loads(ask("predict", "baseline", logs / "run_10.csv", "--json").out)["tests"]
+    assert one["test"] == "run_10"
+    assert one["predicted"] == whole["run_10"]["predicted"]
+    (logs / "notes.txt").write_bytes("Temp;°C".encode("cp1252"))
+    said = refused("predict", "baseline", logs / "notes.txt")
+    assert "the log fits no source of the model's campaign" in said
+    assert "{test}.csv" in said
+
+
 def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: Path) -> None:
     out = tmp_path / "predicted.parquet"
     text = ask("predict", "baseline", logs, "--out", out).out

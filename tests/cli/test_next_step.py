@@ -49,6 +49,20 @@ def test_without_roles_there_is_nothing_to_fit(say: Say, tmp_path: Path) -> None
     assert say("--store", tmp_path / "s", "fit", model).code == 0
 
 
+def test_a_model_of_no_campaign_of_the_store_is_not_put_down_to_the_roles(say: Say, tmp_path: Path) -> None:
+    path = write_campaign(tmp_path / "lab")
+    model = path.with_name("model.yaml")
+    baseline = path.with_name("baseline.yaml").read_text()
+    model.write_text(re.sub("^campaign: .*$", "campaign: before", baseline, flags=re.M))
+    line = next(i for i, text in enumerate(baseline.splitlines(), 1) if text.startswith("campaign:"))
+    name = str(re.search("^id: (.*)$", path.read_text(), re.M)[1])  # type: ignore[index]
+    said = say("--store", tmp_path / "s", "ingest", path).err.splitlines()[-1]
+    assert said == (
+        f"next: write '{name}' in place of 'before' at model.yaml:{line} (campaign), for the store has '{name}', then "
+        f"thermodata fit {model}"
+    )
+
+
 @pytest.mark.parametrize(("signal", "read"), [("dZ", True), ("T_bearing", True), ("T_nut_Z", False)])
 def test_a_channel_that_every_test_lost_is_mended_first_where_the_model_reads_it(
     say: Say, tmp_path: Path, signal: str, read: bool

@@ -197,3 +197,14 @@ def test_a_locked_test_in_which_a_logger_was_dead_takes_nothing_from_the_open_on
     }
     [found] = late_logs(compared(tests, CHANNELS, "dZ", STEP_S, locked=[replace(last, role="locked", channels=dead)]))
     assert (found.source, round(found.shift_s / 60)) == ("log", pytest.approx(-40, abs=4))
+
+
+def test_where_the_ends_of_the_logs_agree_what_is_late_is_within_a_log() -> None:
+    """Else the clock that is declared is advised, and ingest advises to take it back."""
+    problem = off_by(0, apart={3: 11})
+    [found] = [t for t in timings(problem, SPEED).off() if t.test]
+    assert "begin and end together" not in by_commands(found, problem).why
+    said = by_commands(found, problem, ends_agree=True).why
+    assert "declare at the test clocks: {" in said
+    assert "The logs begin and end together in this test" in said
+    assert "came late within their log" in said

@@ -142,3 +142,116 @@ def test_logged_sources_are_no_one_table(view: StoreView, tmp_path: Path) -> Non
 def test_a_name_too_long_for_matlab_is_refused_not_cut() -> None:
     with pytest.raises(UsageError, match="too long for MATLAB"):
         mat_module._safe("T_" + "x" * 80)
+
+
+def test_excel_gets_numbers_and_dates_with_units_in_the_second_row(view: StoreView, tmp_path: Path) -> None:
+    import python_calamine
+
+    done = export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="10 s")
+    book = python_calamine.CalamineWorkbook.from_path(str(tmp_path / "x.xlsx"))
+    assert book.sheet_names == ["grid", "about"]
+    names, units, first, *rest = book.get_sheet_by_name("grid").to_python()
+    assert names == done.columns == ["time_utc", "t_s", *list(names)[2:]]
+    assert dict(zip(names, units, strict=True))["T_front"] == "degC"
+    grid = view.binned("c", "sp9000", "10 s").to_arrow_table()
+    assert len(rest) + 1 == done.rows == grid.num_rows
+    assert first[0].isoformat().startswith(START[:19])
+    at = names.index("T_front")
+    assert [row[at] for row in (first, *rest)] == pytest.approx(grid["T_front"].to_pylist())
+    about = book.get_sheet_by_name("about").to_python()
+    assert ["test", "sp9000"] in [row[:2] for row in about]
+    assert "glued čidlo" in next(row for row in about if row[0] == "T_front")
+
+
+def test_as_logged_excel_has_a_sheet_a_source_and_the_answer_the_rows_of_each(view: StoreView, tmp_path: Path) -> None:
+    import python_calamine
+
+    done = export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="logged")
+    assert done.streams == {"daq": 400, "nc": 40}
+    book = python_calamine.CalamineWorkbook.from_path(str(tmp_path / "x.xlsx"))
+    assert {n: len(book.get_sheet_by_name(n).to_python()) - 2 for n in ("daq", "nc")} == done.streams
+    names, _, *rows = book.get_sheet_by_name("nc").to_python()
+    assert rows[8][names.index("mode")] == "idle"
+
+
+def test_a_test_with_more_rows_than_a_sheet_is_refused(
+    view: StoreView, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from thermodata.export import xlsx
+
+    monkeypatch.setattr(xlsx, "MOST_ROWS", 100)
+    with pytest.raises(UsageError, match="does not fit into a sheet"):
+        export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="logged")
+    assert not (tmp_path / "x.xlsx").exists()
+
+
+def test_the_times_of_csv_say_that_they_are_utc(view: StoreView, tmp_path: Path) -> None:
+    done = export_test(view, "c", "sp9000", tmp_path / "x.csv", step="10 s")
+    lines = (tmp_path / "x.csv").read_text().splitlines()
+    assert lines[0].startswith('"campaign","test","time_utc","t_s [s]"')
+    assert lines[1].split(",")[2] == f'"{START}Z"'
+    assert "time_utc" in done.columns
+    data = load(Reader(), tmp_path / "x.csv", Source(timezone="Europe/Berlin"))  # the mark counts, not the timezone
+    stream = data.recording.signals[0].stream
+    assert data.t_ns[stream][0] == np.datetime64(START, "ns").astype(np.int64)
+
+
+def test_the_answer_names_the_time_as_the_file_does(view: StoreView, tmp_path: Path) -> None:
+    for suffix, time in (("mat", "time"), ("mf4", "time"), ("csv", "time_utc"), ("parquet", "t")):
+        done = export_test(view, "c", "sp9000", tmp_path / f"x.{suffix}", step="10 s")
+        assert time in done.columns
+        assert done.streams is None
+        assert set(done.units) <= set(done.columns)
+
+
+def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="says another format") as caught:
+        export_test(view, "c", "sp9000", tmp_path / "x.xlsx", step="10 s", kind="parquet")
+    assert "x.parquet" in str(caught.value.hint)
+    with pytest.raises(UsageError, match="does not say the format") as caught:
+        export_test(view, "c", "sp9000", tmp_path / "x.ods", step="10 s")
+    assert "x.xlsx" in str(caught.value.hint)
+    export_test(view, "c", "sp9000", tmp_path / "x.data", step="10 s", kind="csv")
+
+
+def test_an_own_csv_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Path) -> None:
+    """But for a displacement whose sign nobody knew: it says so in the file."""
+    from thermodata.cli import main
+
+    lab, back = tmp_path / "lab", tmp_path / "back"
+    lab.mkdir()
+    back.mkdir()
+    t = np.datetime64("2026-03-01T08:00:00", "s") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
+    rows = [f"{a},{22 + i / 100:.2f},{i / 50:.2f},{i / 40:.3f}" for i, a in enumerate(t)]
+    (lab / "warm.csv").write_text("time,T [degC],Z [um],X [um]\n" + "\n".join(rows) + "\n")
+    (lab / "campaign.yaml").write_text("""
+schema: thermodata/campaign/1
+id: c
+sources: {daq: {reader: table, files: "{test}.csv", timezone: UTC}}
+channels:
+  T_front: {source: daq, signal: T, quantity: temperature, unit: degC, at: spindle.bearing.front}
+  disp_Z: {source: daq, signal: Z, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: s}
+  disp_X: {source: daq, signal: X, quantity: displacement, unit: um, axis: X, at: tcp}
+calibrations: {s: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}}
+tests: [{id: warm, kind: spindle, role: calibration}]
+""")
+    store = Store(tmp_path / "store", create=True)
+    ingest(store, lab / "campaign.yaml")
+    export_test(StoreView(store), "c", "warm", back / "warm.csv", step="30 s")
+    assert "disp_X (sign unknown) [um]" in (back / "warm.csv").read_text().splitlines()[0]
+    assert main(["--store", str(tmp_path / "other"), "init", str(back)]) == 0
+    text = (back / "campaign.yaml").read_text()
+    lines = {line.split(":")[0].strip(): line for line in text.splitlines()}
+    assert "?" not in lines["log"]
+    assert "calibration: sign_disp_Z" in lines["disp_Z"]
+    assert "?" not in lines["disp_Z"]
+    assert "which way does it count?" in lines["disp_X"]
+    assert not {"campaign_2", "test_2", "# t_s_2"} & lines.keys()
+    again = Store(tmp_path / "again", create=True)
+    ingest(again, back / "campaign.yaml")
+    own, other = (
+        StoreView(s).binned(c, "warm", "30 s").to_arrow_table()["disp_Z"].to_pylist()
+        for s, c in ((store, "c"), (again, "back"))
+    )
+    assert other == pytest.approx(own)
+    assert own[-1] < own[0] - 10, "turned to the machine's axis in the first store, and not again in the other"

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.effect import effect as find_effect
 from thermodata.effect import law
-from thermodata.export.control.program import Input, Limits, Program, build
+from thermodata.export.control.program import Input, Limits, Program, Start, build
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST
 from thermodata.modelling.seen.laws import Drive, GainLaw, TermLaw
 from thermodata.plugin import Drivers, Effect, Float1D
@@ -76,9 +76,15 @@ def driven(name: str | Effect, gains: float | Mapping[str, float] = 10.0, **p: f
 
 
 def program(
-    terms: Sequence[Driven], cycle_s: float, limits: Limits = WIDE, step_s: float = 30.0, low: float = -1e5
+    terms: Sequence[Driven],
+    cycle_s: float,
+    limits: Limits = WIDE,
+    step_s: float = 30.0,
+    low: float = -1e5,
+    start: Start | None = None,
+    band: float = 0.0,
 ) -> Program:
-    """A program of some effects."""
+    """A program of some effects. band: within which every drive stands still."""
     inputs: dict[str, Input] = {}
     for one in terms:
         needs = {n.role: n.quantity for n in one.effect.needs}
@@ -86,7 +92,18 @@ def program(
             quantity = needs[role] if needs[role] != "*" else "temperature"
             inputs[channel] = Input(channel, channel, quantity, CANONICAL_UNIT.get(quantity, "1"), low, 1e5)
     laws = [one.term(f"e{i}", step_s) for i, one in enumerate(terms)]
-    return build("model", "dZ", "um", laws, inputs, cycle_s, limits, [("model", "test 0123456789ab")])
+    return build(
+        "model",
+        "dZ",
+        "um",
+        laws,
+        inputs,
+        cycle_s,
+        limits,
+        [("model", "test 0123456789ab")],
+        start,
+        dict.fromkeys(inputs, band),
+    )
 
 
 def day(channels: Mapping[str, str], cycle_s: float, hours: float = 24.0, seed: int = 1) -> dict[str, Float1D]:

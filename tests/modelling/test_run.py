@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -308,6 +309,44 @@ def test_carrying_over(store: Store, spec: Spec) -> None:
     assert all(r.verdict == "portable" for r in rows)
     with store.reader() as con:
         assert con.execute("select count(distinct test) from portability").fetchone() == (7,)
+
+
+def test_carrying_over_to_another_campaign_of_the_store(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    """The other machine, a quarter stronger, has the same channels; one of its tests is locked there."""
+    few = replace(world, tests=world.tests[:3])
+    made = stored(few, tmp_path)
+    model = run.fit(made, spec(*EFFECTS)).model
+    text = (tmp_path / "campaign.yaml").read_text()
+    tests = "[{id: n0, kind: spectrum, role: calibration}, {id: n1, kind: spectrum, role: locked}]"
+    for k in (0, 1):
+        rows = (tmp_path / f"raw/t{k}.csv").read_text().splitlines()
+        at = rows[0].split(";").index("dZ")
+        cells = [row.split(";") for row in rows[1:]]
+        zero = float(cells[0][at])
+        for row in cells:
+            row[at] = f"{zero + 1.25 * (float(row[at]) - zero):.6f}"
+        (tmp_path / f"raw/n{k}.csv").write_text("\n".join([rows[0], *(";".join(row) for row in cells)]) + "\n")
+    other = yaml.safe_load(text) | {
+        "id": "d",
+        "machine": {"id": "m2", "spindle": "SP1"},
+        "tests": yaml.safe_load(tests),
+    }
+    (tmp_path / "other.yaml").write_text(yaml.safe_dump(other))
+    ingest(made, tmp_path / "other.yaml")
+    assert {r.campaign for r in run.transfer(made, model)} == {"c"}, "its own where nothing is asked"
+    for asked in ({"campaigns": ["d"]}, {"tests": ["n0"]}, {"tests": ["d/n0"]}):
+        [row] = run.transfer(made, model, **asked)
+        assert (row.campaign, row.test, row.machine, row.role) == ("d", "n0", "m2", "none")
+        assert row.g == pytest.approx(1.25, abs=0.05)
+    assert [r.test for r in run.transfer(made, model, ["t0", "n0"])] == ["t0", "n0"]
+    with pytest.raises(UsageError, match="locked: d/n1"):
+        run.transfer(made, model, ["n1"])
+    with pytest.raises(UsageError, match="no campaign 'e'"):
+        run.transfer(made, model, campaigns=["e"])
+    with pytest.raises(UsageError, match="no test 't0'"):
+        run.transfer(made, model, ["t0"], campaigns=["d"])
+    with made.reader() as con:
+        assert con.execute("select distinct campaign from portability").fetchall() == [("c",)]
 
 
 def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> None:

@@ -37,6 +37,23 @@ def test_a_clock_that_is_off_in_one_test_is_told() -> None:
     assert "source 'daq' begins and ends 50 min later beside 'nc'" in str(odd_clocks(days(-50 * MINUTE))[0])
 
 
+def test_what_a_declared_clock_did_is_not_advised_to_be_undone() -> None:
+    """The samples of a log came late within it: its ends agree as logged, and no longer with the clock declared."""
+    [told] = odd_clocks(days(-30 * MINUTE))
+    assert told.beside({}) == [str(told)]
+    [said] = told.beside({"d2": {"nc": -1800.0}})
+    assert "clocks: {nc: -1800 s} at this test moved: as logged, both ends agree here too" in said
+    assert "contradict" in said
+    assert "try" not in said
+    assert told.beside({"d2": {"nc": 0.0}}) == [], "somebody's word that the clock was right"
+    # what is declared and not enough is put in its place as a whole, for the line adds nothing to another
+    [said] = told.beside({"d2": {"nc": 600.0}})
+    assert "clocks: {nc: 2400 s}" in said
+    assert "clocks: {nc: 600 s, daq: -1800 s}" in said
+    [told] = odd_clocks(from_a_day_on(5, 9))
+    assert [s.split(":")[0] for s in told.beside({"d6": {"nc": 1560.0}})] == ["tests 'd5', 'd7' and 'd8'", "test 'd6'"]
+
+
 def from_a_day_on(day: int, count: int, moved_s: float = 26 * MINUTE, last_s: float = 0.0) -> dict[str, Any]:
     """last_s: by how much it is off more on the last day."""
     off = [moved_s * (i >= day) + last_s * (i == count - 1) for i in range(count)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from datetime import UTC
 from pathlib import Path
 from typing import Any
 
@@ -154,3 +155,19 @@ def test_the_text_is_what_an_auditor_reads(filled: Store, campaign: Path, capsys
     next((filled.path / "tidy").glob("*.parquet")).unlink()
     assert run([*store, "check", "--json"]) == 4
     assert json.loads(capsys.readouterr().out.split("none\n")[-1])["damaged"][0]["problem"] == "gone"
+
+
+def test_a_sample_is_asked_by_date_and_time(filled: Store, capsys: pytest.CaptureFixture[str]) -> None:
+    from datetime import datetime, timedelta, timezone
+
+    start = trace(filled, "shop", "one", "T_a", 0.0)["sample"]
+    first = datetime.fromisoformat(start["t"][:19]) + timedelta(seconds=60.0 - start["t_s"])
+    wanted = trace(filled, "shop", "one", "T_a", 60.0)["sample"]["t_s"]
+    local = first.replace(tzinfo=UTC).astimezone(timezone(timedelta(hours=2)))
+    for text in (f"{first.isoformat(' ')}", f"{first.isoformat()}Z", local.isoformat()):
+        assert run(["--store", str(filled.path), "trace", "shop", "one", "T_a", "--at", text, "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["sample"]["t_s"] == pytest.approx(wanted, abs=1.0)
+        assert run(["--store", str(filled.path), "trace", "shop", "one", "T_a", "--at", text]) == 0
+        assert ("taken as UTC" in capsys.readouterr().err) is (" " in text)
+    assert run(["--store", str(filled.path), "trace", "shop", "one", "T_a", "--at", "2026-13-01 10:30"]) == 2
+    assert "2026-03-30T08:30Z" in capsys.readouterr().err

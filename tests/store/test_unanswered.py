@@ -29,6 +29,10 @@ tests: [{id: a, role: calibration}]
         ("axis.z.cover", "axis.z"),
         ("axs.y.nut", "axis.y.nut"),
         ("rotary.c.motr", "rotary.c.motor"),
+        # not 'spindle', whose temperature stands in for that of a bearing
+        ("spindle.housing", "headstock"),
+        ("Spindle.head", "headstock"),
+        ("spindle_housing", "headstock"),
     ],
 )
 def test_a_place_with_an_unknown_part_is_meant_as_a_whole_unless_a_part_is_spelt_alike(at: str, meant: str) -> None:

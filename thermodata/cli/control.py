@@ -60,9 +60,9 @@ def model_command(
 ) -> None:
     """Write MODEL as a program for a control: model export MODEL --to st.
 
-    Frozen and self-contained, for a fixed cycle: it starts (temperatures count from what they are then, speeds, powers
-    and switches as at rest before) or goes on from its last state, holds bad readings, and limits the correction and
-    its rate. What can't run there is refused with the reason.
+    Frozen and self-contained, for a fixed cycle: it starts (temperatures count from their mean of the next minutes,
+    while they stand still; speeds, powers and switches as at rest before) or goes on from its last state, holds bad
+    readings, and limits the correction and its rate. What can't run there is refused with the reason.
     """
     from thermodata.export.control import write
     from thermodata.export.control.of_model import Asked, program_of

@@ -253,18 +253,31 @@ def history_command(session: Session, model: str | None) -> None:
     multiple=True,
     metavar="TEST",
     shell_complete=completing.tests,
-    help="Only this test; may be repeated.",
+    help="Only this test, also of another campaign of the store; may be repeated.",
 )
-def portability_command(session: Session, model: str, tests: tuple[str, ...]) -> None:
+@click.option(
+    "--campaign",
+    "campaigns",
+    multiple=True,
+    metavar="CAMPAIGN",
+    shell_complete=completing.campaigns,
+    help="The tests of this campaign, of another machine maybe; may be repeated (default: of the model's own).",
+)
+def portability_command(session: Session, model: str, tests: tuple[str, ...], campaigns: tuple[str, ...]) -> None:
     """Say how MODEL transfers to other tests and machines.
+
+    To the tests of its own campaigns, or of those that --campaign or --test name, which need its channels.
 
     The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
     with_correction, not_portable.
     """
+    from thermodata.modelling.compare.elsewhere import other_campaigns
     from thermodata.modelling.run import transfer
+    from thermodata.store.catalogue.models import find_model
 
     store = session.store()
-    rows = [plain(row) for row in transfer(store, resolve(store, model), tests)]
+    found = resolve(store, model)
+    rows = [plain(row) for row in transfer(store, found, tests, campaigns)]
     names = list(dict.fromkeys(str(row["response"]) for row in rows))
     several = len(names) > 1
 
@@ -291,3 +304,6 @@ def portability_command(session: Session, model: str, tests: tuple[str, ...]) ->
         return in_units_of(session, names, told)
 
     session.answer(rows, text)
+    others = other_campaigns(store, find_model(store, found).spec.campaign_ids)
+    if others and not tests and not campaigns:
+        session.say(f"in the store too: {', '.join(others)}; ask with --campaign {others[0]}")

@@ -146,7 +146,7 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
 @click.argument("what", metavar="CAMPAIGN|MODEL", shell_complete=completing.campaigns_and_models)
 @click.argument("test", required=False, shell_complete=completing.tests)
 @click.argument("channel", required=False, shell_complete=completing.channels)
-@click.option("--at", metavar="TIME", help="One sample, for example '2.5 h' from the start of the test.")
+@click.option("--at", metavar="TIME", help="One sample: '2.5 h' from the start of the test, or 2026-03-30T08:30Z.")
 @click.option("--verify", is_flag=True, help="Hash the source files again, and read the sample in its file again.")
 def trace_command(
     session: Session, what: str, test: str | None, channel: str | None, at: str | None, verify: bool
@@ -157,10 +157,13 @@ def trace_command(
     calibration, sign; with --at the row in the file. Of a MODEL: its data and the versions behind it.
     """
     from thermodata.cli.tracing import trace_text
-    from thermodata.schema.quantity import value_in
     from thermodata.store.trace.lineage import trace
+    from thermodata.store.trace.moment import seconds_at
 
     if at is not None and channel is None:
         raise UsageError("--at needs a channel", hint="thermodata trace CAMPAIGN TEST CHANNEL --at '2.5 h'")
-    found = trace(session.store(), what, test, channel, t_s=None if at is None else value_in(at, "s"), verify=verify)
+    t_s, said = (None, None) if at is None or test is None else seconds_at(session.store(), what, test, at)
+    if said is not None:
+        session.say(said)
+    found = trace(session.store(), what, test, channel, t_s=t_s, verify=verify)
     session.answer(found, lambda: trace_text(plain(found)))

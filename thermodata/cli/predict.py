@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @command("predict")
 @click.argument("model", shell_complete=completing.models)
-@click.argument("target", metavar="FOLDER|CAMPAIGN")
+@click.argument("target", metavar="FOLDER|LOG|CAMPAIGN")
 @click.option("--test", "tests", multiple=True, metavar="TEST", help="Only this test; may be repeated.")
 @click.option(
     "--set",
@@ -55,9 +55,10 @@ def predict_command(
 ) -> int:
     """Predict logs without displacement with MODEL.
 
-    A folder of raw logs like those of the model's campaign (or with a campaign file of its own), a campaign file, or a
-    campaign of the store (campaign:ID where a path is called so too). In each test temperatures count from
-    their first values, and what is zero at rest (speeds, powers, switches) counts as at rest before the first sample.
+    A folder of raw logs like those of the model's campaign (or with a campaign file of its own), one of these logs
+    (the others of its test are read beside it), a campaign file, or a campaign of the store (campaign:ID where a
+    path is called so too). In each test temperatures count from their first values, and what is zero at rest
+    (speeds, powers, switches) counts as at rest before the first sample.
     Exit code 3 says that tests were left out.
     """
     from thermodata.cli.progress import progress_line

@@ -1,4 +1,4 @@
-"""Taking data away: one self-contained DuckDB file, or a test as Parquet, CSV, MAT or MDF4."""
+"""Taking data away: one self-contained DuckDB file, or a test as Parquet, CSV, Excel, MAT or MDF4."""
 
 from __future__ import annotations
 
@@ -36,22 +36,27 @@ def snapshot_command(session: Session, out: Path) -> None:
     "--step",
     default="30 s",
     show_default=True,
-    help="Means of this long, states held; 'logged': as it was logged, with flags (MAT, MDF4).",
+    help="Means of this long, states held; 'logged': as it was logged, with flags (Excel, MAT, MDF4).",
 )
 @click.option(
-    "--format", "kind", type=click.Choice(["parquet", "csv", "mat", "mdf4"]), help="Default: by the name of OUT."
+    "--format",
+    "kind",
+    type=click.Choice(["parquet", "csv", "xlsx", "mat", "mdf4"]),
+    help="Default: by the name of OUT.",
 )
 @click.option("--force", is_flag=True, help="Replace OUT where it exists.")
 def export_command(
     session: Session, campaign: str, test: str, out: Path, step: str, kind: str | None, force: bool
 ) -> None:
-    """Write one TEST as Parquet, CSV, MAT or MDF4.
+    """Write one TEST as Parquet, CSV, Excel, MAT or MDF4.
 
-    All sources together on a uniform grid, or as logged; the name of OUT says the format.
+    All sources together on a uniform grid, or as logged; the name of OUT says the format. Times are in UTC. CSV has
+    decimal points; Excel (.xlsx) has numbers in any language, units in the second row.
     """
     from thermodata.export import export_test
 
     if out.exists() and not force:
         raise UsageError("the file exists", where=str(out), hint="--force replaces it")
     result = plain(export_test(session.view(), campaign, test, out, step=step, kind=kind))
-    session.answer(result, lambda: fields(result.items()))
+    shown = {**result, "rows": result["streams"] or result["rows"]}
+    session.answer(result, lambda: fields([(k, v) for k, v in shown.items() if k != "streams"]))

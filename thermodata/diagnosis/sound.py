@@ -140,7 +140,8 @@ def _clocks_right(found: Sound, index: int, ends: Ends) -> Sound:
     if any(t.test for t in off):  # heat is asked of single tests only, and takes its time
         off = not_refuted(off, compared(found.tests, found.data.channels, response.name, found.data.step_s))
     clocks = [move for t in off for move in t.moves()]
-    faults = [as_artefact(t, problem) for t in off]
+    home = {source} if (source := found.data.channels[response.name].source) else set()
+    faults = [as_artefact(t, problem, bool(home) and ends.agree([t.key], {t.source} | home)) for t in off]
 
     data = with_clocks_right(found.data, clocks)
     tests = [t for t in data.tests if t.key in keys]

@@ -1,4 +1,4 @@
-"""One test as a Parquet, CSV, MAT or MDF4 file, units in the columns' names or metadata."""
+"""One test as a Parquet, CSV, Excel, MAT or MDF4 file, units in the columns' names or metadata."""
 
 from __future__ import annotations
 
@@ -9,40 +9,59 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
 from thermodata.export.content import LOGGED, check_test, read_content
+from thermodata.schema.exported import TIME_UTC, UNSIGNED
+from thermodata.schema.listed import listed
 from thermodata.store.base.files import whole_file
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
 
-FORMATS = ("parquet", "csv", "mat", "mdf4")
-_BY_SUFFIX = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv", ".mat": "mat", ".mf4": "mdf4", ".mdf": "mdf4"}
+_SUFFIXES = {
+    "parquet": (".parquet", ".pq"),
+    "csv": (".csv",),
+    "xlsx": (".xlsx",),
+    "mat": (".mat",),
+    "mdf4": (".mf4", ".mdf"),
+}
+FORMATS = tuple(_SUFFIXES)
 
 
 @dataclass(frozen=True, slots=True)
 class Exported:
-    """What was written. rows: of the longest stream; units: column -> canonical unit."""
+    """What was written. rows: of the longest stream; streams: rows of each, where there are several; units: column ->
+    canonical unit."""
 
     path: str
     format: str
     rows: int
     columns: list[str]
     units: dict[str, str]
+    streams: dict[str, int] | None = None
 
 
 def export_test(
     view: StoreView, campaign: str, test: str, out: Path, *, step: str, kind: str | None = None
 ) -> Exported:
-    """Write `binned(campaign, test, step)` to `out`; kind None: by its suffix. step 'logged' (MAT and MDF4): each
-    source at its own times, with its flags. UsageError on unknown names; ThermodataError where `out` can't be
-    written."""
-    kind = kind or _BY_SUFFIX.get(out.suffix.lower())
-    if kind not in FORMATS:
+    """Write `binned(campaign, test, step)` to `out`; kind None: by its suffix. step 'logged' (Excel, MAT, MDF4): each
+    source at its own times, with its flags. UsageError on unknown names, and where `out` is called after another
+    format; ThermodataError where `out` can't be written."""
+    said = next((k for k, suffixes in _SUFFIXES.items() if out.suffix.lower() in suffixes), None)
+    if kind is not None and said not in (None, kind):
+        raise UsageError(
+            "the file's name says another format",
+            where=str(out),
+            expected=f"a name that ends with {' or '.join(_SUFFIXES[kind])}",
+            got=f"{out.suffix} as {kind}",
+            hint=f"leave --format out, or name it {out.with_suffix(_SUFFIXES[kind][0]).name}",
+        )
+    kind = kind or said
+    if kind is None:
         raise UsageError(
             "the file's name does not say the format",
             where=str(out),
-            expected=".parquet, .csv, .mat or .mf4",
+            expected=listed([suffixes[0] for suffixes in _SUFFIXES.values()], "or"),
             got=out.suffix or "no suffix",
-            hint="--format parquet",
+            hint=f"name it {out.with_suffix('.xlsx').name}, say, which Excel opens",
         )
     check_test(view, campaign, test)
     if step == LOGGED and kind in ("parquet", "csv"):
@@ -50,19 +69,24 @@ def export_test(
             "sources that were logged at their own times are no one table",
             expected="a step such as 1 s",
             got=f"{step} as {kind}",
-            hint="--format mat or mdf4",
+            hint="--format xlsx, mat or mdf4",
         )
     write = _write_table if kind in ("parquet", "csv") else _write_streams
     with whole_file(out, ".mf4" if kind == "mdf4" else "") as part:  # asammdf names the file itself
-        rows, columns, units = write(view, campaign, test, step, part, kind)
-    return Exported(str(out), kind, rows, columns, units)
+        sizes, columns, units = write(view, campaign, test, step, part, kind)
+    streams = sizes if len(sizes) > 1 else None
+    return Exported(str(out), kind, max(sizes.values(), default=0), columns, units, streams)
 
 
 def _write_streams(
     view: StoreView, campaign: str, test: str, step: str, part: Path, kind: str
-) -> tuple[int, list[str], dict[str, str]]:
+) -> tuple[dict[str, int], list[str], dict[str, str]]:
     content = read_content(view, campaign, test, step)
-    if kind == "mat":
+    if kind == "xlsx":
+        from thermodata.export.xlsx import write_xlsx
+
+        write_xlsx(content, part)
+    elif kind == "mat":
         from thermodata.export.mat import write_mat
 
         write_mat(content, part)
@@ -71,16 +95,18 @@ def _write_streams(
 
         write_mdf(content, part)
     columns = [name for s in content.streams for name in s.values]
+    time = "t_s" if kind == "xlsx" else "time"
+    dated = [TIME_UTC] if kind == "xlsx" and content.start_ns is not None else []
     return (
-        max((s.t_s.size for s in content.streams), default=0),
-        ["t_s", *columns],
-        {"t_s": "s", **{c: content.unit(c) for c in columns if content.unit(c)}},
+        {s.name: s.t_s.size for s in content.streams},
+        [*dated, time, *columns],
+        {time: "s", **{c: content.unit(c) for c in columns if content.unit(c)}},
     )
 
 
 def _write_table(
     view: StoreView, campaign: str, test: str, step: str, part: Path, kind: str
-) -> tuple[int, list[str], dict[str, str]]:
+) -> tuple[dict[str, int], list[str], dict[str, str]]:
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
     units = _units(view, campaign, test, table.column_names)
     if kind == "parquet":
@@ -91,9 +117,38 @@ def _write_table(
     else:
         import pyarrow.csv
 
-        names = [f"{c} [{units[c]}]" if units.get(c) else c for c in table.column_names]
+        table = _with_utc(table)
+        bare = _unsigned(view, campaign, test)
+        names = [
+            c + (UNSIGNED if c in bare else "") + (f" [{units[c]}]" if c in units else "") for c in table.column_names
+        ]
         pyarrow.csv.write_csv(table.rename_columns(names), part)
-    return table.num_rows, list(table.column_names), units
+    return {"grid": table.num_rows}, list(table.column_names), units
+
+
+def _with_utc(table: Any) -> Any:
+    """The times as text that says that it is in UTC: 2026-03-30T06:00:30Z. Without them where no clock was absolute."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    at = table.column_names.index("t")
+    times = table.column("t")
+    if times.null_count == len(times):
+        return table.remove_column(at)
+    ns = times.cast(pa.timestamp("ns"))
+    since = ns.cast(pa.int64()).drop_null().to_numpy()
+    unit = next((u for u, size in (("s", 10**9), ("ms", 10**6), ("us", 10**3)) if not (since % size).any()), "ns")
+    return table.set_column(at, TIME_UTC, pc.strftime(ns.cast(pa.timestamp(unit)), "%Y-%m-%dT%H:%M:%SZ"))
+
+
+def _unsigned(view: StoreView, campaign: str, test: str) -> set[str]:
+    """Displacements that nothing turned to the machine's axes: a file that leaves the store has to say it."""
+    found = view.sql(
+        "select channel from channel where campaign = ? and test = ? and quantity in ('displacement', 'tilt') "
+        "and sign = 'unknown'",
+        [campaign, test],
+    ).fetchall()
+    return {str(channel) for (channel,) in found}
 
 
 def _units(view: StoreView, campaign: str, test: str, columns: list[str]) -> dict[str, str]:

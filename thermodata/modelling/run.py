@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
+from thermodata.modelling.compare import elsewhere
 from thermodata.modelling.compare.beside import Beside, beside
 from thermodata.modelling.compare.differences import TestDifference, differences
 from thermodata.modelling.compare.portability import Portability, portability
@@ -186,26 +187,36 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
     return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
 
 
-def transfer(store: Store, ref: str, tests: Sequence[str] = ()) -> list[Portability]:
-    """How far the model carries over to each test and machine of its campaigns (or to those named); all are kept as
-    findings of the model. UsageError for a named test that is unknown, locked, or has nothing to carry over to."""
+def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Sequence[str] = ()) -> list[Portability]:
+    """How far the model carries over to each test and machine of its campaigns, which are kept as findings of the
+    model; or to the tests or campaigns named, of the whole store. UsageError for a named test that is unknown, locked,
+    or has nothing to carry over to."""
     from thermodata.store.catalogue.models import save_findings
 
     model = load(store, ref)
-    wanted = find_tests(tests, model.data, "--test")
+    data, more = model.data, list[Portability]()
+    others = elsewhere.asked_for(store, model.fitted.spec.campaign_ids, tests, campaigns)
+    if others:
+        there = elsewhere.data_of(store, others, data.step_s)
+        more = elsewhere.portability_of(model.fitted, there)
+        data = replace(data, tests=(*data.tests, *there.tests))
+    within = [t for t in data.tests if not campaigns or t.campaign in campaigns]
+    wanted = find_tests(tests, replace(data, tests=tuple(within)), "--test")
     rows = portability(model.fitted, model.data)
-    told = {(r.campaign, r.test) for r in rows}
-    _refuse_closed([key for key in wanted if key not in told], model)
+    told = {(r.campaign, r.test) for r in (*rows, *more)}
+    _refuse_closed([key for key in wanted if key not in told], model, data)
     save_findings(store, model.identity, "portability", [(r.campaign, r.test, r.to_json()) for r in rows])
-    return [r for r in rows if not tests or (r.campaign, r.test) in wanted]
+    here = [r for r in (*rows, *more) if not campaigns or r.campaign in campaigns]
+    return [r for r in here if not tests or (r.campaign, r.test) in wanted]
 
 
-def _refuse_closed(without: Sequence[tuple[str, str]], model: Loaded) -> None:
+def _refuse_closed(without: Sequence[tuple[str, str]], model: Loaded, data: Dataset) -> None:
     """UsageError for tests that were asked for and have no row."""
     if not without:
         return
     names = ", ".join("/".join(key) for key in without)
-    if any(model.fitted.roles.role(key) == "locked" for key in without):
+    closed = {t.key for t in data.tests if t.campaign not in model.fitted.spec.campaign_ids and t.role == "locked"}
+    if any(model.fitted.roles.role(key) == "locked" or key in closed for key in without):
         raise UsageError(
             f"locked: {names}; opened only to confirm an effect, and every look is counted",
             where="--test",

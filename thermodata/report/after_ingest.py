@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 from thermodata.effect.places import holds
 from thermodata.errors import ThermodataError
 from thermodata.modelling.inputs.drivers import names_of
+from thermodata.schema.lines import read_document
+from thermodata.schema.listed import listed
 from thermodata.schema.load import load_model, parse_model
 from thermodata.schema.model import Driver, Model, Place, Response
 
@@ -37,8 +39,11 @@ def next_step(store: Store, summary: Mapping[str, Any], campaign: Path, draft: C
         if con.execute("select 1 from model where list_contains(campaigns, ?) limit 1", [name]).fetchone():
             return None
         lost = _lost_everywhere(con, name, summary["losses"])
+        stored = [c for (c,) in con.execute("select campaign from campaign order by rowid").fetchall()]
         unfitted = _nothing_to_fit(con, (name,) if model is None else model.campaign_ids, model)
     fit = f"thermodata fit {path}"
+    if model is not None and (strange := [c for c in model.campaign_ids if c not in stored]):
+        return f"next: {_of_no_campaign(path, strange, stored, name)}, then {fit}"
     asking = model
     if lost and not path.exists():
         text = draft()
@@ -61,6 +66,14 @@ def _read(path: Path) -> Model | None:
         return load_model(path) if path.exists() else None
     except ThermodataError:
         return None
+
+
+def _of_no_campaign(path: Path, strange: Sequence[str], stored: Sequence[str], campaign: str) -> str:
+    """What to change in a model file whose campaigns the store does not have."""
+    document = read_document(path)
+    key = next(k for k in ("campaign", "campaigns") if k in document.data)
+    wrong, there = (listed([f"'{c}'" for c in some]) for some in (strange, stored))
+    return f"write '{campaign}' in place of {wrong} at {document.where((key,))}, for the store has {there}"
 
 
 def _lost_everywhere(

@@ -133,6 +133,12 @@ _ALSO: dict[str, tuple[str, ...]] = {
     "cooler": ("chiller",),
     "oil": ("hydraulics", "lubrication", "coolant"),
 }
+# and of a part, which others count to another body
+_ALSO_PARTS: dict[str, tuple[str, ...]] = {
+    f"{body}{link}{part}": ("headstock",)
+    for body, link in (("spindle", "."), ("spindle", "_"), ("head", "."))
+    for part in ("housing", "head", "box", "carrier", "casing", "body", "case", "stock")
+}
 # no body between tool and part: what is read there warms with whichever drive works
 _BESIDE = ("cabinet", "cnc")
 # makes heat or cold of its own for as long as the machine is switched on, whatever it does
@@ -187,7 +193,10 @@ def heat_at(places: Sequence[str], link: str) -> str:
 
 
 def called_here(place: str) -> tuple[str, ...]:
-    """The places of this vocabulary that others call so: 'frame.top' -> ('bed.top', 'column.top'); () where none."""
+    """The places of this vocabulary that others call so: 'frame.top' -> ('bed.top', 'column.top'), 'spindle.housing' ->
+    ('headstock',); () where none."""
+    if place.lower() in _ALSO_PARTS:
+        return _ALSO_PARTS[place.lower()]
     first, dot, rest = place.lower().partition(".")
     own = (_ALSO_CASTINGS | _ALSO).get(first, ())
     return tuple(found for one in own if (found := f"{one}{dot}{rest}") in PLACES)

@@ -137,8 +137,16 @@ def what_to_declare(source: str, moved_s: float, tests: str) -> str:
     return f"If it was off, declare {where} {was_off}; if it was right, {was_right}, and it is not asked again"
 
 
-def as_artefact(timing: Timing, problem: Problem) -> Artefact:
-    """Of a part of the tests the first one is named as its place."""
+ENDS_AGREE = (
+    ". The logs begin and end together in this test, though, as in others: then the clock was right, and the samples "
+    "came late within their log (a buffer, say). That line moves them all the same, and ingest then says that the ends "
+    "no longer agree"
+)
+
+
+def as_artefact(timing: Timing, problem: Problem, ends_agree: bool = False) -> Artefact:
+    """Of a part of the tests the first one is named as its place. ends_agree: in its test the log begins and ends with
+    that of the response, as ever."""
     minutes, known_to = timing.shift_s / 60, GIVE_OR_TAKE * problem.step_s / 60
     first = timing.key if timing.part is None else timing.part.off[0]
     of = "in this test, by how they act in the others" if timing.test else "in tests left out"
@@ -153,5 +161,6 @@ def as_artefact(timing: Timing, problem: Problem) -> Artefact:
         f"{in_words(timing.part)} its commands foretell {in_percent(timing.share)} of the squared jumps of the "
         f"displacement "
         f"{of}, unmoved {in_percent(max(timing.unmoved, 0.0))}. The choice is made with it moved; check the time "
-        f"zone and the clocks. {what_to_declare(timing.source, timing.all_s + timing.shift_s, tests)}",
+        f"zone and the clocks. {what_to_declare(timing.source, timing.all_s + timing.shift_s, tests)}"
+        f"{ENDS_AGREE if ends_agree and timing.test else ''}",
     )

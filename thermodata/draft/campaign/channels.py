@@ -33,7 +33,8 @@ from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_count
+from thermodata.schema.exported import OF_TEST, UNSIGNED, is_own_export
+from thermodata.schema.listed import listed, with_count
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
 _MOST_SIGNALS, _MOST_LINES = 2000, 2
@@ -59,11 +60,16 @@ def channels_of(
     }
     made, seen, beside = [], set(), list[str]()
     streams = {one.signal.stream for one in found}
+    exported = is_own_export([split_unit(one.signal.name)[0] for one in found])
+    if exported:
+        notes.append(f"{group.source}: an export of thermodata; {listed(OF_TEST)} say of which test: left out")
     for one in found[:_MOST_SIGNALS]:
         signal = one.signal
         if signal.name in seen and signal.name not in twice:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
+        if exported and split_unit(signal.name)[0] in OF_TEST:
+            continue
         said, note = _said(one)
         if said.quantity is None and signal.unit is None and _counts_rows(one):
             notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
@@ -82,11 +88,14 @@ def channels_of(
         if jump is not None and said.quantity == "voltage":
             said = _moved_probe(said, called(signal))
         named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
-        name = channel_name(_wished(_with_series(signal), said), taken)
+        name = channel_name(_wished(_with_series(signal), said).replace(UNSIGNED, ""), taken)
+        turned = exported and said.axis is not None and UNSIGNED not in signal.name
         calibration = None
         in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
         if said.quantity == "displacement" and in_volts:
             calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
+        elif said.quantity == "displacement" and jump is None and turned:
+            calibration = f"sign_{name}"
         elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
             calibration, said = sign_of(name, signal, said, jump, calibrations)
         own = {id(f) for f in one.files}
@@ -96,7 +105,10 @@ def channels_of(
         stream = signal.stream if len(streams) > 1 else None
         notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
         note = "; ".join(filter(None, notes_of)) or None
-        made.append(DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note))
+        as_exported = turned and calibration == f"sign_{name}"
+        made.append(
+            DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note, as_exported)
+        )
     if beside:
         shown = with_count(beside, 4)
         notes.append(

@@ -32,7 +32,7 @@ class DraftSource:
 class DraftChannel:
     """channels.<name>, or a signal that no quantity fits (said.quantity None). signal: as it stands in the file; stream
     where the file has several; only_in: the tests that have it, where not all of the source's do, and missing_in those
-    that lack it."""
+    that lack it. as_exported: its calibration says that it counts along its axis as it stands there."""
 
     name: str
     source: str
@@ -43,6 +43,7 @@ class DraftChannel:
     only_in: tuple[str, ...] = ()
     missing_in: tuple[str, ...] = ()
     note: str | None = None
+    as_exported: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import tempfile
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ from thermodata.errors import UsageError, unknown_name
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.predict import Predicted
     from thermodata.modelling.terms.fitted import FittedModel
+    from thermodata.schema.campaign import Campaign
     from thermodata.store import Store
     from thermodata.store.ingest.progress import Progress
     from thermodata.view.dataset import Dataset
@@ -110,7 +112,8 @@ def _ingested(
     from thermodata.store.trace.replan import read_campaign
 
     passing = Store(folder / "store", create=True)
-    file = path if path.is_file() else _campaign_file(path)
+    log = path.is_file() and path.suffix.lower() not in (".yaml", ".yml")
+    file = None if log else path if path.is_file() else _campaign_file(path)
     if file is not None:
         summary = ingest(passing, file, progress=progress)
     else:
@@ -119,11 +122,33 @@ def _ingested(
         needed = {n for t in terms for text in t.binding.values() for n in names_of(text)}
         with store.reader() as con:
             known = read_campaign(con, first)
-        made = campaign_of_logs(known, path, needed)
-        summary = ingest(passing, path / "campaign.yaml", progress=progress, campaign=made)
+        folder_of_logs = path.parent if log else path
+        made = campaign_of_logs(known, folder_of_logs, needed)
+        if log:
+            made = _of_log(made, path)
+        summary = ingest(passing, folder_of_logs / "campaign.yaml", progress=progress, campaign=made)
     for loss in summary.losses:
         say(f"loss: {loss.get('reason', loss)}")
     return passing, summary.campaign
+
+
+def _of_log(campaign: Campaign, log: Path) -> Campaign:
+    """The test of one log, with the logs of its other sources beside it."""
+    own = glob.escape(log.name)
+    tests = [t for t in campaign.tests if any(own in _listed(files) for files in t.files.values())]
+    if not tests:
+        raise UsageError(
+            "the log fits no source of the model's campaign",
+            where=str(log),
+            expected=", ".join(", ".join(_listed(s.files)) for s in campaign.sources.values()),
+            got=log.name,
+            hint="name it like these, or predict a folder of logs or a campaign file",
+        )
+    return campaign.model_copy(update={"tests": tests})
+
+
+def _listed(value: str | list[str] | None) -> list[str]:
+    return [] if value is None else [value] if isinstance(value, str) else list(value)
 
 
 def _campaign_file(folder: Path) -> Path | None:

@@ -53,6 +53,19 @@ def as_json(draft: Draft, out: Path, files: int, questions: int, model: Path | N
                 "questions": [j.question],
             }
             for j in draft.jumps
+        ]
+        + [
+            {
+                "name": c.calibration,
+                "kind": "scale",
+                **dict.fromkeys(("source", "file", "signal")),
+                "axis": c.said.axis,
+                **dict.fromkeys(("dwell_s", "steps_seen")),
+                "unit": "um",
+                "questions": [],
+            }
+            for c in draft.channels
+            if c.as_exported
         ],
         "tests": [
             {

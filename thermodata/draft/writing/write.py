@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.probes.which_way import calibration_for
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
 from thermodata.schema.left_out import left_out
 
@@ -48,7 +49,9 @@ def text_of(draft: Draft) -> str:
     lines += [_channel(c) for c in draft.channels]
     lines += _speed_nobody_logged(draft)
     live = [j for j in draft.jumps if j.axis and j.signal]
-    lines += ["calibrations:"] if live else []
+    exported = [c for c in draft.channels if c.as_exported]
+    lines += ["calibrations:"] if live or exported else []
+    lines += [_as_exported(c) for c in exported]
     lines += [_jump(j) for j in draft.jumps]
     lines += _tests(draft)
     lines += [f"# damaged: {one_line(p)}: {one_line(why)}" for p, why in draft.damaged]
@@ -147,6 +150,15 @@ def _speed_nobody_logged(draft: Draft) -> list[str]:
         "  # spindle_speed: {schedule: [[0 h, conditions.speed]], quantity: rotational_speed, unit: rpm, at: spindle}"
         f"   # ? nobody logged the speed that {one_line(named[0])} names: from when to when did it turn?"
     ]
+
+
+def _as_exported(c: DraftChannel) -> str:
+    """A probe that looks along +Z, and reads more as the gap grows, reads what goes along +Z."""
+    axis = c.said.axis or ""
+    return (
+        f"  {c.calibration}: {calibration_for(axis, f'+{axis}', 'gap')}   "
+        "# sure: an export of thermodata has it along the machine's axis"
+    )
 
 
 def _jump(j: DraftJump) -> str:

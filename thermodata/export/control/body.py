@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from thermodata.effect import law
 from thermodata.effect.law_text import written
+from thermodata.export.control import start
 from thermodata.export.control.program import Program, State
 from thermodata.export.control.statements import (
     Assign,
@@ -59,8 +60,7 @@ def _declare(body: Body) -> None:
         add(Variable(f"seen_{i.name}", "bool", "kept", "a good reading was seen"))
     for d in p.drives:
         add(Variable(d.name, "real", "temp", f"[{d.unit}] {d.text}" + (", from its start" if d.relative else "")))
-        if d.relative:
-            add(Variable(f"ref_{d.name}", "real", "kept", f"{d.text} at the start"))
+    start.declare(body)
     for s in p.states:
         _declare_state(body, s)
     for t in p.terms:
@@ -136,15 +136,14 @@ def _start(body: Body) -> None:
     ready = law.Logic("and", (law.Logic("not", (var("running"),)), *good, *seen))
     inner: list[Statement] = [Assign("running", truth(True), "bool"), Assign("starting", truth(True), "bool")]
     outer, body.statements = body.statements, inner
-    for d in p.drives:
-        if d.relative:
-            inner.append(Assign(f"ref_{d.name}", number(body, d.tree)))
+    start.begin(body)
     body.statements = outer
     add(If(ready, tuple(inner)))
 
 
 def _run(body: Body) -> None:
     p, add = body.program, body.statements.append
+    start.search(body)
     if p.drives:
         add(Say("What drives the effects"))
     for d in p.drives:

@@ -15,6 +15,11 @@ from thermodata.export.control.program import Program
 from thermodata.export.control.python import PYTHON
 
 SCHEMA = "thermodata/control/1"
+START_RULE = (
+    "what counts from balance counts from the mean of its first bins of bin_cycles readings, of most_bins at most and "
+    "for as long as a bin is within still_within of their mean; where the second or third is not, from where a line "
+    "through the first three was at the first reading"
+)
 
 
 def as_data(program: Program) -> dict[str, Any]:
@@ -27,6 +32,9 @@ def as_data(program: Program) -> dict[str, Any]:
         "unit": program.unit,
         "cycle_s": program.cycle_s,
         "rule": "x += forgotten * (u_old - x) + new * (u - u_old), from x = 0 and u_old = u; u as `of` says",
+        "start": None
+        if program.start is None
+        else {"rule": START_RULE, "bin_cycles": program.start.cycles, "most_bins": program.start.bins},
         "inputs": [
             {
                 "name": i.name,
@@ -45,6 +53,7 @@ def as_data(program: Program) -> dict[str, Any]:
                 "formula": _formula(d.tree),
                 "unit": d.unit,
                 "counts_from_balance": d.relative,
+                "still_within": d.band if d.relative and program.start is not None else None,
             }
             for d in program.drives
         ],
@@ -96,6 +105,10 @@ def write_mat(program: Program, path: Path) -> None:
         "drives": _cells([d.name for d in program.drives]),
         "drive_formulas": _cells([_formula(d.tree) for d in program.drives]),
         "counts_from_balance": _column([float(d.relative) for d in program.drives]),
+        "still_within": _column([d.band for d in program.drives]),
+        "start_bin_cycles": program.start.cycles if program.start else 0,
+        "start_most_bins": program.start.bins if program.start else 0,
+        "start_rule": START_RULE if program.start else "",
         "states": _cells([s.name for s in states]),
         "state_inputs": _cells([_formula(s.of) for s in states]),
         "state_while": _cells(["" if s.condition is None else _formula(s.condition) for s in states]),

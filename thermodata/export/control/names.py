@@ -16,6 +16,7 @@ of or out output pass pi program raise range real repeat resource result retain 
 tan sint sizeof sqrt static step string struct sum switch then this time to tod true try type udint uint ulint union
 unsigned until using usint var version void volatile while with word xor yield d k m t
 restart running starting wanted fault limited displacement correction gap change cycle_s inputs name state
+start_count start_bins start_mean
 """
 RESERVED = frozenset(_WORDS.split())
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
-from thermodata.export.control.program import Input, Limits, Program, build
-from thermodata.modelling.inputs.drivers import ZERO_AT_REST, names_of
+from thermodata.export.control.program import Input, Limits, Program, Start, build
+from thermodata.modelling.inputs.drivers import ZERO_AT_REST, evaluate, has_drivers, most_bins, names_of, still_within
 from thermodata.modelling.seen.laws import TermLaw, laws, refuse_unlawful
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -66,7 +66,10 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
         about.append(("left out", ", ".join(asked.without)))
     about += [("gains of", f"{t.id}: {t.group}") for t in kept if t.group]
     name = asked.name or f"{fitted.spec.name}_{response.name}"
-    return build(name, response.name, response.unit, kept, inputs, asked.cycle_s, limits, about)
+    cycles = max(1, round(data.step_s / asked.cycle_s))
+    start = Start(cycles, most_bins(cycles * asked.cycle_s))
+    bands = _bands(kept, data)
+    return build(name, response.name, response.unit, kept, inputs, asked.cycle_s, limits, about, start, bands)
 
 
 def find_response(fitted: FittedModel, name: str | None) -> FittedResponse:
@@ -103,6 +106,18 @@ def inputs_of(terms: Sequence[TermLaw], data: Dataset) -> dict[str, Input]:
             room = max(BEYOND * (high - low), 1e-6)
             low, high = -_rounded_up(max(room - low, 1e-6)), _rounded_up(max(high + room, 1e-6))
         found[name] = Input(name, name, info.quantity, info.unit, float(low), float(high), info.at)
+    return found
+
+
+def _bands(terms: Sequence[TermLaw], data: Dataset) -> dict[str, float]:
+    """Text of a drive -> how far from their mean its bins lie by noise alone in the usual test; half a step more where
+    the model drew it through its steps, for a control reads these."""
+    found: dict[str, float] = {}
+    for text in dict.fromkeys(d.text for t in terms for d in t.drives.values() if d.relative):
+        courses = [evaluate(test, text) for test in data.tests if has_drivers(test, {"": text})]
+        bands = [still_within(values[good]) for values, good, _ in courses if good.any()]
+        steps = sum(data.drawn_k.get(n, 0.0) for n in names_of(text))
+        found[text] = (float(np.median(bands)) if bands else 0.0) + steps / 2.0
     return found
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.effect import law
+from thermodata.export.control.program import Program
 from thermodata.export.control.statements import Assign, Body, Fill, If, Say, Statement, Whole
 
 _RANK = {"+": 4, "-": 4, "*": 5, "/": 5, "**": 6}
@@ -115,6 +116,13 @@ def _in(text: str, parentheses: bool) -> str:
     return f"({text})" if parentheses else text
 
 
+def _counts_from(program: Program) -> str:
+    if program.start is None:
+        return "what they are"
+    minutes = program.start.bins * program.start.cycles * program.cycle_s / 60.0
+    return f"their mean of the next {minutes:.3g} min, for as long as they stand still"
+
+
 def heading(body: Body) -> list[str]:
     """What the program is, for the comment at its head."""
     p = body.program
@@ -128,7 +136,8 @@ def heading(body: Body) -> list[str]:
         "",
         f"Call it every {p.cycle_s:g} s, no matter whether the correction is applied: the states go on.",
         "It starts when all readings are good for the first time, and again at `restart`: temperatures then count",
-        "from what they are, and what is zero at rest (speeds, powers, switches) counts as at rest before.",
+        f"from {_counts_from(p)}, and what is zero at rest (speeds, powers, switches) counts",
+        "as at rest before.",
         "What is kept holds the last state over a power cut.",
         f"A bad reading is held for {p.limits.hold_s:g} s at most; then `fault`, and the correction stands still.",
     ]

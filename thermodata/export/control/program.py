@@ -7,7 +7,7 @@ coefficients differ from 1 by a millionth, and what 32 bits leave of them is wro
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from thermodata.effect import law
 from thermodata.effect.law_text import written
@@ -18,6 +18,7 @@ from thermodata.modelling.seen.laws import TermLaw
 
 LONGEST_S, SHORTEST_S = 3600.0, 1e-3  # of a cycle
 MOST_DELAYED = 50_000  # samples in one delay
+OF_START = ("ref", "first", "sum", "bin1", "bin2", "moves", "open")  # before a drive's name: what its start remembers
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,15 @@ class Input:
 
 @dataclass(frozen=True)
 class Drive:
-    """What drives effects: a formula of inputs; relative: it counts from what it is at the start."""
+    """What drives effects: a formula of inputs; relative: it counts from what it is at the start. band: as far from its
+    mean as that a bin of it stands still."""
 
     name: str
     text: str
     tree: law.Node
     relative: bool
     unit: str
+    band: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -90,8 +93,16 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Start:
+    """How temperatures find what they count from: means over `cycles`, of which at most `bins` are averaged."""
+
+    cycles: int
+    bins: int
+
+
+@dataclass(frozen=True)
 class Program:
-    """The whole. about: (what, text) for the heading."""
+    """The whole. about: (what, text) for the heading. start: None where the first reading is what counts."""
 
     name: str
     response: str
@@ -103,6 +114,7 @@ class Program:
     terms: tuple[Term, ...]
     limits: Limits
     about: tuple[tuple[str, str], ...] = ()
+    start: Start | None = None
 
     @property
     def hold_cycles(self) -> int:
@@ -119,8 +131,11 @@ def build(
     cycle_s: float,
     limits: Limits,
     about: Sequence[tuple[str, str]] = (),
+    start: Start | None = None,
+    bands: Mapping[str, float] | None = None,
 ) -> Program:
-    """The program of some laws. inputs: channel -> how it is read. UsageError for a cycle that the laws don't fit."""
+    """The program of some laws. inputs: channel -> how it is read; bands: text of a drive -> its `band`. UsageError for
+    a cycle that the laws don't fit."""
     if not SHORTEST_S <= cycle_s <= LONGEST_S:
         raise UsageError("a cycle of a control", expected=f"{SHORTEST_S:g} s to {LONGEST_S:g} s", got=f"{cycle_s:g} s")
     taken = Names()
@@ -140,11 +155,12 @@ def build(
             for c, i in inputs.items()
             if f"held_{named[c]}" in used
         ),
-        tuple(maker.drives.values()),
+        tuple(replace(d, band=(bands or {}).get(d.text, 0.0)) for d in maker.drives.values()),
         tuple(maker.states.values()),
         made,
         limits,
         tuple(about),
+        start,
     )
 
 
@@ -163,7 +179,7 @@ class _Maker:
             if key not in self.drives:
                 plain = drive.text if drive.text.isidentifier() else f"u{len(self.drives) + 1}"
                 name = self.taken.take(f"d_{plain}")
-                self.taken.names.add(f"ref_{name}".lower())
+                self.taken.names |= {f"{p}_{name}".lower() for p in OF_START}
                 self.drives[key] = Drive(name, drive.text, key[0], drive.relative, drive.unit)
             roles[role] = law.Symbol(self.drives[key].name)
         tree: law.Node = law.ZERO

@@ -198,12 +198,22 @@ def start_deviation(values: Float1D, step: float) -> float:
 
 def _still(values: Float1D, step: float) -> int:
     """Samples from the start on that lie within their noise."""
-    most = min(max(3, int(START_S / step)), len(values))
-    noise = _noise(values)
+    most = min(most_bins(step), len(values))
+    within = still_within(values)
     count = 1
-    while count < most and abs(values[count] - values[:count].mean()) <= 3.0 * noise + 1e-12:
+    while count < most and abs(values[count] - values[:count].mean()) <= within:
         count += 1
     return count
+
+
+def most_bins(step: float) -> int:
+    """Of how many samples the value at the start is a mean, at most."""
+    return max(3, int(START_S / step))
+
+
+def still_within(values: Float1D) -> float:
+    """How far a sample lies from a mean by noise alone."""
+    return 3.0 * _noise(values) + 1e-12
 
 
 def cycle_mean(values: Float1D) -> float | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
 
@@ -21,6 +21,9 @@ LEAST_S = 120.0  # by which both ends are off; people switch two loggers on with
 APART = 10.0  # and so many times what the ends of the other tests differ by
 OTHERS = 3  # tests in which both stand as they always do
 BOTH = 0.1  # by how much, as a share of it, the shifts of both ends may differ
+
+
+Declared = Mapping[str, Mapping[str, float]]  # test -> source -> what its `clocks` add to the times [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +45,59 @@ class OddClock:
     others: int
 
     def __str__(self) -> str:
-        minutes = self.shift_s / 60
         late, early = f"{self.late}: {-self.shift_s:.0f} s", f"{self.early}: {self.shift_s:.0f} s"
-        one = len(self.tests) == 1
-        names = listed([f"'{t}'" for t in self.tests])
         return (
-            f"test{'' if one else 's'} {names}: source '{self.late}' begins and ends {minutes:.3g} min later beside "
-            f"'{self.early}' than in the {self.others} other tests, in which both ends agree: was a clock set wrongly? "
-            f"try at {'this test' if one else 'each of these tests'} clocks: {{{late}}} or clocks: {{{early}}}, or at "
+            f"{self._seen(self.tests)}: was a clock set wrongly? "
+            f"try at {_these(self.tests)} clocks: {{{late}}} or clocks: {{{early}}}, or at "
             "the source clock: {align_to: ..., by: [...]}, which estimates the offset of each test from what both "
             "logged"
         )
+
+    def beside(self, declared: Declared) -> list[str]:
+        """A sentence for the tests in which no clock of the two is declared, and one for each word of the others."""
+        told: dict[tuple[tuple[str, float], ...], list[str]] = {}
+        for test in self.tests:
+            here = declared.get(test, {})
+            told.setdefault(tuple((s, here[s]) for s in (self.late, self.early) if s in here), []).append(test)
+        return [said for words, tests in told.items() if (said := self._against(dict(words), tuple(tests)))]
+
+    def _against(self, declared: Mapping[str, float], tests: tuple[str, ...]) -> str:
+        """What the ends of the logs say against what was declared; '' where it was said that a clock is right."""
+        if not declared:
+            return str(replace(self, tests=tests))
+        if not any(declared.values()):
+            return ""
+        line = _line(declared)
+        moved_s = declared.get(self.late, 0.0) - declared.get(self.early, 0.0)
+        if abs(moved_s - self.shift_s) < max(LEAST_S, BOTH * self.shift_s):
+            return (
+                f"{self._seen(tests)}. That is what {line} at {_these(tests)} moved: as logged, both ends agree here "
+                "too, so the line and the ends of the logs contradict each other. Keep it where samples came late "
+                "within a log whose clock was right (a buffer), as what they heat or move says; take it out where a "
+                "clock was meant"
+            )
+        by = {self.late: -self.shift_s, self.early: self.shift_s}
+        tries = [_line({**declared, source: declared.get(source, 0.0) + by[source]}) for source in by]
+        return (
+            f"{self._seen(tests)}, though {line} is declared at {_these(tests)}: was it not enough, or the other way? "
+            f"try in its place {' or '.join(tries)}"
+        )
+
+    def _seen(self, tests: tuple[str, ...]) -> str:
+        names = listed([f"'{t}'" for t in tests])
+        return (
+            f"test{'' if len(tests) == 1 else 's'} {names}: source '{self.late}' begins and ends "
+            f"{self.shift_s / 60:.3g} min later beside '{self.early}' than in the {self.others} other tests, in which "
+            "both ends agree"
+        )
+
+
+def _these(tests: tuple[str, ...]) -> str:
+    return "this test" if len(tests) == 1 else "each of these tests"
+
+
+def _line(clocks: Mapping[str, float]) -> str:
+    return f"clocks: {{{', '.join(f'{source}: {by_s:.0f} s' for source, by_s in clocks.items())}}}"
 
 
 def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock]:

@@ -206,7 +206,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         notes=list(
             dict.fromkeys(
                 same_content(files_of_tests, files.hashes())
-                + [str(odd) for odd in odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})]
+                + _odd_ends(campaign, sources)
                 + unanswered(campaign)
                 + conditions_without_unit(campaign, path)
                 + _left_out(path, files_of_tests)
@@ -236,6 +236,12 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         keep(here, mark, files.hashes(), parts, again.to_json(), of_each)
     summary.seconds = time.monotonic() - began
     return summary
+
+
+def _odd_ends(campaign: Campaign, sources: Mapping[str, list[Row]]) -> list[str]:
+    declared = {t.id: t.clocks for t in campaign.tests}
+    odd = odd_clocks({t.id: sources.get(t.id, []) for t in campaign.tests})
+    return [said for one in odd for said in one.beside(declared)]
 
 
 def _left_out(path: Path, files_of_tests: Mapping[str, Collection[str]]) -> list[str]:

@@ -1,0 +1,154 @@
+"""A test as an Excel workbook: a sheet a stream, names in the first row and units in the second, numbers as numbers.
+
+What Excel needs of Office Open XML (ECMA-376) for plain tables is little, so nothing has to be installed. Numbers
+are no text here, hence no decimal comma or point to get wrong.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from thermodata.errors import UsageError
+from thermodata.export.content import Content, Stream
+from thermodata.export.mat import flag_bits
+from thermodata.schema.exported import TIME_UTC
+
+MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384  # of a sheet
+_NAME = 31  # characters of a sheet's name
+_HEAD = 2  # rows: names, units
+_EPOCH_DAYS = 25_569  # from Excel's day 0, 1899-12-30, to 1970-01-01
+_NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
+_MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+_REL = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+_PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+_XML = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
+_STYLES = (
+    f'{_XML}<styleSheet xmlns="{_MAIN}"><numFmts count="1"><numFmt numFmtId="164" '
+    'formatCode="yyyy\\-mm\\-dd\\ hh:mm:ss.000"/></numFmts>'
+    '<fonts count="1"><font><sz val="11"/><name val="Calibri"/></font></fonts>'
+    '<fills count="2"><fill><patternFill patternType="none"/></fill><fill><patternFill patternType="gray125"/></fill>'
+    '</fills><borders count="1"><border><left/><right/><top/><bottom/><diagonal/></border></borders>'
+    '<cellStyleXfs count="1"><xf numFmtId="0" fontId="0" fillId="0" borderId="0"/></cellStyleXfs><cellXfs count="2">'
+    '<xf numFmtId="0" fontId="0" fillId="0" borderId="0" xfId="0"/>'
+    '<xf numFmtId="164" fontId="0" fillId="0" borderId="0" xfId="0" applyNumberFormat="1"/></cellXfs></styleSheet>'
+)
+
+
+def write_xlsx(content: Content, path: Path) -> None:
+    """UsageError where a stream does not fit into a sheet."""
+    sheets = [(_sheet_name(s.name, n), _rows(content, s)) for n, s in enumerate(content.streams)]
+    for stream in content.streams:
+        columns = 2 + len(stream.values) + len(stream.flags)
+        if stream.t_s.size + _HEAD > MOST_ROWS or columns > MOST_COLUMNS:
+            raise UsageError(
+                "the test does not fit into a sheet of Excel",
+                where=f"{content.campaign}/{content.test}, {stream.name}",
+                expected=f"at most {MOST_ROWS - _HEAD} rows and {MOST_COLUMNS} columns",
+                got=f"{stream.t_s.size} rows, {columns} columns",
+                hint="a longer --step, or --format mat",
+            )
+    sheets.append((_sheet_name("about", len(sheets)), _about(content)))
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, text in _parts([name for name, _ in sheets]).items():
+            file.writestr(name, text)
+        for n, (_, rows) in enumerate(sheets, 1):
+            with file.open(f"xl/worksheets/sheet{n}.xml", "w", force_zip64=True) as sheet:
+                sheet.write(f'{_XML}<worksheet xmlns="{_MAIN}">{_frozen(n < len(sheets))}<sheetData>'.encode())
+                for row in rows:
+                    sheet.write(f"<row>{''.join(row)}</row>".encode())
+                sheet.write(b"</sheetData></worksheet>")
+
+
+def _rows(content: Content, stream: Stream) -> Iterator[list[str]]:
+    columns: list[tuple[str, str, Any]] = []
+    if content.start_ns is not None:
+        days = (content.start_ns / 1e9 + stream.t_s) / 86_400.0 + _EPOCH_DAYS
+        columns.append((TIME_UTC, "UTC", days))
+    columns.append(("t_s", "s", stream.t_s))
+    for name, values in stream.values.items():
+        columns.append((name, content.unit(name), values))
+        if name in stream.flags:
+            columns.append((f"{name}.flag", "", stream.flags[name]))
+    yield [_text(name) for name, _, _ in columns]
+    yield [_text(unit) for _, unit, _ in columns]
+    dated = content.start_ns is not None
+    lists = [values.tolist() for _, _, values in columns]
+    for row in zip(*lists, strict=True):
+        yield [_cell(value, dated and i == 0) for i, value in enumerate(row)]
+
+
+def _about(content: Content) -> Iterator[list[str]]:
+    for name, value in (*content.about.items(), ("step", content.step), *content.conditions.items()):
+        yield [_text(name), _cell(value)]
+    yield [_text("flags"), _text(flag_bits())]
+    yield []
+    keys = list(dict.fromkeys(k for own in content.channels.values() for k in own))
+    yield [_text(k) for k in ("channel", *keys)]
+    for name, own in content.channels.items():
+        yield [_text(name), *(_text(own.get(k, "")) for k in keys)]
+
+
+def _cell(value: Any, is_time: bool = False) -> str:
+    if isinstance(value, str):
+        return _text(value)
+    if value is None or not np.isfinite(value):
+        return "<c/>"
+    style = ' s="1"' if is_time else ""
+    return f"<c{style}><v>{value!r}</v></c>"
+
+
+def _text(value: str) -> str:
+    if not value:
+        return "<c/>"
+    return f'<c t="inlineStr"><is><t xml:space="preserve">{escape(_NO_XML.sub("", value))}</t></is></c>'
+
+
+def _frozen(is_table: bool) -> str:
+    """Names and units stay in sight."""
+    if not is_table:
+        return ""
+    pane = f'<pane ySplit="{_HEAD}" topLeftCell="A{_HEAD + 1}" activePane="bottomLeft" state="frozen"/>'
+    return f'<sheetViews><sheetView workbookViewId="0">{pane}</sheetView></sheetViews>'
+
+
+def _sheet_name(name: str, number: int) -> str:
+    """As Excel takes it; two that are cut alike differ by their number."""
+    plain = re.sub(r"[\[\]:*?/\\']", "_", name) or "sheet"
+    return plain if len(plain) <= _NAME else f"{plain[: _NAME - 4]}_{number}"
+
+
+def _parts(names: Sequence[str]) -> dict[str, str]:
+    """The files of the workbook beside its sheets."""
+    numbers = range(1, len(names) + 1)
+    types = "".join(
+        f'<Override PartName="/xl/{part}.xml" ContentType="{_TYPE}.{kind}+xml"/>'
+        for part, kind in (
+            ("workbook", "sheet.main"),
+            ("styles", "styles"),
+            *((f"worksheets/sheet{n}", "worksheet") for n in numbers),
+        )
+    )
+    sheets = "".join(
+        f'<sheet name={quoteattr(name)} sheetId="{n}" r:id="rId{n}"/>' for n, name in zip(numbers, names, strict=True)
+    )
+    links = "".join(
+        f'<Relationship Id="rId{n}" Type="{_REL}/worksheet" Target="worksheets/sheet{n}.xml"/>' for n in numbers
+    )
+    links += f'<Relationship Id="rId{len(names) + 1}" Type="{_REL}/styles" Target="styles.xml"/>'
+    return {
+        "[Content_Types].xml": f'{_XML}<Types xmlns="{_PACKAGE}/content-types"><Default Extension="rels" '
+        f'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>{types}</Types>',
+        "_rels/.rels": f'{_XML}<Relationships xmlns="{_PACKAGE}/relationships"><Relationship Id="rId1" '
+        f'Type="{_REL}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        "xl/workbook.xml": f'{_XML}<workbook xmlns="{_MAIN}" xmlns:r="{_REL}"><sheets>{sheets}</sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'{_XML}<Relationships xmlns="{_PACKAGE}/relationships">{links}</Relationships>',
+        "xl/styles.xml": _STYLES,
+    }
