@@ -19,6 +19,7 @@ from thermodata.reader.registry import reader
 from thermodata.schema.load import load_campaign, load_model
 from thermodata.store.raw.streams import declared
 
+from ..benchmarks.makes.faults import come_loose, slipped
 from ..benchmarks.makes.truth import Plan, channels
 
 HERE = "tests.benchmarks.makes"
@@ -108,6 +109,15 @@ def test_on_the_spindle_mill_a_hidden_cause_moves_the_tool_along_the_axis_that_i
     causes = import_module(f"{HERE}.spindle_mill.causes").CAUSES
     for plan in (plan for block in range(3) for plan in plans("spindle_mill", block)):
         assert all(plan.axis in causes[k].mix for k in plan.hidden)
+
+
+def test_a_fault_begins_where_it_is_told() -> None:
+    d, slip = slipped(np.zeros(6), 5.0, 3, 1800.0, "t1")
+    assert d.tolist() == [0, 0, 0, 5, 5, 5]
+    assert slip == "probe slips by 5.0 um in t1 at 1.50 h"
+    x, loose = come_loose(np.full(4, 40.0), np.full(4, 20.0), 2, 1800.0, "T_brg", "t1")
+    assert x.tolist() == [40, 40, 25, 25]
+    assert loose == "T_brg comes loose in t1 at 1.00 h"
 
 
 def test_every_make_is_tested() -> None:

@@ -10,10 +10,12 @@ from zoneinfo import ZoneInfo
 import numpy as np
 
 from ..bodies import Array, felt
+from ..faults import behind, come_loose, slipped
 from ..files import Form, csv, document
+from ..sensors import Sensor, of_log
 from .machine import AT
 from .programme import DT_S, Run
-from .sensors import SENSORS, UNITS, Sensor
+from .sensors import SENSORS, UNITS
 
 TITLES = {
     "const": "spindle",
@@ -75,8 +77,8 @@ class Laboratory:
             readings, loose = self._readings(r, temps, known, at, wrong == "loose")
             self._crio(r, d, readings)
             self._control(r, readings, timedelta(minutes=-35 if wrong == "clock" else 0))
-            behind = f"the control's clock is 35 min behind in {r.id}" if wrong == "clock" else None
-            faults += [fault for fault in (slip, loose, behind) if fault]
+            late = behind(35, r.id) if wrong == "clock" else None
+            faults += [fault for fault in (slip, loose, late) if fault]
         if self.volts:
             level = np.repeat(np.cumsum([0, *MOVES_UM]), 120)
             um = level + self.rng.normal(0, self.noise_um, len(level))
@@ -113,8 +115,7 @@ class Laboratory:
         d = move + stray
         if not slips:
             return d, None
-        um = float(rng.uniform(4, 9))
-        return d + um * (np.arange(n) >= at), f"probe slips by {um:.1f} um in {r.id} at {at * DT_S / 3600:.2f} h"
+        return slipped(d, float(rng.uniform(4, 9)), at, DT_S, r.id)
 
     def _readings(
         self, r: Run, temps: Array, known: Mapping[str, Array], at: int, comes_loose: bool
@@ -126,8 +127,7 @@ class Laboratory:
             s = SENSORS[name]
             x = felt(AT, s.mix, temps) + (self.mean_degc + self.offsets[name]) if s.mix else known[name]
             if comes_loose and name == "T_brg_f":
-                x = np.where(minutes < at, x, 0.25 * x + 0.75 * (self.mean_degc + temps[:, AT["mid"]]))
-                fault = f"T_brg_f comes loose in {r.id} at {at * DT_S / 3600:.2f} h"
+                x, fault = come_loose(x, self.mean_degc + temps[:, AT["mid"]], at, DT_S, name, r.id)
             x = np.interp(ticks, minutes, x) if s.log == "crio" else x
             grain = rng.normal(0, 0.4 * s.step, len(x))
             readings[name] = np.round((x + grain * bool(s.mix)) / s.step) * s.step
@@ -141,7 +141,7 @@ class Laboratory:
         ticks, rng = self._ticks(r), self.rng
         um = np.interp(ticks, np.arange(r.steps), d) + rng.normal(0, self.noise_um, len(ticks))
         probe = 5 + self.gain * um if self.volts else um + rng.uniform(-40, 40)
-        pt100 = {SENSORS[name].signal: readings[name] for name in _of("crio", readings)}
+        pt100 = {SENSORS[name].signal: readings[name] for name in of_log("crio", readings, SENSORS)}
         self._table(r.id, r.start, self.tick_s, {self.probe: probe, **pt100})
 
     def _table(self, name: str, start: datetime, dt_s: float, signals: Mapping[str, Array]) -> None:
@@ -150,9 +150,9 @@ class Laboratory:
         csv(self.raw / f"{name}_crio.csv", [["Timestamp UTC", *signals]], times, columns, CRIO, 4)
 
     def _control(self, r: Run, readings: Mapping[str, Array], off: timedelta) -> None:
-        nc, zone = _of("nc", readings), ZoneInfo(self.zone)
+        nc, zone = of_log("nc", readings, SENSORS), ZoneInfo(self.zone)
         times = [(r.start + off + timedelta(seconds=k * DT_S)).astimezone(zone) for k in range(r.steps)]
-        head = ["Datum", "Zeit", *(SENSORS[name].column for name in nc)]
+        head = ["Datum", "Zeit", *(_column(SENSORS[name]) for name in nc)]
         csv(self.raw / f"{r.id}_nc.csv", [head], times, [readings[name] for name in nc], CONTROL, 2)
 
     def campaign(self, runs: Sequence[Run]) -> None:
@@ -191,8 +191,9 @@ class Laboratory:
         document(self.folder / "campaign.yaml", campaign)
 
 
-def _of(log: str, names: Mapping[str, Array]) -> list[str]:
-    return [name for name in names if SENSORS[name].log == log]
+def _column(s: Sensor) -> str:
+    """Its name with its unit, as it stands in the head of the control's export."""
+    return s.signal if s.quantity == "state" else f"{s.signal} [{UNITS[s.quantity]}]"
 
 
 def _channel(s: Sensor) -> dict[str, str]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from ..sensors import Sensor
 
 UNITS = {
     "temperature": "degC",
@@ -13,25 +14,6 @@ UNITS = {
     "load": "%",
     "state": "1",
 }
-
-
-@dataclass(frozen=True)
-class Sensor:
-    """A channel: log, name in the log, place, resolution, the bodies it feels (none: what the control knows)."""
-
-    log: str
-    signal: str
-    at: str
-    step: float
-    mix: str = ""
-    quantity: str = "temperature"
-
-    @property
-    def column(self) -> str:
-        """Its name with its unit, as it stands in the head of the control's export."""
-        return self.signal if self.quantity == "state" else f"{self.signal} [{UNITS[self.quantity]}]"
-
-
 SENSORS: Mapping[str, Sensor] = {
     "T_brg_f": Sensor("crio", "AI00_brg_f", "spindle.bearing.front", 0.02, "bearing_front 1"),
     "T_brg_r": Sensor("crio", "AI01_brg_r", "spindle.bearing.rear", 0.02, "bearing_rear 0.8, sleeve_3 0.2"),
