@@ -1,49 +1,73 @@
-"""The machines that others made: what each writes is a campaign, and its truth speaks of what is logged."""
+"""The machines that others made: each writes a campaign whose signals its logs hold; its truth is of what is logged."""
 
 from __future__ import annotations
 
 import json
+from collections import Counter
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
 from thermodata.effect.registry import all_effects
+from thermodata.reader.guard import described
+from thermodata.reader.match import match_signal
+from thermodata.reader.registry import reader
 from thermodata.schema.load import load_campaign, load_model
+from thermodata.store.raw.streams import declared
+
+from ..benchmarks.makes.faults import come_loose, slipped
+from ..benchmarks.makes.truth import Plan, channels
 
 HERE = "tests.benchmarks.makes"
-MAKES = ("heavy_lathe", "horizontal_centre", "small_mill")
+MAKES = ("heavy_lathe", "horizontal_centre", "small_mill", "spindle_mill")
 
 
 def shortened(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     """Tests of minutes after little rest, so that a case takes a second at most."""
     make, programme, machine = (import_module(f"{HERE}.{name}{part}") for part in ("", ".programme", ".machine"))
-    if name == "small_mill":
-        monkeypatch.setattr(programme, "HOURS", dict.fromkeys(programme.HOURS, (0.2, 0.3)))
-    else:
+    if hasattr(make, "TESTS"):
         monkeypatch.setattr(make, "TESTS", [(kind, role, 0.7) for kind, role, _ in make.TESTS])
-    if name != "heavy_lathe":
-        monkeypatch.setattr(programme, "REST", 20)
-        monkeypatch.setattr(machine, "REST", 20)
+    else:
+        monkeypatch.setattr(programme, "HOURS", dict.fromkeys(programme.HOURS, (0.2, 0.3)))
+    for part in (programme, machine):
+        if hasattr(part, "REST"):
+            monkeypatch.setattr(part, "REST", 20)
+
+
+def written(monkeypatch: pytest.MonkeyPatch, name: str, folder: Path, case: int) -> dict[str, Any]:
+    shortened(monkeypatch, name)
+    with threadpool_limits(1):
+        truth: dict[str, Any] = import_module(f"{HERE}.{name}").write(folder, case)
+    return truth
+
+
+def plans(name: str, block: int) -> list[Plan]:
+    """What the 24 cases of a block hide."""
+    causes = import_module(f"{HERE}.{name}.causes")
+    return [causes.plan(24 * block + k, np.random.default_rng(k)) for k in range(24)]
 
 
 @pytest.mark.parametrize("name", MAKES)
-def test_a_make_writes_a_campaign_and_right_names_of_its_channels(
+def test_a_make_writes_a_campaign_of_what_its_logs_hold_and_right_names_of_its_channels(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shortened(monkeypatch, name)
-    with threadpool_limits(1):
-        truth = import_module(f"{HERE}.{name}").write(tmp_path, 0)
+    truth = written(monkeypatch, name, tmp_path, 0)
     assert json.loads((tmp_path / "truth.json").read_text()) == truth
     campaign, model = load_campaign(tmp_path / "campaign.yaml"), load_model(tmp_path / "model.yaml")
     assert model.campaign == campaign.id
     logged = set(campaign.channels)
     assert set(truth["logged"]) < logged
     assert {channel for effect in model.effects for channel in effect.drivers.values()} <= logged
-    for source in campaign.sources.values():
-        for test in campaign.tests:
-            assert (tmp_path / source.files.format(test=test.id)).stat().st_size > 100
+    for log, source in campaign.sources.items():
+        files = [tmp_path / source.files.format(test=test.id) for test in campaign.tests]
+        assert all(file.stat().st_size > 100 for file in files)
+        signals = described(reader(source.reader), files[0], declared(log, source)).signals
+        for channel in campaign.channels.values():
+            assert channel.source != log or match_signal(channel.signal, signals)
     assert truth["kind"] == "one"
     (hidden,) = truth["hidden"]
     assert hidden["right"]
@@ -51,6 +75,49 @@ def test_a_make_writes_a_campaign_and_right_names_of_its_channels(
         effect, channels = said.split(":")
         assert effect in all_effects()
         assert set(channels.split(",")) <= logged
+
+
+@pytest.mark.parametrize("block", [0, 1])
+@pytest.mark.parametrize("name", MAKES)
+def test_24_cases_in_a_row_have_each_kind_as_often(name: str, block: int) -> None:
+    drawn = plans(name, block)
+    counted = Counter(plan.kind for plan in drawn)
+    assert counted == {"one": 13, "two": 4, "none": 3, "not_logged": 2, "outside": 1, "fault": 1}
+    assert [plan.kind for plan in drawn if plan.weak] == ["one"] * 4
+    number = {"one": 1, "two": 2, "not_logged": 1}
+    assert all(len(set(plan.hidden)) == number.get(plan.kind, 0) for plan in drawn)
+
+
+@pytest.mark.parametrize("name", MAKES)
+def test_another_block_hides_other_causes(name: str) -> None:
+    assert [plan.hidden for plan in plans(name, 0)] != [plan.hidden for plan in plans(name, 1)]
+
+
+@pytest.mark.parametrize("name", MAKES)
+def test_of_a_cause_that_is_not_logged_no_channel_is(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = next(k for k, plan in enumerate(plans(name, 0)) if plan.kind == "not_logged")
+    truth = written(monkeypatch, name, tmp_path, case)
+    (hidden,) = truth["hidden"]
+    assert hidden["right"] == []
+    right = import_module(f"{HERE}.{name}.causes").CAUSES[hidden["cause"]].right
+    assert not channels(right) & set(load_campaign(tmp_path / "campaign.yaml").channels)
+
+
+def test_on_the_spindle_mill_a_hidden_cause_moves_the_tool_along_the_axis_that_is_asked() -> None:
+    causes = import_module(f"{HERE}.spindle_mill.causes").CAUSES
+    for plan in (plan for block in range(3) for plan in plans("spindle_mill", block)):
+        assert all(plan.axis in causes[k].mix for k in plan.hidden)
+
+
+def test_a_fault_begins_where_it_is_told() -> None:
+    d, slip = slipped(np.zeros(6), 5.0, 3, 1800.0, "t1")
+    assert d.tolist() == [0, 0, 0, 5, 5, 5]
+    assert slip == "probe slips by 5.0 um in t1 at 1.50 h"
+    x, loose = come_loose(np.full(4, 40.0), np.full(4, 20.0), 2, 1800.0, "T_brg", "t1")
+    assert x.tolist() == [40, 40, 25, 25]
+    assert loose == "T_brg comes loose in t1 at 1.00 h"
 
 
 def test_every_make_is_tested() -> None:

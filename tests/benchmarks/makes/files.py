@@ -40,11 +40,12 @@ _PARTS = {  # of a workbook of one sheet, but for the sheet; style 1 is a date w
 
 @dataclass(frozen=True)
 class Form:
-    """How a table is spelled: between cells, before decimals, times."""
+    """How a table is spelled: between cells, before decimals, times. cut: digits that a time loses at its end."""
 
     separator: str
     mark: str
     time: str
+    cut: int = 0
 
 
 GERMAN = Form(";", ",", "%d.%m.%Y %H:%M:%S")
@@ -61,7 +62,7 @@ def csv(
 ) -> None:
     """A table. heads: its lines above. columns: beside the times, shape (n,) each."""
     rows = (
-        [f"{t:{form.time}}", *(f"{v:.{digits}f}".replace(".", form.mark) for v in values)]
+        [f"{t:{form.time}}"[: -form.cut or None], *(f"{v:.{digits}f}".replace(".", form.mark) for v in values)]
         for t, values in zip(times, zip(*columns, strict=True), strict=True)
     )
     lines = map(form.separator.join, [*heads, *rows])

@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from ..bodies import Array, felt
+from ..faults import behind, come_loose, slipped
 from ..files import csv, document, workbook
+from ..sensors import Sensor, of_log
 from .machine import AT, RATIO
 from .programme import DT_S, Run
-from .sensors import SENSORS, Sensor
+from .sensors import SENSORS
 
 TITLES = {"const": "spindle", "repeat": "spindle", "axes": "linear_axis", "idle": "etve", "live": "spindle"}
 FAULTS = ("slip", "clock", "loose")
@@ -44,8 +46,8 @@ class Laboratory:
             self._labview(r, d, readings)
             self._control(r, readings, timedelta(minutes=-35 if wrong == "clock" else 0))
             self._hall(r, readings)
-            behind = f"the control's clock is 35 min behind in {r.id}" if wrong == "clock" else None
-            faults += [fault for fault in (slip, loose, behind) if fault]
+            late = behind(35, r.id) if wrong == "clock" else None
+            faults += [fault for fault in (slip, loose, late) if fault]
         return faults[-1] if faults else None
 
     def _displacement(self, r: Run, move: Array, slips: bool) -> tuple[Array, str | None]:
@@ -56,8 +58,7 @@ class Laboratory:
         if not slips:
             return d, None
         at, um = int(n * rng.uniform(0.3, 0.7)), float(rng.uniform(4, 9))
-        fault = f"probe slips by {um:.1f} um in {r.id} at {at * DT_S / 3600:.2f} h"
-        return d + um * (np.arange(n) >= at), fault
+        return slipped(d, um, at, DT_S, r.id)
 
     def _readings(
         self, r: Run, temps: Array, chills: Array, shown: Sequence[str], comes_loose: bool
@@ -82,16 +83,14 @@ class Laboratory:
             s = SENSORS[name]
             x = felt(AT, s.mix, temps) if s.mix else known[name]
             if comes_loose and name == "T_bearing_front":
-                at = int(n * 0.3)
-                x = np.where(np.arange(n) < at, x, 0.25 * x + 0.75 * temps[:, AT["mid"]])
-                fault = f"T_bearing_front comes loose in {r.id} at {at * DT_S / 3600:.2f} h"
+                x, fault = come_loose(x, temps[:, AT["mid"]], int(n * 0.3), DT_S, name, r.id)
             noise = rng.normal(0, 0.4 * s.step, n) if s.mix else 0
             readings[name] = np.round((x + noise) / s.step) * s.step
         return readings, fault
 
     def _labview(self, r: Run, d: Array, readings: Mapping[str, Array]) -> None:
         """LabVIEW text of many channels with one column of times; its decimals have commas."""
-        lv = _of("lv", readings)
+        lv = of_log("lv", readings, SENSORS)
         date, time = f"{r.start:%Y/%m/%d}", f"{r.start:%H:%M:%S},0"
 
         def each(key: str, value: object) -> str:
@@ -126,13 +125,13 @@ class Laboratory:
         (self.raw / f"{r.id}.lvm").write_text("\n".join([*head, *rows]) + "\n", encoding="cp1252")
 
     def _control(self, r: Run, readings: Mapping[str, Array], off: timedelta) -> None:
-        nc = _of("nc", readings)
+        nc = of_log("nc", readings, SENSORS)
         times = [r.start + off + timedelta(seconds=k * DT_S) for k in range(r.steps)]
         head = ["Time", *(SENSORS[name].signal for name in nc)]
         csv(self.raw / f"{r.id}.csv", [head], times, [readings[name] for name in nc])
 
     def _hall(self, r: Run, readings: Mapping[str, Array]) -> None:
-        hall = _of("xl", readings)
+        hall = of_log("xl", readings, SENSORS)
         rows = (
             [r.start + timedelta(seconds=k * DT_S), *(round(float(readings[name][k]), 2) for name in hall)]
             for k in range(0, r.steps, 5)
@@ -163,10 +162,6 @@ class Laboratory:
             "tests": [{"id": r.id, "kind": TITLES.get(r.kind, r.kind), "role": r.role} for r in runs],
         }
         document(self.folder / "campaign.yaml", campaign)
-
-
-def _of(log: str, names: Mapping[str, Array]) -> list[str]:
-    return [name for name in names if SENSORS[name].log == log]
 
 
 def _channel(s: Sensor) -> dict[str, str]:

@@ -3,20 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
-
-@dataclass(frozen=True)
-class Sensor:
-    """A channel: log, name in the log, place, resolution, the bodies it feels (none: what the control knows)."""
-
-    log: str
-    signal: str
-    at: str
-    step: float
-    mix: str = ""
-    quantity: str = "temperature"
-
+from ..sensors import Sensor
 
 SENSORS: Mapping[str, Sensor] = {
     "T_bearing_front": Sensor(

@@ -10,7 +10,9 @@ import numpy as np
 from nptdms import ChannelObject, RootObject, TdmsWriter
 
 from ..bodies import Array, felt
+from ..faults import behind, come_loose, slipped
 from ..files import csv, document, workbook
+from ..sensors import of_log
 from .machine import AT
 from .programme import DT_S, Run, wander
 from .sensors import SENSORS, UNITS, Sensor
@@ -48,8 +50,8 @@ class Laboratory:
             self._daq(r, d, readings)
             self._control(r, readings, timedelta(minutes=-25 if wrong == "clock" else 0))
             self._hall(r, readings)
-            behind = f"the control's clock is 25 min behind in {r.id}" if wrong == "clock" else None
-            faults += [fault for fault in (slip, loose, behind) if fault]
+            late = behind(25, r.id) if wrong == "clock" else None
+            faults += [fault for fault in (slip, loose, late) if fault]
         level = np.repeat(np.cumsum([0, *MOVES_UM]), 120)
         volts = 5 + self.gain * level + self.rng.normal(0, 2e-3, len(level))
         _tdms(self.raw / "jump.tdms", runs[0].start - timedelta(hours=2), 0.1, {self.probe: ("V", volts)})
@@ -64,8 +66,7 @@ class Laboratory:
         if not slips:
             return d, None
         at, um = int(n * rng.uniform(0.3, 0.7)), float(rng.uniform(4, 9))
-        fault = f"probe slips by {um:.1f} um in {r.id} at {at * DT_S / 3600:.2f} h"
-        return d + um * (np.arange(n) >= at), fault
+        return slipped(d, um, at, DT_S, r.id)
 
     def _readings(
         self, r: Run, temps: Array, shown: Sequence[str], comes_loose: bool
@@ -87,9 +88,7 @@ class Laboratory:
             s = SENSORS[name]
             x = felt(AT, s.mix, temps) if s.mix else known[name]
             if comes_loose and name == "T_bearing":
-                at = int(n * 0.3)
-                x = np.where(np.arange(n) < at, x, 0.25 * x + 0.75 * temps[:, AT["mid"]])
-                fault = f"T_bearing comes loose in {r.id} at {at * DT_S / 3600:.2f} h"
+                x, fault = come_loose(x, temps[:, AT["mid"]], int(n * 0.3), DT_S, name, r.id)
             grain = 0.4 * s.step * (s.quantity == "temperature")
             readings[name] = np.round((x + rng.normal(0, grain, n)) / s.step) * s.step
         return readings, fault
@@ -98,11 +97,11 @@ class Laboratory:
         u, n = r.logged, len(d)
         moving = (u["feed_z"] + u["feed_y"] + u["table"]) > 0
         volts = np.where(moving, FULL_V, np.clip(5 + self.gain * d, 0, FULL_V)) + self.rng.normal(0, 1e-4, n)
-        pt100 = {SENSORS[name].signal: ("degC", readings[name]) for name in _of("daq", readings)}
+        pt100 = {SENSORS[name].signal: ("degC", readings[name]) for name in of_log("daq", readings, SENSORS)}
         _tdms(self.raw / f"{r.id}.tdms", r.start, DT_S, {self.probe: ("V", volts), **pt100})
 
     def _control(self, r: Run, readings: Mapping[str, Array], off: timedelta) -> None:
-        nc = _of("nc", readings)
+        nc = of_log("nc", readings, SENSORS)
         heads = [
             ["Datum a čas", *(SENSORS[name].signal for name in nc)],
             ["", *(UNITS[SENSORS[name].quantity] for name in nc)],
@@ -111,7 +110,7 @@ class Laboratory:
         csv(self.raw / f"{r.id}.csv", heads, times, [readings[name] for name in nc])
 
     def _hall(self, r: Run, readings: Mapping[str, Array]) -> None:
-        hall = _of("hall", readings)
+        hall = of_log("hall", readings, SENSORS)
         rows = (
             [r.start + timedelta(seconds=k * DT_S), *(round(float(readings[name][k]), 2) for name in hall)]
             for k in range(0, len(r.logged["speed"]), 2)
@@ -162,10 +161,6 @@ class Laboratory:
             ],
         }
         document(self.folder / "campaign.yaml", campaign)
-
-
-def _of(log: str, names: Mapping[str, Array]) -> list[str]:
-    return [name for name in names if SENSORS[name].log == log]
 
 
 def _channel(s: Sensor) -> dict[str, str]:

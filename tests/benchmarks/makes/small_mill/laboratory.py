@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..bodies import Array, felt
+from ..faults import slipped
 from ..files import GERMAN, POINT, csv, document
 from .machine import AT, T0
 from .programme import DT_S, Run, wander
@@ -90,10 +91,8 @@ class Laboratory:
         for j, r in enumerate(runs):
             d = self._displacement(r, move[: len(r.moving), j])
             if self.kind == "fault" and j == self.bad:
-                n = len(d)
-                at, um = int(n * self.rng.uniform(0.3, 0.7)), float(self.rng.uniform(4, 9))
-                d = d + um * (np.arange(n) >= at)
-                fault = f"probe slips by {um:.1f} um in {r.id} at {at * DT_S / 3600:.2f} h"
+                at, um = int(len(d) * self.rng.uniform(0.3, 0.7)), float(self.rng.uniform(4, 9))
+                d, fault = slipped(d, um, at, DT_S, r.id)
             volts = np.where(r.moving, FULL_V, np.clip(2.0 + self.gain * d, -FULL_V, FULL_V))
             _lvm(self.raw / f"{r.id}.lvm", r.start, self.signal, volts, DT_S)
             self._tables(r, self._readings(r, temps[: len(d), :, j], shown))
