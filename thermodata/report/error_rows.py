@@ -62,9 +62,10 @@ def added_claims(data: ReportData) -> list[Candidate]:
 
 
 def _all_added(data: ReportData) -> list[Candidate]:
-    """The claims of one answer, once the model has them all: they were judged beside each other."""
+    """The claims of one answer, once the model has them all, for they were judged beside each other; empty where their
+    errors are of another fit."""
     claims = added_claims(data)
-    return claims if data.reason and len(claims) == len(claims_of(data.reason)) else []
+    return claims if data.reason and data.reason_of_fit and len(claims) == len(claims_of(data.reason)) else []
 
 
 def _locked_row(data: ReportData) -> ErrorRow | None:
