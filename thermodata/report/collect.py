@@ -76,7 +76,7 @@ def collect(store: Store, ref: str) -> ReportData:
         and is_fit_with_claims(stored.spec, loaded.data, chain[asked].spec, reason),
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
-        looks=_looks(store, [m.model for m in chain]),
+        looks=_looks(store, stored.spec.campaign_ids),
         first=() if chain[0].model in lacking else tuple(by_role(_first(store, chain, loaded))),
         stale=stored.stale,
         systems=tuple(see(loaded.fitted, loaded.data)),
@@ -135,14 +135,10 @@ def _calibrations(store: Store, campaigns: Sequence[str]) -> list[dict[str, Any]
     return [{**row, "checks": json.loads(row["checks"] or "[]")} for row in rows]
 
 
-def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
-    marks = ", ".join("?" for _ in models)
-    rows = _rows(
-        store,
-        f"select campaign, test, count(*) as n from locked_look where model in ({marks}) group by all",
-        list(models),
-    )
-    return {f"{row['campaign']}/{row['test']}": int(row["n"]) for row in rows}
+def _looks(store: Store, campaigns: Sequence[str]) -> dict[str, int]:
+    from thermodata.store.catalogue.looks import looks_of
+
+    return {"/".join(key): len(looks) for key, looks in looks_of(store, campaigns).items()}
 
 
 def _rows(store: Store, query: str, params: list[Any] | None = None) -> list[dict[str, Any]]:

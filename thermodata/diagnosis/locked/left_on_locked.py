@@ -77,4 +77,3 @@ def _spread(response: FittedResponse, tests: Sequence[TestData]) -> float:
     """RMS of the response about its mean in each test."""
     parts = [response.measured(t)[response.mask(t)] for t in tests]
     return rms([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
-
