@@ -92,7 +92,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, spec: Model, diagnoses: list[Any]) ->
 
 
 def grown(*effects: EffectSpec, **more: Any) -> Model:
-    return BASE.model_copy(update={"effects": [*BASE.effects, *effects], **more})
+    return BASE.model_copy(update={"effects": [*BASE.effects, *effects], "in_sample": True, **more})
 
 
 @pytest.mark.parametrize(
@@ -127,6 +127,8 @@ TURNED = PutRight(left_out=[("shop", "b")])
         (grown(ADDED), claims("lag:T_a", version=None), False),  # an answer of an older version
         (grown(ADDED, ADDED.model_copy(update={"id": "lag2"})), claims("lag:T_a"), False),  # a second lag
         (grown(ADDED, verify_on=[]), claims("lag:T_a"), False),  # fitted to fewer tests
+        (grown(ADDED, in_sample=False), claims("lag:T_a"), False),
+        (grown(ADDED, in_sample_on=["shop/a"]), claims("lag:T_a"), False),  # b came since
         (grown(ADDED, locked=["b"]), claims("lag:T_a"), False),  # other tests are locked
         (grown(ADDED), claims("lag:T_a", put_right=MOVED), False),  # the model is fitted to the logs as they are
         (grown(ADDED), claims("lag:T_a", put_right=TURNED), False),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.run import fit, load_data
+from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import model_id
 from thermodata.schema.load import load_model
 from thermodata.schema.locate import located
@@ -38,7 +39,9 @@ def fit_named(store: Store, ref: str) -> FitResult:
     if is_file(ref):
         return fit_file(store, Path(ref))
     stored = find_model(store, ref)
-    return fit(store, stored.spec, parent=stored.parent)
+    data = load_data(store, stored.spec)
+    spec = as_chosen(stored, data)
+    return fit(store, spec, parent=stored.parent, notes=came_since(spec, data))
 
 
 def model_named(store: Store, ref: str) -> str:

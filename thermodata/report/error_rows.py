@@ -130,8 +130,10 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     if role == "calibration":
         return ErrorRow("fitted", before, after, False, f"calibration tests: {tests}", data.unit, _whose(data))
     scores = common if tests_of_role(common, role) else data.scores
+    some = {f"{s.campaign}/{s.test}" for s in scores if base_role(s.role) == role} - in_sample
+    own = f"{listed([n.partition('/')[2] for n in sorted(in_sample)])} " if some else ""
     level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, scores, role)) else ""
-    note = "; ".join(filter(None, [tests, f"fitted too by now: {why}" if in_sample else "", level]))
+    note = "; ".join(filter(None, [tests, f"{own}fitted too by now: {why}" if in_sample else "", level]))
     return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
 
 

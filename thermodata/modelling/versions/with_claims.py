@@ -1,11 +1,11 @@
-"""Whether what was told of claims, such as the error that they leave on the locked tests, is of a version of a model."""
+"""Whether what was told of claims, such as their error on the locked tests, is of a version of a model."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from thermodata.errors import UsageError
-from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
@@ -20,8 +20,11 @@ def is_fit_with_claims(spec: Model, data: Dataset, earlier: Model, found: Diagno
     if found.data_version != data.data_version or (put_right is not None and put_right.clocks):
         return False  # with clocks moved, the logs were others
     left_out = set(put_right.left_out) if put_right is not None else set()
-    return _effects_with_claims(data, earlier, found) == _bare(spec.effects) and _tests(spec, data) == tuple(
-        some - left_out for some in _tests(earlier, data)
+    then, now = resolve_roles(earlier, data), resolve_roles(spec, data)
+    return (
+        {*fitted_keys(spec, now)} == {*then.calibrate, *then.verify} - left_out
+        and {*now.locked} == {*then.locked} - left_out
+        and _effects_with_claims(data, earlier, found) == _bare(spec.effects)
     )
 
 
@@ -38,9 +41,3 @@ def _effects_with_claims(data: Dataset, earlier: Model, found: Diagnosis) -> lis
 def _bare(effects: Sequence[EffectSpec]) -> list[str]:
     """In no order, and without ids, which differ by the order in which effects were added."""
     return sorted(e.model_copy(update={"id": None}).model_dump_json() for e in effects)
-
-
-def _tests(spec: Model, data: Dataset) -> tuple[set[Key], set[Key]]:
-    """(open, locked)."""
-    roles = resolve_roles(spec, data)
-    return {*roles.calibrate, *roles.verify}, {*roles.locked}
