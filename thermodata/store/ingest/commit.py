@@ -150,7 +150,7 @@ def commit(
             }
         ],
     )
-    drop_results(con, campaign, stale - set(planned.rows["test"]))
+    # what models said of a test that was taken out stays, as their fits do: it may come back
     calibrated = not same(planned.calibrations, inventory.calibrations)
     return mark_stale(con, campaign, {t: what_changed(planned.rows, inventory.rows, t, calibrated) for t in stale})
 
@@ -180,9 +180,15 @@ def what_changed(now: Rows, then: Rows, test: str, calibrated: bool) -> list[str
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are no more."""
+    """Removes what models said about tests that are forgotten, wherever it stands."""
     for table in ("prediction", "score_row", "finding", "locked_look") if tests else ():
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
+    for row in fetch(con, "select model, result from model where list_contains(campaigns, ?)", [campaign]):
+        result = json.loads(row["result"])
+        for scored in ("scores", "before"):
+            if result.get(scored):
+                result[scored] = [s for s in result[scored] if s["campaign"] != campaign or s["test"] not in tests]
+        con.execute("update model set result = ? where model = ?", [json.dumps(result), row["model"]])
 
 
 def mark_stale(con: duckdb.DuckDBPyConnection, campaign: str, tests: Mapping[str, Sequence[str]]) -> list[str]:

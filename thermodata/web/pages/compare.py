@@ -68,7 +68,8 @@ def show(request: Request) -> Response:
     chosen = _chosen(store, models, given.getlist("model"), given.get("pin", ""))
     pinned = chosen[0]
     results = [find_model(store, m.model).result for m in chosen]
-    courses = [residual_courses(store, m.model, predicted_tests(store, m.model)) for m in chosen]
+    # of all that was scored, as the errors beside them: a test that was taken out of the campaign since, too
+    courses = [residual_courses(store, m.model, _scored(r)) for m, r in zip(chosen, results, strict=True)]
     lines = _with_differences(_lines([r.scores for r in results]), courses)
     only = given.get("differs") == "1"
     response = given.get("response") if given.get("response") in pinned.responses else pinned.responses[0]
@@ -135,6 +136,10 @@ def show(request: Request) -> Response:
         unpredicted=[labels[m] for m in labels if beside and m not in beside[0].models],
         beside_command=command(desk.store_path, "compare", *labels, "--contributions", names[shown] if shown else ""),
     )
+
+
+def _scored(result: FitResult) -> list[Key]:
+    return list(dict.fromkeys((s.campaign, s.test) for s in result.scores))
 
 
 def _shown_test(
