@@ -340,6 +340,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "response_um",
         "limits",
         "at_rest",
+        "data_version",
     }
     assert found["verdict"] == "effect"
     first = found["candidates"][0]

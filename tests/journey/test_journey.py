@@ -81,6 +81,7 @@ DIAGNOSIS = {
     "response_um",
     "limits",
     "at_rest",
+    "data_version",
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {
