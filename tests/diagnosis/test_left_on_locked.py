@@ -11,6 +11,7 @@ import pytest
 
 from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.schema.diagnosis import ClockMoved, PutRight
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.store.catalogue import models as catalogue
 from thermodata.view.dataset import ChannelInfo
@@ -58,9 +59,11 @@ def test_nothing_is_missing_only_where_the_locked_tests_say_so_too(
         assert f"were left with {left:.2g} um of 10 um" in found.reason
 
 
-def claims(*ids: str, after: float | None = 3.0) -> Any:
+def claims(*ids: str, after: float | None = 3.0, version: str | None = "v1", put_right: Any = None) -> Any:
     return SimpleNamespace(
         response="dZ",
+        data_version=version,
+        put_right=put_right,
         candidates=[
             *(SimpleNamespace(id=i, claimed=True, locked_rmse_um_after=after) for i in ids),
             SimpleNamespace(id="lag:T_c", claimed=False, locked_rmse_um_after=None),
@@ -68,19 +71,28 @@ def claims(*ids: str, after: float | None = 3.0) -> Any:
     )
 
 
+def of_role(name: str, role: str) -> Any:
+    return SimpleNamespace(test=name, campaign="shop", key=("shop", name), role=role)
+
+
+DATA: Any = SimpleNamespace(
+    channels=CHANNELS,
+    data_version="v1",
+    tests=(of_role("a", "calibration"), of_role("b", "verification"), of_role("c", "locked")),
+)
+
+
 def asked(monkeypatch: pytest.MonkeyPatch, spec: Model, diagnoses: list[Any]) -> dict[str, float]:
     """Of a model at the end of a chain whose earlier versions, all of them the base, were given these diagnoses."""
     chain = [SimpleNamespace(model=str(i), spec=BASE) for i in range(len(diagnoses))]
     monkeypatch.setattr(catalogue, "model_chain", lambda store, model: [*chain, SimpleNamespace(model="last")])
     monkeypatch.setattr(catalogue, "load_diagnosis", lambda store, model: diagnoses[int(model)])
-    loaded: Any = SimpleNamespace(
-        identity="last", data=SimpleNamespace(channels=CHANNELS), fitted=SimpleNamespace(spec=spec)
-    )
+    loaded: Any = SimpleNamespace(identity="last", data=DATA, fitted=SimpleNamespace(spec=spec))
     return left_on_locked(Path("store"), loaded)  # type: ignore[arg-type]
 
 
-def grown(*effects: EffectSpec) -> Model:
-    return BASE.model_copy(update={"effects": [*BASE.effects, *effects]})
+def grown(*effects: EffectSpec, **more: Any) -> Model:
+    return BASE.model_copy(update={"effects": [*BASE.effects, *effects], "in_sample": True, **more})
 
 
 @pytest.mark.parametrize(
@@ -104,15 +116,39 @@ def test_it_is_known_of_a_model_that_has_all_that_was_claimed(
     assert asked(monkeypatch, grown(*effects), diagnoses) == expected
 
 
+MOVED = PutRight(clocks=[ClockMoved(source="daq", moved_s=600.0)])
+TURNED = PutRight(left_out=[("shop", "b")])
+
+
+@pytest.mark.parametrize(
+    ("spec", "found", "known"),
+    [
+        (grown(ADDED), claims("lag:T_a", version="v0"), False),  # the data changed, or there are more tests
+        (grown(ADDED), claims("lag:T_a", version=None), False),  # an answer of an older version
+        (grown(ADDED, ADDED.model_copy(update={"id": "lag2"})), claims("lag:T_a"), False),  # a second lag
+        (grown(ADDED, verify_on=[]), claims("lag:T_a"), False),  # fitted to fewer tests
+        (grown(ADDED, in_sample=False), claims("lag:T_a"), False),
+        (grown(ADDED, in_sample_on=["shop/a"]), claims("lag:T_a"), False),  # b came since
+        (grown(ADDED, locked=["b"]), claims("lag:T_a"), False),  # other tests are locked
+        (grown(ADDED), claims("lag:T_a", put_right=MOVED), False),  # the model is fitted to the logs as they are
+        (grown(ADDED), claims("lag:T_a", put_right=TURNED), False),
+        (grown(ADDED, verify_on=[]), claims("lag:T_a", put_right=TURNED), True),
+        (grown(ADDED, verify_on=["b"], calibrate_on=["a"]), claims("lag:T_a"), True),
+    ],
+)
+def test_it_is_known_only_of_the_same_data_tests_and_fit(
+    monkeypatch: pytest.MonkeyPatch, spec: Model, found: Any, known: bool
+) -> None:
+    assert bool(asked(monkeypatch, spec, [found])) is known
+
+
 def test_the_error_with_a_free_level_is_known_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """Errors on left-out tests have their level free: only the like is held against them."""
     one = SimpleNamespace(id="lag:T_a", claimed=True, locked_rmse_um_after=3.0, locked_shape_um_after=1.0)
     chain = [SimpleNamespace(model="0", spec=BASE), SimpleNamespace(model="last")]
     monkeypatch.setattr(catalogue, "model_chain", lambda store, model: chain)
-    found = SimpleNamespace(response="dZ", candidates=[one])
+    found = SimpleNamespace(response="dZ", candidates=[one], data_version="v1", put_right=None)
     monkeypatch.setattr(catalogue, "load_diagnosis", lambda store, model: found)
-    loaded: Any = SimpleNamespace(
-        identity="last", data=SimpleNamespace(channels=CHANNELS), fitted=SimpleNamespace(spec=grown(ADDED))
-    )
+    loaded: Any = SimpleNamespace(identity="last", data=DATA, fitted=SimpleNamespace(spec=grown(ADDED)))
     store: Any = Path("store")
     assert (left_on_locked(store, loaded), shape_left_on_locked(store, loaded)) == ({"dZ": 3.0}, {"dZ": 1.0})

@@ -83,6 +83,7 @@ DIAGNOSIS = {
     "limits",
     "at_rest",
     "stale",
+    "data_version",
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from thermodata.diagnosis.run import confirm_choice
 from thermodata.modelling import run
+from thermodata.report.collect import collect
+from thermodata.report.page import locked_note
 from thermodata.store.catalogue.looks import count_locked_look
 from thermodata.view.dataset import Dataset
 
@@ -38,3 +40,11 @@ def test_what_no_locked_test_has_the_channel_of_is_answered_twice(world: Dataset
     first, known = confirm_choice(store, model, "feed_screw:T_nut")
     assert (first.tests, first.looks, known) == ([], 1, False)
     assert confirm_choice(store, model, "feed_screw:T_nut") == (first, True)
+
+
+def test_a_report_counts_the_looks_of_all_models_as_confirm_does(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    first, other = (run.fit(store, spec("ambient_frame", name=name)).model for name in ("first", "other"))
+    assert locked_note(collect(store, other)) == "Locked tests: none was opened."
+    looks = [confirm_choice(store, model, "lag:T_bearing")[0].looks for model in (first, other)]
+    assert (looks, collect(store, other).looks, collect(store, first).looks) == ([1, 2], {"c/t7": 2}, {"c/t7": 2})

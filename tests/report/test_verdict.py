@@ -473,14 +473,23 @@ def test_locked_errors_are_those_of_all_claims_only_where_all_were_added(data: R
     assert "locked" not in {r.word for r in error_rows(dataclasses.replace(both, effects=("air", "screw", "sunny")))}
 
 
+def test_errors_of_claims_on_other_data_or_of_another_fit_are_none_of_the_version(data: ReportData) -> None:
+    asked = found("effect", [claim("screw")])
+    own = dataclasses.replace(data, reason=asked, effects=("air", "screw"))
+    assert {"locked", "left-out"} <= {r.word for r in error_rows(own)}
+    other = dataclasses.replace(own, reason_of_fit=False)
+    assert {r.word for r in error_rows(other)} == {"verification", "fitted"}
+    assert headline(other).startswith("Missing in dZ was screw")
+
+
 def test_the_reason_of_a_version_stands_as_far_back_as_its_answer_has_claims() -> None:
     single, pair = found("effect", [claim("a")]), found("effect", [claim("a"), claim("b")])
     assert _reason([]) is None
-    assert _reason([single]) is single
-    assert _reason([pair, None]) is pair
+    assert _reason([single]) == 0
+    assert _reason([pair, None]) == 0
     assert _reason([single, None]) is None
     assert _reason([pair, None, None]) is None
-    assert _reason([pair, single]) is single
+    assert _reason([pair, single]) == 1
 
 
 @pytest.mark.parametrize("verdict", ["none", "refine"])

@@ -259,6 +259,43 @@ def test_looks_do_not_count_for_other_data_of_the_same_name(filled: Store, campa
     assert [locked_looks(filled, "shop", test) for test in ("one", "two")] == [1, 0]
 
 
+def test_what_was_said_of_a_test_that_is_taken_out_stays_and_is_there_when_it_is_back(
+    filled: Store, campaign: Path
+) -> None:
+    save(filled, "m1")
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    text = campaign.read_text()
+
+    def known() -> tuple[Any, ...]:
+        with filled.reader() as con:
+            score, residual = (con.execute(f"from {view} order by all").fetchall() for view in ("score", "residual"))
+        return score, residual, locked_looks(filled, "shop", "two")
+
+    before = known()
+    assert ({row[1] for row in before[0]}, before[2]) == ({"one", "two"}, 1)
+    campaign.write_text("\n".join(line for line in text.splitlines() if "id: two" not in line))
+    notes = ingest(filled, campaign).notes
+    assert [n for n in notes if "two" in n] == [
+        "no longer in the campaign file: two; its logs are out of the store, and what models said of it stays in their "
+        "results, for when it is back"
+    ]
+    assert known() == before
+    assert not any("no longer" in n for n in ingest(filled, campaign).notes), "it is said once"
+    campaign.write_text(text)
+    assert not any("no longer" in n for n in ingest(filled, campaign).notes)
+    assert known() == before
+
+
+def test_what_is_forgotten_is_gone_from_the_results_too(filled: Store) -> None:
+    save(filled, "m1")
+    save(filled, "m2")
+    forget(filled, "shop", "two")
+    with filled.reader() as con:
+        assert con.execute("select distinct test from score").fetchall() == [("one",)]
+        assert con.execute("select model from model order by rowid").fetchall() == [("m1",), ("m2",)]
+    assert [s.test for s in find_model(filled, "m1").result.scores] == ["one"]
+
+
 def test_forgetting_takes_what_was_fitted(filled: Store) -> None:
     save(filled, "m1")
     save_diagnosis(filled, "m1", DIAGNOSIS)

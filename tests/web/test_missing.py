@@ -14,6 +14,7 @@ from thermodata.report.verdict import verdict_sentence
 from thermodata.report.words import typeset
 from thermodata.schema.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
+from thermodata.store.catalogue.looks import count_locked_look
 from thermodata.store.catalogue.models import load_diagnosis, save_diagnosis
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
@@ -43,6 +44,22 @@ def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> 
     for target in re.findall(r'<a href="#([a-z]+-\d+)">', text):
         assert target in ids
     assert set(RUNG_TARGET) == set(STUMBLES)
+
+
+def test_each_look_at_a_locked_test_is_told_with_what_it_was_for(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    campaign, test = store.connect().execute("select campaign, test from test limit 1").fetchone()
+    client = client_of(lab, write=True)[0]
+    for k, number in enumerate(("1 time", "2 times")):
+        count_locked_look(store, "0123456789ab" if k else model, [(campaign, test)], f"confirming lag:T_{k}, by choice")
+        assert f"{test} was opened {number} (" in client.get("/missing").text
+    assert (
+        f"{model[:6]}: confirming lag:T_0, by choice; 012345: confirming lag:T_1, by choice"
+        in client.get("/missing").text
+    )
+    count_locked_look(store, model, [(campaign, test)] * 6, "confirming lag:T_2, by choice")
+    assert f"{test} was opened 8 times (2 before; {model[:6]}: confirming lag:T_2" in client.get("/missing").text
 
 
 def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:

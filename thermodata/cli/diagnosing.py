@@ -25,8 +25,8 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     Or that none is missing, that what MODEL has can be refined, or that these tests can't tell.
 
     A candidate is claimed only if all evidence holds; locked tests are opened only for what is claimed or likely, and
-    counted. Of the newest model where none is named. Of a model with several responses one is asked, that of which the
-    largest share is left, or --response; whose ranks the last answer has, add and confirm take.
+    counted. Of the model fitted last where none is named. Of a model with several responses one is asked, that of which
+    the largest share is left, or --response; whose ranks the last answer has, add and confirm take.
     """
     from thermodata.cli.progress import counting_line
     from thermodata.diagnosis.run import diagnose, kept_diagnosis

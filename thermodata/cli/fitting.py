@@ -27,18 +27,20 @@ if TYPE_CHECKING:
 
 
 def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
-    """MODEL as the store knows it; where none is named, the newest one, and the session says which that is. Says on
-    stderr where the data of the model changed since its fit: every command that uses one comes by here."""
-    from thermodata.modelling.named import model_named, newest_model
+    """MODEL as the store knows it; where none is named, the one fitted last, and the session says which that is. Says
+    on stderr where models of several campaigns have the name, and where the data of the model changed since its fit:
+    every command that uses one comes by here."""
+    from thermodata.modelling.named import model_named, newest_model, of_which_campaign
     from thermodata.store.catalogue.models import find_model
     from thermodata.store.catalogue.stale import stale_line
 
     found = newest_model(store) if ref is None else model_named(store, ref)
+    stored = find_model(store, found)
     if ref is None and session is not None:
-        session.say(f"of the newest model: {found}")
-    stale = stale_line(store, find_model(store, found).model)
-    if stale is not None:
-        click.echo(stale, err=True)
+        session.say(f"of the model fitted last: {found} ({stored.name}, {', '.join(stored.spec.campaign_ids)})")
+    for said in (of_which_campaign(store, found), stale_line(store, stored.model)):
+        if said is not None:
+            click.echo(said, err=True)
     return found
 
 
@@ -100,7 +102,7 @@ def compare_command(
 ) -> None:
     """Score models against the measurements.
 
-    By test and phase, each MODEL beside the others, and where the first fails; the newest one where none is named.
+    By test and phase, each MODEL beside the others, and where the first fails; the one fitted last where none is named.
 
     With several models the JSON is that of the first, with the scores of all, and all of them in "models";
     "weak_spots" has those of the first, by response, and "differences" each model's error less that of the first, by
@@ -236,7 +238,7 @@ def remove_command(session: Session, model: str, effect: str) -> None:
 def history_command(session: Session, model: str | None) -> None:
     """Show the versions that led to MODEL, and their errors.
 
-    Of the newest one where no MODEL is named.
+    Of the one fitted last where no MODEL is named.
     """
     from thermodata.report.history import history_rows
 

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 def report_command(session: Session, model: str | None, out: Path | None) -> None:
     """Write one self-contained HTML page about MODEL.
 
-    Fit, residuals, weak spots, diagnosis, history. It needs no network and can be mailed. Of the newest model where
-    none is named.
+    Fit, residuals, weak spots, diagnosis, history. It needs no network and can be mailed. Of the model fitted
+    last where none is named.
     """
     from thermodata.report import build_report
     from thermodata.report.write import page_name

@@ -94,7 +94,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
             model.fitted, model.data, effects(), model.identity, left_on_locked=left, ends=ends, name=response
         )
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
-    found = outcome.diagnosis.model_copy(update={"locked_shape_um": shape})
+    asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version}
+    found = outcome.diagnosis.model_copy(update=asked_on)
     for look in outcome.looks:
         reason = f"confirming {', '.join(look.asked)}{_of(model, found.response)}"
         count_locked_look(store, model.identity, [t.key for t in look.tests], reason)

@@ -48,9 +48,9 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     notes = [*notes, *filter(None, [note_of_response(list(named), old.data.channels)])]
     result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed and c.id == name] if diagnosis is not None else []
-    if not claims:
+    if diagnosis is None or not claims or diagnosis.data_version != old.data.data_version:
         return result
-    # the lock was opened when it was claimed: what that gave is told, and nothing is opened again
+    # the lock was opened when it was claimed, on these data: what that gave is told, and nothing is opened again
     asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in ("before", "after")}
     return result.model_copy(update=asked)
 

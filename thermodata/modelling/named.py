@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.run import fit, load_data
+from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import model_id
 from thermodata.schema.load import load_model
 from thermodata.schema.locate import located
@@ -38,7 +39,9 @@ def fit_named(store: Store, ref: str) -> FitResult:
     if is_file(ref):
         return fit_file(store, Path(ref))
     stored = find_model(store, ref)
-    return fit(store, stored.spec, parent=stored.parent)
+    data = load_data(store, stored.spec)
+    spec = as_chosen(stored, data)
+    return fit(store, spec, parent=stored.parent, notes=came_since(spec, data))
 
 
 def model_named(store: Store, ref: str) -> str:
@@ -56,10 +59,27 @@ def model_named(store: Store, ref: str) -> str:
 
 
 def newest_model(store: Store) -> str:
-    """The id of the version that was made last; UsageError where the store holds none."""
-    from thermodata.view.models import model_rows
-
-    rows = model_rows(store)
-    if not rows:
+    """The id of the version that was fitted last, for the first time or again; UsageError where the store holds
+    none."""
+    with store.reader() as con:
+        # a fit writes its row anew, and keeps in it when the version was made
+        row = con.execute("select model from model order by rowid desc limit 1").fetchone()
+    if row is None:
         raise UsageError("no model was fitted yet", where=str(store.path), hint="thermodata fit MODEL.yaml")
-    return rows[0].model
+    return str(row[0])
+
+
+def of_which_campaign(store: Store, ref: str) -> str | None:
+    """Where models of several campaigns have a name: which it leads to, and the newest of the others; else None."""
+    with store.reader() as con:
+        rows = con.execute(
+            "select array_to_string(campaigns, ', '), arg_max(model, (created_at, rowid)) from model where name = $1 "
+            "and not exists (select 1 from model where model = $1) group by campaigns "
+            "order by max((created_at, rowid)) desc",
+            [ref],
+        ).fetchall()
+    if len(rows) < 2:
+        return None
+    (own, model), *others = rows
+    beside = "; ".join(f"{campaign}: {other}" for campaign, other in others)
+    return f"'{ref}' of {own}: {model}, the newest of that name; there are others, of {beside}"

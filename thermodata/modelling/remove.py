@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.run import fit, load
+from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import is_lag_of
 from thermodata.schema.model import Model
@@ -41,13 +42,15 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
     effects = bare if term_ids(bare) == [e.id for e in kept] else kept
     old = load(store, parent.model, anew=True)
     before = make_result(old.fitted, old.data, parent.model).scores
-    spec, notes = parent.spec.model_copy(update={"effects": effects}), [f"removed: {', '.join(gone)}"]
+    spec = as_chosen(parent, old.data).model_copy(update={"effects": effects})
+    notes = [f"removed: {', '.join(gone)}"]
     earlier = [m for m in model_chain(store, parent.model)[:-1] if _alike(m.spec, spec)]
     if earlier:
         spec = earlier[-1].spec
         notes.append(f"taken back: the effects, the tests and the fit are those of {earlier[-1].model} again")
     elif spec.in_sample:
         notes.append("verification tests stay fitted (in-sample), for they helped to choose what is left")
+        notes += came_since(spec, old.data)
     # a version of its own, whatever was fitted before: it comes of this parent, and the name leads to it
     own = spec.model_copy(update={"taken_back": parent.model})
     return fit(store, own, parent=parent.model, before=before, notes=notes)

@@ -23,6 +23,7 @@ from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.as_kept import as_kept
+from thermodata.modelling.versions.came_since import as_chosen
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.result import FitResult, Score
@@ -56,7 +57,7 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     if kept:
         fitted = as_kept(stored.spec, stored.result, data, changed=stored.stale)
     else:
-        fitted = fit_alone(stored.spec, data, uncertainty=uncertainty)
+        fitted = fit_alone(as_chosen(stored, data), data, uncertainty=uncertainty)
     return Loaded(stored.model, stored.parent, fitted, data, kept)
 
 

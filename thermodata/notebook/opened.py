@@ -34,7 +34,7 @@ _MODELS = (
 class OpenStore(StoreView):
     """`StoreView`, which only reads, and `fit`, `diagnose` and `add`, which write into the store as the commands do.
 
-    Where a method takes a model and none is named, it is the newest one.
+    Where a method takes a model and none is named, it is the one fitted last.
     """
 
     def fit(self, model: str | Path | Model) -> Fit:

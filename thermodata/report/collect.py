@@ -30,13 +30,16 @@ def collect(store: Store, ref: str) -> ReportData:
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
     from thermodata.modelling.versions.result import make_result
+    from thermodata.modelling.versions.with_claims import is_fit_with_claims
     from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)
     loaded = load(store, stored.model, uncertainty=True, anew=True)
     diagnosis = load_diagnosis(store, stored.model)
-    reason = _reason([load_diagnosis(store, m.model) for m in chain[:-1]])
+    earlier = [load_diagnosis(store, m.model) for m in chain[:-1]]
+    asked = _reason(earlier)
+    reason = None if asked is None else earlier[asked]
     responses = tuple(r.name for r in loaded.fitted.responses)
     units = chain_units(store, chain)
     last = versions(chain, units)[-1]
@@ -68,9 +71,12 @@ def collect(store: Store, ref: str) -> ReportData:
         units=units,
         diagnosis=diagnosis,
         reason=None if last.removed and not last.added else reason,
+        reason_of_fit=asked is not None
+        and reason is not None
+        and is_fit_with_claims(stored.spec, loaded.data, chain[asked].spec, reason),
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
-        looks=_looks(store, [m.model for m in chain]),
+        looks=_looks(store, stored.spec.campaign_ids),
         first=() if chain[0].model in lacking else tuple(by_role(_first(store, chain, loaded))),
         stale=stored.stale,
         systems=tuple(see(loaded.fitted, loaded.data)),
@@ -102,12 +108,13 @@ def _first(store: Store, chain: Sequence[StoredModel], loaded: Loaded) -> Iterab
         yield from parts_of(*_refitted(store, chain[0], loaded), {})
 
 
-def _reason(earlier: Sequence[Diagnosis | None]) -> Diagnosis | None:
-    """Why the last effect was added. earlier: of the ancestors, oldest first. Each claim of one answer becomes a
-    version of its own, so the answer may stand as many versions back as it has claims."""
+def _reason(earlier: Sequence[Diagnosis | None]) -> int | None:
+    """The place of the ancestor whose answer says why the last effect was added. earlier: their answers, oldest first.
+    Each claim of one answer becomes a version of its own, so the answer may stand as many versions back as it has
+    claims."""
     for back, found in enumerate(reversed(earlier), 1):
         if found is not None:
-            return found if back <= max(1, len(claims_of(found))) else None
+            return len(earlier) - back if back <= max(1, len(claims_of(found))) else None
     return None
 
 
@@ -128,14 +135,10 @@ def _calibrations(store: Store, campaigns: Sequence[str]) -> list[dict[str, Any]
     return [{**row, "checks": json.loads(row["checks"] or "[]")} for row in rows]
 
 
-def _looks(store: Store, models: Sequence[str]) -> dict[str, int]:
-    marks = ", ".join("?" for _ in models)
-    rows = _rows(
-        store,
-        f"select campaign, test, count(*) as n from locked_look where model in ({marks}) group by all",
-        list(models),
-    )
-    return {f"{row['campaign']}/{row['test']}": int(row["n"]) for row in rows}
+def _looks(store: Store, campaigns: Sequence[str]) -> dict[str, int]:
+    from thermodata.store.catalogue.looks import looks_of
+
+    return {"/".join(key): len(looks) for key, looks in looks_of(store, campaigns).items()}
 
 
 def _rows(store: Store, query: str, params: list[Any] | None = None) -> list[dict[str, Any]]:

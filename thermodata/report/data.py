@@ -107,8 +107,9 @@ class ReportData:
     """A model, its scores and curves, and what was diagnosed.
 
     diagnosis: of this model; reason: of its last ancestor that has one, which says why effects were added since.
+    reason_of_fit: whether its claims were confirmed in this very fit: on these data and tests, with no other effect.
     units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
-    test was opened. calibrations: rows of the catalogue's table.
+    test was opened, for whichever model. calibrations: rows of the catalogue's table.
     weak: weak spots by response. first: the tests as the first version foretells them, for the scale of residuals;
     empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; stale: they changed
     since the model was kept. as_stored: of each earlier version that can't be run, why, and what is told of it.
@@ -138,6 +139,7 @@ class ReportData:
     systems: tuple[Seen, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)
+    reason_of_fit: bool = True
 
     def unit_of(self, found: Diagnosis | str | None) -> str:
         """Of a response, or of the one that was diagnosed."""

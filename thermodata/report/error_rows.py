@@ -64,9 +64,10 @@ def added_claims(data: ReportData) -> list[Candidate]:
 
 
 def _all_added(data: ReportData) -> list[Candidate]:
-    """The claims of one answer, once the model has them all: they were judged beside each other."""
+    """The claims of one answer, once the model has them all, for they were judged beside each other; empty where their
+    errors are of another fit."""
     claims = added_claims(data)
-    return claims if data.reason and len(claims) == len(claims_of(data.reason)) else []
+    return claims if data.reason and data.reason_of_fit and len(claims) == len(claims_of(data.reason)) else []
 
 
 def _locked_row(data: ReportData) -> ErrorRow | None:
@@ -133,8 +134,10 @@ def _role_row(data: ReportData, role: str) -> ErrorRow | None:
     if role == "calibration":
         return ErrorRow("fitted", before, after, False, tests, data.unit, _whose(data))
     scores = common if tests_of_role(common, role) else data.scores
+    some = {f"{s.campaign}/{s.test}" for s in scores if base_role(s.role) == role} - in_sample
+    own = f"{listed([n.partition('/')[2] for n in sorted(in_sample)])} " if some else ""
     level = f"mostly the level of {listed(levels)}" if (levels := _off_by_level(data, scores, role)) else ""
-    note = "; ".join(filter(None, [tests, f"fitted too by now: {why}" if in_sample else "", level]))
+    note = "; ".join(filter(None, [tests, f"{own}fitted too by now: {why}" if in_sample else "", level]))
     return ErrorRow("verification", before, after, not in_sample, note, data.unit, _whose(data))
 
 

@@ -212,9 +212,9 @@ def _rms(residuals: list[np.ndarray]) -> float | None:
 def locked_note(data: ReportData) -> str:
     """How often locked data was opened: what was looked at often is no longer a surprise."""
     if not data.looks:
-        return "Locked tests: none was opened for this model or its ancestors."
+        return "Locked tests: none was opened."
     opened = ", ".join(f"{test} {n} time{'s' if n > 1 else ''}" for test, n in sorted(data.looks.items()))
-    return f"Locked tests were opened for this model and its ancestors: {opened}."
+    return f"Locked tests were opened, for whichever model of the store: {opened}."
 
 
 def _test(data: ReportData, part: TestPart, key: str) -> dict[str, Any]:

@@ -184,7 +184,7 @@ class Diagnosis(Result):
         for the verdicts none and refine
     fitted_rmse_um: error of the model as it is fitted, on the open tests from their first samples on
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
-        none were
+        none were, or in another fit, on other tests or other data
     locked_shape_um: the same over those in which they act, a free offset for each, as left-out tests have it; null
         where it is not known
     explainable: largest fall of the squared error that a candidate gives, 0 to 1
@@ -203,6 +203,7 @@ class Diagnosis(Result):
     by_choice: whether the response was asked for
     not_asked: effects of the library whose plugins failed
     started_on: open tests that begin with something on that may have run before
+    data_version: digest of the data that it was asked on; null in an answer of an older version
     """
 
     model: str
@@ -232,6 +233,7 @@ class Diagnosis(Result):
     by_choice: bool = False
     not_asked: list[NotAsked] = []
     started_on: list[StartedOn] = []
+    data_version: str | None = None
 
 
 class TestConfirmed(Result):

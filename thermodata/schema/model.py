@@ -152,6 +152,7 @@ class Model(Strict):
     step: of the grid of fit and simulation [s]
     effects: the sum
     in_sample: set by add: verification tests are fitted too, and their scores say so
+    in_sample_on: set where such a model is fitted again: those that took part in the choice; null: all
     taken_back: set by remove: id of the version that an effect was taken out of
     notes: free text
     """
@@ -169,6 +170,7 @@ class Model(Strict):
     step: Annotated[Seconds, Field(gt=0), _WITH_UNIT] = 30.0
     effects: list[EffectSpec] = []
     in_sample: bool = Field(default=False, json_schema_extra=NOT_TYPED)
+    in_sample_on: list[str] | None = Field(default=None, json_schema_extra=NOT_TYPED)
     taken_back: str | None = Field(default=None, json_schema_extra=NOT_TYPED)
     notes: str = ""
 

@@ -40,7 +40,7 @@ class About:
 def about_test(store: Store, campaign: str, test: str) -> About:
     """looks: how often its lock was opened. open_in: models that were fitted to it, or checked on it, while it was
     open."""
-    from thermodata.store.catalogue.looks import open_in
+    from thermodata.store.catalogue.looks import locked_looks, open_in
 
     own = [campaign, test]
     with store.reader() as con:
@@ -52,7 +52,6 @@ def about_test(store: Store, campaign: str, test: str) -> About:
             f"and from_s is not null order by from_s, channel limit {_MOST}",
             own,
         )
-        looks = con.execute("select count(*) from locked_look where campaign = ? and test = ?", own).fetchone()
     return About(
         row,
         {p["phase"]: (p["from_s"], p["to_s"]) for p in phases},
@@ -68,6 +67,6 @@ def about_test(store: Store, campaign: str, test: str) -> About:
             )
             for e in events
         ),
-        int(looks[0]) if looks else 0,
+        locked_looks(store, campaign, test),
         tuple(open_in(store, [campaign]).get((campaign, test), ())),
     )

@@ -2,7 +2,8 @@
 confirmed. Nothing is opened for it.
 
 What is claimed or likely opens the lock, and what a model with it leaves there is kept of claims alone. It says
-nothing of which effect is missing; but where it is large, something is.
+nothing of which effect is missing; but where it is large, something is. Of other data, other tests or another fit it
+says nothing at all.
 """
 
 from __future__ import annotations
@@ -15,15 +16,13 @@ import numpy as np
 from thermodata.diagnosis.claims.rules import HALVES
 from thermodata.diagnosis.question.known import rms
 from thermodata.diagnosis.verdict.judge import Judgement
-from thermodata.errors import UsageError
-from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.modelling.versions.with_claims import is_fit_with_claims
 from thermodata.schema.counted import in_percent
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted_response import FittedResponse
     from thermodata.schema.candidate import Candidate
-    from thermodata.schema.model import EffectSpec, Model
     from thermodata.store import Store
     from thermodata.view.dataset import TestData
 from thermodata.schema.quantity import difference_unit
@@ -31,7 +30,7 @@ from thermodata.schema.quantity import difference_unit
 
 def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
     """Response -> error on the locked tests [its unit], with the claims of the last version that was given any; empty
-    where none was, where there was nothing to confirm them on, or where the model has not all of them."""
+    where none was, where there was nothing to confirm them on, or where they were confirmed in another fit."""
     found = _claimed_before(store, model)
     return {} if found is None or (known := found[1].locked_rmse_um_after) is None else {found[0]: known}
 
@@ -43,7 +42,7 @@ def shape_left_on_locked(store: Store, model: Loaded) -> dict[str, float]:
 
 
 def _claimed_before(store: Store, model: Loaded) -> tuple[str, Candidate] | None:
-    """(response, first claim) of the last version that was given any, where the model has all of them."""
+    """(response, first claim) of the last version that was given any, where the model is the fit with them."""
     from thermodata.store.catalogue.models import load_diagnosis, model_chain
 
     for earlier in reversed(model_chain(store, model.identity)[:-1]):
@@ -51,7 +50,8 @@ def _claimed_before(store: Store, model: Loaded) -> tuple[str, Candidate] | None
         claims = [c for c in found.candidates if c.claimed] if found is not None else []
         if found is None or not claims:
             continue
-        return (found.response, claims[0]) if _has(model, earlier.spec, claims) else None
+        same = is_fit_with_claims(model.fitted.spec, model.data, earlier.spec, found)
+        return (found.response, claims[0]) if same else None
     return None
 
 
@@ -77,18 +77,3 @@ def _spread(response: FittedResponse, tests: Sequence[TestData]) -> float:
     """RMS of the response about its mean in each test."""
     parts = [response.measured(t)[response.mask(t)] for t in tests]
     return rms([p - p.mean() for p in parts if len(p)] or [np.zeros(1)])
-
-
-def _has(model: Loaded, spec: Model, claims: list[Candidate]) -> bool:
-    try:
-        for claim in claims:
-            spec = with_candidate(spec, claim.id, model.data.channels)
-    except UsageError:  # of effects or channels that are gone since
-        return False
-    own = [_bare(e) for e in model.fitted.spec.effects]
-    return all(_bare(e) in own for e in spec.effects)
-
-
-def _bare(effect: EffectSpec) -> EffectSpec:
-    """Ids differ by the order in which effects were added."""
-    return effect.model_copy(update={"id": None})

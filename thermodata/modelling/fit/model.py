@@ -15,7 +15,7 @@ from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
 from thermodata.modelling.inputs.counted_samples import refuse_unknown_phases
 from thermodata.modelling.inputs.overlap import overlaps
-from thermodata.modelling.inputs.roles import Key
+from thermodata.modelling.inputs.roles import Key, fitted_keys
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
@@ -41,7 +41,7 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
     for names in (wanted, *(effect.phases for effect in spec.effects)):
         refuse_unknown_phases(names, data.tests)
     skipped = list[str]()
-    keys = (*roles.calibrate, *roles.verify) if spec.in_sample else roles.calibrate
+    keys = fitted_keys(spec, roles)
     open_tests: list[list[TestData]] = []
     for response in bound:
         usable, why = usable_tests(response, [data.test(*key) for key in keys])

@@ -63,6 +63,16 @@ def resolve_roles(spec: Model, data: Dataset) -> Roles:
     return Roles(*named)
 
 
+def fitted_keys(spec: Model, roles: Roles) -> tuple[Key, ...]:
+    """The tests that a model is fitted to: its calibration tests, and verification tests that took part in the choice
+    of its effects."""
+    if not spec.in_sample:
+        return roles.calibrate
+    chosen_on = spec.in_sample_on
+    taking = [k for k in roles.verify if chosen_on is None or "/".join(k) in chosen_on]
+    return (*roles.calibrate, *taking)
+
+
 def opened(roles: Roles, data: Dataset) -> tuple[Key, ...]:
     """The tests that their campaign locks and the model is fitted to, or checked on in every choice."""
     used = {*roles.calibrate, *roles.verify}

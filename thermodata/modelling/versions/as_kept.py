@@ -13,7 +13,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import ArxFunction
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.inputs.overlap import overlaps
-from thermodata.modelling.inputs.roles import Key, Roles
+from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.model_file.transfer import DIRECT, NAME, FreeFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
@@ -49,7 +49,7 @@ def as_kept(spec: Model, result: FitResult, data: Dataset, *, changed: bool = Tr
         )
 
     roles, bound = resolve(spec, data, None, not_kept)
-    fitted_on = {(s.campaign, s.test) for s in result.scores if s.role == "calibration" or spec.in_sample}
+    fitted_on = {*fitted_keys(spec, _roles_then(result))}
     several = len(bound) > 1
     return FittedModel(
         spec,
@@ -60,6 +60,11 @@ def as_kept(spec: Model, result: FitResult, data: Dataset, *, changed: bool = Tr
         ),
         overlaps=overlaps(data, roles, sorted(fitted_on & _keys(data)), [b.channel_of for b in bound]),
     )
+
+
+def _roles_then(result: FitResult) -> Roles:
+    role = {(s.campaign, s.test): s.role.removesuffix(IN_SAMPLE) for s in result.scores}
+    return Roles(*(tuple(k for k, own in role.items() if own == r) for r in ("calibration", "verification", "locked")))
 
 
 def _keys(data: Dataset) -> set[Key]:

@@ -18,6 +18,7 @@ from thermodata.schema.model import EffectSpec, Model
 GAIN_BY = "gain_by:"
 PHASES = "phases:"
 RESPONSES = ("displacement", "tilt")
+_CHOSEN_NOW = {"in_sample": True, "in_sample_on": None}  # all open tests take part in the choice
 
 
 def gain_by_id(term: str, by: str) -> str:
@@ -95,7 +96,7 @@ def note_of_response(drivers: Sequence[str], channels: Mapping[str, Described]) 
 def with_effect(spec: Model, effect: EffectSpec) -> Model:
     """A new model: the same, and one effect more, with bounds as wide as it may reach. Verification tests take part in
     the choice, so they are fitted too and their scores say so."""
-    return spec.model_copy(update={"effects": [*spec.effects, _reaching(effect)], "in_sample": True})
+    return spec.model_copy(update={"effects": [*spec.effects, _reaching(effect)], **_CHOSEN_NOW})
 
 
 def _reaching(effect: EffectSpec) -> EffectSpec:
@@ -122,7 +123,7 @@ def with_gain_by(spec: Model, term: str, by: str) -> Model:
     if old.gain_by is not None:
         raise UsageError("the effect has several gains already", where=where, got=f"gain_by: {old.gain_by}")
     effects = [e if e is not old else e.model_copy(update={"gain_by": by}) for e in spec.effects]
-    return spec.model_copy(update={"effects": effects, "in_sample": True})
+    return spec.model_copy(update={"effects": effects, **_CHOSEN_NOW})
 
 
 def with_phases(spec: Model, term: str, phases: Sequence[str]) -> Model:
@@ -143,7 +144,7 @@ def with_phases(spec: Model, term: str, phases: Sequence[str]) -> Model:
         for name, phase in zip(phase_ids(term, phases), phases, strict=True)
     ]
     effects = [one for e in spec.effects for one in (parted if e is old else [e])]
-    return spec.model_copy(update={"effects": effects, "in_sample": True})
+    return spec.model_copy(update={"effects": effects, **_CHOSEN_NOW})
 
 
 def _line(spec: Model, term: str) -> EffectSpec:

@@ -27,7 +27,7 @@ def model_id(spec: Model, data_version: str, base: Path | None = None) -> str:
         for key in _LATER & effect.keys():
             if effect[key] is None or effect[key] is False or effect[key] in ({}, []):
                 del effect[key]
-    for key in ("weights", "taken_back"):
+    for key in ("weights", "taken_back", "in_sample_on"):
         if not content[key]:
             del content[key]
     text = json.dumps(content, sort_keys=True, ensure_ascii=False)

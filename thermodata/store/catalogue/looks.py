@@ -3,10 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from thermodata.store.base.connection import insert
 from thermodata.store.catalogue.store import Store
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """model: id of that which it was opened for."""
+
+    model: str
+    reason: str
 
 
 def count_locked_look(
@@ -41,13 +50,24 @@ def looked_for(store: Store, model: str, asked: str, of: str, *, with_others: bo
     return found
 
 
+def looks_of(store: Store, campaigns: Iterable[str]) -> dict[tuple[str, str], list[Look]]:
+    """Each test of the campaigns whose lock was opened -> its looks, the first one first. They are the test's, for
+    whichever model it was opened."""
+    with store.reader() as con:
+        rows = con.execute(
+            "select campaign, test, model, reason from locked_look where list_contains(?, campaign) "
+            'order by campaign, test, "at", rowid',
+            [list(campaigns)],
+        ).fetchall()
+    found: dict[tuple[str, str], list[Look]] = {}
+    for campaign, test, model, reason in rows:
+        found.setdefault((campaign, test), []).append(Look(model, reason))
+    return found
+
+
 def locked_looks(store: Store, campaign: str, test: str) -> int:
     """How often the lock of a test was opened."""
-    with store.reader() as con:
-        row = con.execute(
-            "select count(*) from locked_look where campaign = ? and test = ?", [campaign, test]
-        ).fetchone()
-    return int(row[0]) if row else 0
+    return len(looks_of(store, [campaign]).get((campaign, test), []))
 
 
 def open_in(store: Store, campaigns: Iterable[str]) -> dict[tuple[str, str], list[str]]:

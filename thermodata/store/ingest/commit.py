@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.schema.campaign import Campaign
-from thermodata.store.base.connection import insert
+from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
 from thermodata.store.ingest.looks_of_gone import count_on, keep_looks
@@ -133,13 +133,20 @@ def commit(
     then = states(inventory.rows, inventory.calibrations, differ)
     stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
     before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
-    drop_results(con, campaign, before - after)
+    # what models said of a test that was taken out stays, as their fits do: it may come back
     keep_looks(con, campaign, inventory.rows, before - after)
     count_on(con, campaign, planned.rows, after - before)
     return stale
 
 
 def drop_results(con: duckdb.DuckDBPyConnection, campaign: str, tests: set[str]) -> None:
-    """Removes what models said about tests that are no more; that their locks were opened stays."""
+    """Removes what models said about tests that are forgotten, wherever it stands; that their locks were opened
+    stays."""
     for table in ("prediction", "score_row", "finding") if tests else ():
         con.execute(f"delete from {table} where campaign = ? and list_contains(?, test)", [campaign, sorted(tests)])
+    for row in fetch(con, "select model, result from model where list_contains(campaigns, ?)", [campaign]):
+        result = json.loads(row["result"])
+        for scored in ("scores", "before"):
+            if result.get(scored):
+                result[scored] = [s for s in result[scored] if s["campaign"] != campaign or s["test"] not in tests]
+        con.execute("update model set result = ? where model = ?", [json.dumps(result), row["model"]])

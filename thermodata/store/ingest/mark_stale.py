@@ -1,7 +1,7 @@
 """Which models are stale: those that a test was fitted to which is not as it was then.
 
 Of each such test the state that it was fitted to is kept for as long as it differs, so a model whose data are set back
-is as it was. Results of a test that was gone went with it: its models stay stale until they are fitted again.
+is as it was. Results of a test that was forgotten went with it: its models stay stale until they are fitted again.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch, insert
-from thermodata.store.catalogue.models import BACK, GONE, STALE
+from thermodata.store.catalogue.models import BACK, STALE
 from thermodata.store.ingest.state import VERSION, State, what_differs
 
 if TYPE_CHECKING:
@@ -31,10 +31,12 @@ def mark_stale(
     campaign: str,
     then: Mapping[str, State | None],
     now: Mapping[str, State | None],
+    *,
+    forgotten: bool = False,
 ) -> list[str]:
     """Holds the models that used any of these tests against what is stored now, before the results of a test that is
-    gone are dropped; one that names no tests used the whole campaign. then, now: test -> its state before and after.
-    Returns the models that went stale."""
+    forgotten are dropped; one that names no tests used the whole campaign. then, now: test -> its state before and
+    after. forgotten: whether results of those that are gone go with them. Returns the models that went stale."""
     if not then:
         return []
     rows = fetch(
@@ -60,6 +62,8 @@ def mark_stale(
         for test in then:
             if test in differing or ((test in used or not used) and then[test] is not None):
                 _hold(differing, test, then[test], now.get(test))
+                if forgotten and test in differing:
+                    differing[test]["forgotten"] = True
         if differing == before:
             continue
         _keep(con, row["model"], campaign, differing, row["stale"] and not before)
@@ -86,7 +90,7 @@ def _hold(differing: dict[str, dict[str, Any]], test: str, then: State | None, n
         differing[test] = {**kept, "what": list(dict.fromkeys([*kept["what"], *more]))}
         return
     same = now is not None and was[VERSION] == now[VERSION]
-    back = [BACK] if now is not None and {GONE, BACK} & {*kept["what"]} else []
+    back = [BACK] if now is not None and kept.get("forgotten") else []
     what = [*([] if same else what_differs(was, now)), *back]
     if what:
         differing[test] = {**kept, "what": what}

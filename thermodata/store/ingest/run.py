@@ -33,6 +33,7 @@ from thermodata.store.ingest.raw_layer import RawIngest
 from thermodata.store.ingest.same_content import same_content
 from thermodata.store.ingest.spec_lines import with_lines
 from thermodata.store.ingest.state import version_of
+from thermodata.store.ingest.taken_out import taken_out
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.ingest.unanswered import unanswered
 from thermodata.store.ingest.unchanged import differing, keep, known_files, noted, of_tests, summary_of
@@ -229,6 +230,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
                 changed = changes(planned, inventory)
             summary.stale = commit(con, store.path, planned, inventory, changed, now)
         summary.changed = True
+        summary.notes += taken_out(changed["test"] - {t.id for t in campaign.tests})
         if summary.stale:
             summary.notes.append(f"{len(summary.stale)} fitted models are stale now: fit them again")
     if not raw_layer.passing and given is None:

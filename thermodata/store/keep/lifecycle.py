@@ -63,7 +63,8 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
-            stale = mark_stale(con, campaign, states(was.rows, was.calibrations, {test}), {test: None})
+            then = states(was.rows, was.calibrations, {test})
+            stale = mark_stale(con, campaign, then, {test: None}, forgotten=True)
             for table in BY_TEST:
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})

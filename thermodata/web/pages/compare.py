@@ -69,7 +69,8 @@ def show(request: Request) -> Response:
     chosen = _chosen(store, models, given.getlist("model"), given.get("pin", ""))
     pinned = chosen[0]
     results = [find_model(store, m.model).result for m in chosen]
-    courses = [residual_courses(store, m.model, predicted_tests(store, m.model)) for m in chosen]
+    # of all that was scored, as the errors beside them: a test that was taken out of the campaign since, too
+    courses = [residual_courses(store, m.model, _scored(r)) for m, r in zip(chosen, results, strict=True)]
     lines = _with_differences(_lines([r.scores for r in results]), courses)
     only = given.get("differs") == "1"
     response = given.get("response") if given.get("response") in pinned.responses else pinned.responses[0]
@@ -151,6 +152,10 @@ def _instead(given: QueryParams, pinned: ModelRow, newest: ModelRow, response: s
     if over and not predicted:
         found.append(f"No residual over {over}: {newest.label} does not predict {response}.")
     return found
+
+
+def _scored(result: FitResult) -> list[Key]:
+    return list(dict.fromkeys((s.campaign, s.test) for s in result.scores))
 
 
 def _shown_test(

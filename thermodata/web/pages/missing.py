@@ -23,6 +23,7 @@ from thermodata.schema.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.looks import looks_of
 from thermodata.store.catalogue.models import load_diagnosis
 from thermodata.view.describe import channel_infos
 from thermodata.view.models import ModelRow, model_rows
@@ -49,6 +50,7 @@ STUMBLES = {
     "others": "in one test only",
     "worth": "too small",
 }
+_LOOKS = 6  # that are told of one test
 _NOTHING = {
     "none": ("Nothing is missing", "What is left is noise, or what lags leave of any machine."),
     "unknown": ("Something is missing that has no name", "No effect of the library has its timing."),
@@ -137,13 +139,15 @@ def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
 
 
 def _looks(store: Store, model: ModelRow) -> list[dict[str, Any]]:
-    with store.reader() as con:
-        return fetch(
-            con,
-            "select test, count(*) as n, any_value(reason) as reason from locked_look "
-            "join test using (campaign, test) where list_contains(?, campaign) group by campaign, test order by test",
-            [list(model.campaigns)],
-        )
+    """Of each test how often it was opened, and for what: each look with its model, the last ones where they are
+    many."""
+    rows = []
+    for (_, test), looks in looks_of(store, model.campaigns).items():
+        said = [f"{look.model[:6]}: {look.reason}" for look in looks[-_LOOKS:]]
+        left = len(looks) - len(said)
+        reason = "; ".join([f"{left} before"] * bool(left) + said)
+        rows.append({"test": test, "n": len(looks), "reason": reason})
+    return rows
 
 
 def _locked(store: Store, model: ModelRow) -> list[str]:

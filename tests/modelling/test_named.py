@@ -1,0 +1,42 @@
+"""Which model is meant where none is named, and where models of several campaigns have the name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from thermodata.cli.app import cli
+from thermodata.modelling import run
+from thermodata.modelling.named import fit_named, newest_model, of_which_campaign
+from thermodata.store.ingest.run import ingest
+from thermodata.view.dataset import Dataset
+
+from .conftest import Spec
+from .test_run import stored
+
+
+def test_where_none_is_named_it_is_the_one_fitted_last(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    first, other = (run.fit(store, spec("ambient_frame", name=name)).model for name in ("first", "other"))
+    assert newest_model(store) == other
+    assert fit_named(store, first).model == first
+    assert newest_model(store) == first
+    path = tmp_path / "campaign.yaml"
+    path.write_text(path.read_text().replace("role: verification", "role: calibration"))
+    assert set(ingest(store, path).stale) == {first, other}
+    assert newest_model(store) == first, "what changed is no fit"
+    assert of_which_campaign(store, "first") is None
+
+
+def test_a_name_of_several_campaigns_is_said_with_the_campaign(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    path = tmp_path / "campaign.yaml"
+    path.write_text(path.read_text().replace("id: c\n", "id: d\n"))
+    ingest(store, path)
+    one, other = (run.fit(store, spec("ambient_frame", campaign=name)).model for name in ("c", "d"))
+    line = f"'base' of d: {other}, the newest of that name; there are others, of c: {one}"
+    for ref, told in (("base", 1), (other, 0), (one[:6], 0)):
+        said = CliRunner().invoke(cli, ["--store", str(store.path), "history", ref])
+        assert (said.exit_code, said.stderr.count(line)) == (0, told)
+    assert f"fitted last: {other} (base, d)" in CliRunner().invoke(cli, ["--store", str(store.path), "history"]).stderr

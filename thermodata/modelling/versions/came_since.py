@@ -1,0 +1,38 @@
+"""A version that verification tests helped to choose, fitted to data that have more of them: these are new to it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
+from thermodata.schema.listed import listed
+from thermodata.schema.model import Model
+from thermodata.view.dataset import Dataset
+
+if TYPE_CHECKING:
+    from thermodata.store.catalogue.models import StoredModel
+
+
+def as_chosen(stored: StoredModel, data: Dataset) -> Model:
+    """A model of the store for a fit to the data as they are now: verification tests that came after the choice of its
+    effects are checked on and not fitted."""
+    spec = stored.spec
+    if not spec.in_sample or stored.data_version == data.data_version:
+        return spec
+    then = {f"{s.campaign}/{s.test}": s.role for s in stored.result.scores}
+    took_part = [name for name, role in then.items() if role != "verification"]
+    if spec.in_sample_on is None and {*map("/".join, fitted_keys(spec, resolve_roles(spec, data)))} == {*took_part}:
+        return spec
+    # those that are gone may come back
+    return spec.model_copy(update={"in_sample_on": list(dict.fromkeys([*(spec.in_sample_on or ()), *took_part]))})
+
+
+def came_since(spec: Model, data: Dataset) -> list[str]:
+    """A note that names the verification tests that took no part in the choice; none where all did."""
+    roles = resolve_roles(spec, data)
+    fitted = fitted_keys(spec, roles)
+    new = ["/".join(key) for key in roles.verify if key not in fitted] if spec.in_sample else []
+    if not new:
+        return []
+    stay = "they stay verification tests" if len(new) > 1 else "it stays a verification test"
+    return [f"{listed(new)} took no part in the choice of the effects: not fitted, {stay}"]
