@@ -50,6 +50,25 @@ def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(of_
     assert sum(c.claimed for c in found.candidates) == 1
 
 
+def test_one_equation_has_one_error_whatever_it_is_called(of_a_missing_screw: Diagnosis) -> None:
+    """A screw is a lag of its nut's temperature: the two differ by the grid of their time constants alone."""
+    screw, lagged = (of_a_missing_screw.candidates[0], by_id(of_a_missing_screw, "lag:T_nut_X"))
+    assert (lagged.rmse_um_before, lagged.rmse_um_after) == (screw.rmse_um_before, screw.rmse_um_after)
+    assert [one.rmse_um_after for one in lagged.left_out] == [one.rmse_um_after for one in screw.left_out]
+    assert lagged.why.startswith(f"it is one equation with {screw.id} and told as that: where it acts")
+
+
+def test_the_error_with_a_claim_is_that_which_the_next_version_tells_of_itself(of_a_missing_screw: Diagnosis) -> None:
+    more = [*base().effects, EffectSpec(effect="feed_screw", drivers={"temperature": "T_nut_X"})]
+    following = diagnosis(make_data(of_nut), base().model_copy(update={"effects": more}))
+    assert of_a_missing_screw.named_rmse_um == pytest.approx(following.rmse_um, rel=1e-6)
+    assert of_a_missing_screw.candidates[0].rmse_um_after == pytest.approx(following.rmse_um, rel=1e-6)
+
+
+def by_id(found: Diagnosis, name: str) -> Candidate:
+    return next(c for c in found.candidates if c.id == name)
+
+
 def test_a_locked_test_that_is_a_copy_of_an_open_one_is_left_out_and_said() -> None:
     """Of it nothing is looked at; a claim is then told as without locked tests."""
     data = make_data(of_nut)

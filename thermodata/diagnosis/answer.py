@@ -32,7 +32,7 @@ from thermodata.diagnosis.tell.listed import (
     with_probability,
 )
 from thermodata.diagnosis.tell.started_on import started_with
-from thermodata.diagnosis.tell.together import left_with_named
+from thermodata.diagnosis.tell.together import left_with_named, told_alike
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
@@ -141,16 +141,18 @@ def _answer(
         told_by_open = judgement
         judgement = contradicted(judgement, known, response, locked)
         on_locked = judgement is not told_by_open
-    terms = [t.id for t in refitted.responses[index].terms]
-    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
-    left_out = [*asked_of.put_right.left_out, *opened.turned]
     made = None if confirmation is None else confirmation.fitted
 
     def refit(some: Sequence[CandidateEffect]) -> FittedResponse:
         return made if made is not None else fits_of(()).of(some)
 
+    version = left_with_named(investigation, judgement, refit, data, usable)
+    investigation = told_alike(investigation, judgement, version)
+    terms = [t.id for t in refitted.responses[index].terms]
+    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
+    left_out = [*asked_of.put_right.left_out, *opened.turned]
     beside = {
-        "named_rmse_um": left_with_named(investigation, judgement, refit, data, usable),
+        "named_rmse_um": None if version is None else float(np.sqrt(np.mean(version))),
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
         "fitted_rmse_um": _as_fitted(response, tests),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
 import numpy as np
@@ -62,7 +62,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
     conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no open test
-    moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it."""
+    moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it. told: by the
+    identity of a candidate's columns the errors that are told of it (`together.told_alike`)."""
 
     problem: Problem
     selection: Selection | None
@@ -75,6 +76,7 @@ class Investigation:
     limits: tuple[Limit, ...] = ()
     at_rest: tuple[AtRest, ...] = ()
     looked_for: tuple[str, ...] = ()
+    told: Mapping[int, tuple[Scored, bool]] = field(default_factory=dict)
 
 
 def investigate(
@@ -156,12 +158,10 @@ def investigate(
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)
 
-    looked_for = tuple(lock.asked)
     others_of = [t for t in data.tests if t.key not in {o.key for o in tests}]
     rests = tuple(at_rest(asked, tests, others_of, data.channels))
-    return Investigation(
-        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, rests, looked_for
-    )
+    said = judgement, measure, borne_out, conclude, unseen, rests, tuple(lock.asked)
+    return Investigation(problem, selection, artefacts, spots, *said)
 
 
 def causes_of(
