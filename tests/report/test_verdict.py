@@ -500,6 +500,23 @@ def test_an_error_that_the_model_has_only_as_it_is_fitted_is_told(fitted: float 
     assert ("as it is fitted the model leaves 0.310 um on the open tests" in text) is told_of
 
 
+def test_an_error_as_fitted_says_from_where_it_counts_in_which_tests() -> None:
+    text = verdict_sentence(found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=0.31))
+    levels = "of calibration about levels fitted to them, others from their first samples on"
+    assert f"0.310 um on the open tests ({levels})" in text
+
+
+@pytest.mark.parametrize(
+    ("compared", "said"), [(120.0, ", 0.0194 um in the means of 2 min that"), (60.0, ""), (None, "")]
+)
+def test_noise_is_told_over_the_means_that_left_out_tests_are_compared_by(compared: float | None, said: str) -> None:
+    """An error of 0.0200 um beside a noise of 0.0275 um: that is of other means."""
+    short = {"rmse_um": 0.02, "noise_um": 0.0275, "noise_over_s": 60.0, "left_out_over_s": compared}
+    text = verdict_sentence(found("none", [], **short))
+    assert f"noise (0.0275 um between neighbouring means of 60 s{said}" in text
+    assert ("left-out tests are compared by" in text) is bool(said)
+
+
 @pytest.mark.parametrize(("share", "likely"), [(0.049, False), (0.051, True)])
 def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None:
     text = verdict_sentence(found("unknown", [one("screw", probability=share)], rmse_um=1.4, response_um=5.1))

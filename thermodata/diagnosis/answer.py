@@ -238,6 +238,7 @@ def _diagnosis(
         verdict=judgement.verdict,
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
+        left_out_over_s=problem.step_s,
         rmse_um=alone.left if alone is not None else _left(problem),
         explainable=most,
         explainable_by=most_by,
