@@ -26,3 +26,17 @@ def test_a_text_with_tables_is_in_the_units_of_its_responses() -> None:
 def test_a_page_has_a_dash_where_there_is_no_number() -> None:
     assert [typeset(text) for text in (number(None), change(None, 1.0), number(-1.0))] == ["–", "–", "−1.00"]
     assert typeset("lag-free") == "lag-free"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        (27.9, 0.128, "-99.54 %"),
+        (1.0, 0.011, "-99 %"),
+        (1.0, 0.0000123, "-99.9988 %"),
+        (1.0, 0.0, "-100 %"),
+        (1.0, 3.0, "+200 %"),
+    ],
+)
+def test_a_fall_by_almost_all_is_no_fall_by_all(before: float, after: float, told: str) -> None:
+    assert change(before, after) == told

@@ -17,7 +17,7 @@ class WeakSpot(Result):
     campaign: id
     test: id
     from_s: from the test's start [s]
-    to_s: from the test's start [s]
+    to_s: the same, where its last sample ends [s]
     rmse_um: error in the window, in the response's unit
     state: what the machine did, in words
     after_warm_start: whether the model fails there from the start of a test on that began warm: what warmed the
