@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
@@ -209,3 +210,11 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     assert steps[0].size_um is not None
     assert abs(steps[0].size_um - 6.0) < 1.0
     assert found.candidates[0].effect == "feed_screw"
+    # the line that it says to write takes the step out of a fit, though the screw is missing there
+    line = steps[0].why.partition("write '- ")[2].partition("' under")[0]
+    slip = EffectSpec.model_validate(yaml.safe_load(line))
+    with_slip = spec.model_copy(update={"effects": [*spec.effects, slip]})
+    again = diagnosis(replace(data, tests=tuple(tests)), with_slip)
+    assert [a for a in again.artefacts if a.kind == "step"] == []
+    (gain,) = (p for name, p in again.candidates[0].parameters.items() if name.endswith("feed_screw.gain"))
+    assert gain.value == pytest.approx(2.0, abs=0.1)
