@@ -35,6 +35,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
 )
 from thermodata.diagnosis.steps import repeating
 from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.of_model import steps_of_model
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -94,10 +95,9 @@ def investigate(
     fine: Problem | None = None,
     means: Means | None = None,
 ) -> Investigation:
-    """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
-    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
-    that were mended before, or left out. refused: channels; what reads these alone is not asked. fine, means: what was
-    made for other questions to the same response and tests (`Sound`)."""
+    """fitted: to all tests that take part in the choice. as_fitted: the model that is asked about, whose weak spots are
+    shown; by default the same. others: what other axes say; None: nothing. known_faults: mended before, or left out.
+    refused: channels; what reads these alone is not asked. fine, means: made for other questions (`Sound`)."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base) if fine is None else fine
@@ -106,7 +106,7 @@ def investigate(
     steps = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
     whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
-    problem = sharing(_without_steps(whole, steps, fine.step_s), means)
+    problem = sharing(_without_steps(fitted, whole, steps, fine.step_s), means)
     asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -184,13 +184,13 @@ def weighed(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData]) ->
     """In the samples in which candidates are weighed, and in those in which steps were looked for."""
     base = remembered(fitted)
     fine, rough = (compressed(fitted, data, tests, rows, base) for rows in (TARGET_ROWS, WEIGHED_ROWS))
-    return _without_steps(rough, repeating.single(find_steps(fine)), fine.step_s), fine
+    return _without_steps(fitted, rough, repeating.single(find_steps(fine)), fine.step_s), fine
 
 
-def _without_steps(problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
-    """With a free offset after each step, and without the samples around it, for one of them is a mean of both levels.
-    seen_s: between the samples in which steps were looked for."""
-    at: dict[tuple[str, str], list[float]] = {}
+def _without_steps(fitted: FittedResponse, problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
+    """With a free offset after each step, of the model too, and without the samples around it, for one of them is a
+    mean of both levels. seen_s: between the samples in which steps were looked for."""
+    at = steps_of_model(fitted, problem)
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
     return problem.split(at, parted_s=problem.step_s / 2 + 0.99 * seen_s)
