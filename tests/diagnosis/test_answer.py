@@ -10,9 +10,14 @@ import pytest
 import yaml
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.run import Loaded
+from thermodata.modelling.versions.as_kept import as_kept
+from thermodata.modelling.versions.result import make_result
+from thermodata.report.spots import weak_spots_of
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
@@ -220,3 +225,15 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     assert gain.value == pytest.approx(2.0, abs=0.1)
     # no other test says how large a slip of this one was: its level is free after it, as where the step was found
     assert again.named_rmse_um == pytest.approx(found.named_rmse_um, rel=0.1)
+
+
+def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(spec: Model) -> None:
+    """The question is asked of a fit to all tests, also to one that came since: two tables said where it fails."""
+    data = make_data(of_nut)
+    fitted = fit_model(spec, replace(data, tests=data.tests[:3]), uncertainty=False)
+    kept = as_kept(fitted.spec, make_result(fitted, data, "m"), data, changed=False)
+    found = diagnosis(data, spec)
+    stored = Loaded("m", None, kept, data, kept=True)
+    told = by_its_own_parameters(found, stored).weak_spots
+    assert told == weak_spots_of(stored, [found])[found.response]
+    assert told != found.weak_spots
