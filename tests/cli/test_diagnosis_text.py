@@ -85,11 +85,22 @@ def test_errors_that_are_not_of_the_users_own_model_say_what_stands_beside() -> 
     assert "both with" not in text("effect", candidate(1, "screw", claimed=True), candidate(2, "rest"))
 
 
+def test_left_out_errors_say_by_what_they_are_foretold() -> None:
+    """A plain refit to the other tests gives other figures: effects are free, samples weighed, tests alike."""
+    said = text("effect", candidate(1, "screw", claimed=True)).splitlines()
+    line = next(line for line in said if line.startswith("left-out: "))
+    assert "foretold from the others" in line
+    assert "free to act faster and slower than by one lag each" in line
+    assert "weighed by the noise that is left" in line
+    assert "all tests count alike" in line
+    assert "a plain refit" in line
+
+
 def test_parts_of_tests_are_not_called_tests() -> None:
     part = {"campaign": "c", "test": "a", "from_s": 0.0, "to_s": 1.0, "acts": True}
     parts = [{**part, "rmse_um_before": 2.0, "rmse_um_after": 1.0}] * 2
     said = text("effect", candidate(1, "screw", left_out=parts)).splitlines()[-1]
-    assert said.startswith("left-out: parts of the open tests in turn, foretold by a fit to the others; ")
+    assert said.startswith("left-out: parts of the open tests in turn, foretold from the others: ")
     assert "1 open test is too few to leave one out, so 2 parts of it are" in said
 
 

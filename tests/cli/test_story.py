@@ -321,6 +321,7 @@ def test_diagnose_add_by_rank_and_report(say: Say, tmp_path: Path) -> None:
         "verdict",
         "noise_um",
         "noise_over_s",
+        "left_out_over_s",
         "chance",
         "responses",
         "by_choice",

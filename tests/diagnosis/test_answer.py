@@ -7,11 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.run import Loaded
+from thermodata.modelling.versions.as_kept import as_kept
+from thermodata.modelling.versions.result import make_result
+from thermodata.report.spots import weak_spots_of
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import EffectSpec, Model
@@ -48,6 +54,25 @@ def test_a_missing_screw_is_named_with_its_axis_and_holds_on_the_locked_test(of_
     assert best.probability is not None
     assert best.probability > 0.8
     assert sum(c.claimed for c in found.candidates) == 1
+
+
+def test_one_equation_has_one_error_whatever_it_is_called(of_a_missing_screw: Diagnosis) -> None:
+    """A screw is a lag of its nut's temperature: the two differ by the grid of their time constants alone."""
+    screw, lagged = (of_a_missing_screw.candidates[0], by_id(of_a_missing_screw, "lag:T_nut_X"))
+    assert (lagged.rmse_um_before, lagged.rmse_um_after) == (screw.rmse_um_before, screw.rmse_um_after)
+    assert [one.rmse_um_after for one in lagged.left_out] == [one.rmse_um_after for one in screw.left_out]
+    assert lagged.why.startswith(f"it is one equation with {screw.id} and told as that: where it acts")
+
+
+def test_the_error_with_a_claim_is_that_which_the_next_version_tells_of_itself(of_a_missing_screw: Diagnosis) -> None:
+    more = [*base().effects, EffectSpec(effect="feed_screw", drivers={"temperature": "T_nut_X"})]
+    following = diagnosis(make_data(of_nut), base().model_copy(update={"effects": more}))
+    assert of_a_missing_screw.named_rmse_um == pytest.approx(following.rmse_um, rel=1e-6)
+    assert of_a_missing_screw.candidates[0].rmse_um_after == pytest.approx(following.rmse_um, rel=1e-6)
+
+
+def by_id(found: Diagnosis, name: str) -> Candidate:
+    return next(c for c in found.candidates if c.id == name)
 
 
 def test_a_locked_test_that_is_a_copy_of_an_open_one_is_left_out_and_said() -> None:
@@ -190,3 +215,25 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     assert steps[0].size_um is not None
     assert abs(steps[0].size_um - 6.0) < 1.0
     assert found.candidates[0].effect == "feed_screw"
+    # the line that it says to write takes the step out of a fit, though the screw is missing there
+    line = steps[0].why.partition("write '- ")[2].partition("' under")[0]
+    slip = EffectSpec.model_validate(yaml.safe_load(line))
+    with_slip = spec.model_copy(update={"effects": [*spec.effects, slip]})
+    again = diagnosis(replace(data, tests=tuple(tests)), with_slip)
+    assert [a for a in again.artefacts if a.kind == "step"] == []
+    (gain,) = (p for name, p in again.candidates[0].parameters.items() if name.endswith("feed_screw.gain"))
+    assert gain.value == pytest.approx(2.0, abs=0.1)
+    # no other test says how large a slip of this one was: its level is free after it, as where the step was found
+    assert again.named_rmse_um == pytest.approx(found.named_rmse_um, rel=0.1)
+
+
+def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(spec: Model) -> None:
+    """The question is asked of a fit to all tests, also to one that came since: two tables said where it fails."""
+    data = make_data(of_nut)
+    fitted = fit_model(spec, replace(data, tests=data.tests[:3]), uncertainty=False)
+    kept = as_kept(fitted.spec, make_result(fitted, data, "m"), data, changed=False)
+    found = diagnosis(data, spec)
+    stored = Loaded("m", None, kept, data, kept=True)
+    told = by_its_own_parameters(found, stored).weak_spots
+    assert told == weak_spots_of(stored, [found])[found.response]
+    assert told != found.weak_spots

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from thermodata.diagnosis.claims.rules import failed_rules, in_words, on_locked
+from thermodata.diagnosis.locked.held import RISES_ELSEWHERE
+from thermodata.diagnosis.tell.why import where_it_acts
 from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 
@@ -65,3 +67,12 @@ def test_the_locked_error_is_said_to_be_that_with_a_free_offset(
     assert f"{where}with a free offset a test, the error falls by 14 % (1.05 -> 0.90 um) with it added" in said
     assert "falls by 67 % (0.90 -> 0.30 um) where the effects of the model may act otherwise" in said
     assert "falls by 67 % (0.90 -> 0.30 um)" in on_locked(Looked(first, None, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("count", "told"), [(6, "where it acts most (6 of 7 tests)"), (7, "where it acts (7 of 7 tests)")]
+)
+def test_what_does_less_than_a_fifth_of_its_largest_is_not_said_to_rest(count: int, told: str) -> None:
+    """A screw that moves 14 um of 23 in one test and 146 in another acts in both."""
+    assert where_it_acts(count, 7, "tests") == told
+    assert "rests" not in RISES_ELSEWHERE

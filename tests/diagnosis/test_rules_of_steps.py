@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -129,7 +131,8 @@ def test_what_holds_a_part_of_a_step_is_not_weighed(every: int, left_out: int) -
     weighed = problem(Parts(parts), noise=0.05)
     t_s = (np.arange(len(parts)) * every + (every - 1) / 2) * 60.0
     weighed = replace(weighed, step_s=60.0 * every, blocks=(replace(weighed.blocks[0], t_s=t_s),))
-    left = _without_steps(weighed, [Step(weighed.blocks[0].test, 99.5 * 60.0, 5.0, 20.0)], 60.0)
+    none: Any = SimpleNamespace(terms=())
+    left = _without_steps(none, weighed, [Step(weighed.blocks[0].test, 99.5 * 60.0, 5.0, 20.0)], 60.0)
     assert left.rows == weighed.rows - left_out
     assert np.abs(left.blocks[0].residual).max() < 1e-9
 

@@ -42,7 +42,7 @@ def test_a_window_stands_out_by_1_3_times_the_error_of_all(level: float, shown: 
     """The raised window is part of all, so that all is 1.02 where it is 1.33."""
     found = spots(raised(level))
     assert bool(found) is shown
-    assert all((s.from_s, s.to_s) == (150 * 60.0, 179 * 60.0) for s in found)
+    assert all((s.from_s, s.to_s) == (150 * 60.0, 180 * 60.0) for s in found)
 
 
 @pytest.mark.parametrize(("noise", "shown"), [(0.99, True), (1.01, False), (float("nan"), True)])
@@ -52,7 +52,7 @@ def test_a_window_stands_out_by_three_times_the_noise(noise: float, shown: bool)
 
 def test_windows_that_touch_are_one_spot_and_the_dearest_comes_first() -> None:
     found = spots(raised(3.0, (2,)) + raised(2.0, (8, 9, 10)) - 1.0)
-    assert [(s.from_s / 1800, (s.to_s + 60) / 1800) for s in found] == [(8, 11), (2, 3)]
+    assert [(s.from_s / 1800, s.to_s / 1800) for s in found] == [(8, 11), (2, 3)]
     assert found[1].rmse_um == pytest.approx(3.0)
 
 
@@ -60,7 +60,7 @@ def test_windows_that_touch_are_one_spot_and_the_dearest_comes_first() -> None:
 def test_a_window_is_half_an_hour_or_a_twelfth_of_a_short_test(n: int, width: int) -> None:
     r = np.ones(n)
     r[width : 2 * width] = 5.0
-    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * width, 60.0 * (2 * width - 1))]
+    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * width, 60.0 * 2 * width)]
 
 
 @pytest.mark.parametrize(("left", "first"), [(1, 570), (14, 570), (15, 600), (29, 600)])
@@ -68,7 +68,7 @@ def test_what_is_left_of_half_a_window_or_more_is_one(left: int, first: int) -> 
     """A shorter rest belongs to the window before it, with which it stands out."""
     r = np.ones(600 + left)
     r[600:] = 9.0
-    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * first, 60.0 * (599 + left))]
+    assert [(s.from_s, s.to_s) for s in spots(r)] == [(60.0 * first, 60.0 * (600 + left))]
 
 
 @pytest.mark.parametrize(("counts", "shown"), [(1, False), (2, True)])

@@ -60,6 +60,7 @@ DIAGNOSIS = {
     "verdict",
     "noise_um",
     "noise_over_s",
+    "left_out_over_s",
     "chance",
     "responses",
     "by_choice",

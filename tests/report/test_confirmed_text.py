@@ -126,8 +126,8 @@ def test_the_tests_that_were_asked_are_named_where_not_all_were() -> None:
     )
     first = confirmed_text(result).splitlines()[0]
     assert first == (
-        "lag:t4 holds on the locked tests in which it acts (day1, day2): 1.50 -> 0.500 um about each test's mean; from "
-        "their first samples on, over all, 2.00 -> 1.00 um"
+        "lag:t4 holds on the locked tests in which it acts most (day1, day2): 1.50 -> 0.500 um about each test's mean; "
+        "from their first samples on, over all, 2.00 -> 1.00 um"
     )
 
 

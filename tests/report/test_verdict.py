@@ -54,7 +54,7 @@ def claim(effect: str, share: float | None = 0.94, **more: Any) -> Candidate:
 
 
 def found(verdict: Any, candidates: Sequence[Candidate], **more: Any) -> Diagnosis:
-    return diagnosis().model_copy(update={"verdict": verdict, "candidates": list(candidates), **more})
+    return diagnosis().model_copy(update={"verdict": verdict, "candidates": list(candidates), "artefacts": [], **more})
 
 
 @pytest.mark.parametrize(
@@ -507,6 +507,34 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
 def test_an_error_that_the_model_has_only_as_it_is_fitted_is_told(fitted: float | None, told_of: bool) -> None:
     text = verdict_sentence(found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=fitted))
     assert ("as it is fitted the model leaves 0.310 um on the open tests" in text) is told_of
+
+
+def test_a_step_that_was_taken_out_of_left_out_errors_alone_is_said() -> None:
+    """19.2 -> 0.402 um stood beside 42.2 min, fitted to the slip: the truth was 35 min."""
+    step = Artefact(kind="step", campaign="c", test="V04", at_s=7890.0, size_um=14.0, why="")
+    text = verdict_sentence(found("effect", [one("screw", claimed=True)], artefacts=[step]))
+    assert "errors on left-out tests are without the step in V04 at 2.2 h (+14.0 um), but fits, parameters" in text
+    repeated = step.model_copy(update={"kind": "repeated_step"})
+    assert "without the step" not in verdict_sentence(
+        found("effect", [one("screw", claimed=True)], artefacts=[repeated])
+    )
+
+
+def test_an_error_as_fitted_says_from_where_it_counts_in_which_tests() -> None:
+    text = verdict_sentence(found("none", [], rmse_um=0.1, noise_um=0.05, fitted_rmse_um=0.31))
+    levels = "of calibration about levels fitted to them, others from their first samples on"
+    assert f"0.310 um on the open tests ({levels})" in text
+
+
+@pytest.mark.parametrize(
+    ("compared", "said"), [(120.0, ", 0.0194 um in the means of 2 min that"), (60.0, ""), (None, "")]
+)
+def test_noise_is_told_over_the_means_that_left_out_tests_are_compared_by(compared: float | None, said: str) -> None:
+    """An error of 0.0200 um beside a noise of 0.0275 um: that is of other means."""
+    short = {"rmse_um": 0.02, "noise_um": 0.0275, "noise_over_s": 60.0, "left_out_over_s": compared}
+    text = verdict_sentence(found("none", [], **short))
+    assert f"noise (0.0275 um between neighbouring means of 60 s{said}" in text
+    assert ("left-out tests are compared by" in text) is bool(said)
 
 
 @pytest.mark.parametrize(("share", "likely"), [(0.049, False), (0.051, True)])

@@ -30,3 +30,17 @@ def test_a_page_has_a_dash_where_there_is_no_number() -> None:
 
 def test_a_change_of_nothing_has_no_sign() -> None:
     assert [change(4.0, after) for after in (2.0, 3.99, 4.0, 4.01, 4.03)] == ["-50 %", "0 %", "0 %", "0 %", "+1 %"]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        (27.9, 0.128, "-99.54 %"),
+        (1.0, 0.011, "-99 %"),
+        (1.0, 0.0000123, "-99.9988 %"),
+        (1.0, 0.0, "-100 %"),
+        (1.0, 3.0, "+200 %"),
+    ],
+)
+def test_a_fall_by_almost_all_is_no_fall_by_all(before: float, after: float, told: str) -> None:
+    assert change(before, after) == told

@@ -33,7 +33,7 @@ from thermodata.diagnosis.tell.listed import (
     with_probability,
 )
 from thermodata.diagnosis.tell.started_on import started_with
-from thermodata.diagnosis.tell.together import left_with_named
+from thermodata.diagnosis.tell.together import left_with_named, told_alike
 from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.as_modelled import as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
@@ -151,16 +151,18 @@ def _answer(
             offers=judgement.verdict == "none",
         )
         judgement = refined(judgement, stands, investigation.measure)
-    terms = [t.id for t in refitted.responses[index].terms]
-    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
-    left_out = [*asked_of.put_right.left_out, *opened.turned]
     made = None if confirmation is None else confirmation.fitted
 
     def refit(some: Sequence[CandidateEffect]) -> FittedResponse:
         return made if made is not None else fits_of(()).of(some)
 
+    version = left_with_named(investigation, judgement, refit, data, usable)
+    investigation = told_alike(investigation, judgement, version)
+    terms = [t.id for t in refitted.responses[index].terms]
+    found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
+    left_out = [*asked_of.put_right.left_out, *opened.turned]
     beside = {
-        "named_rmse_um": left_with_named(investigation, judgement, refit, data, usable),
+        "named_rmse_um": None if version is None else float(np.sqrt(np.mean(version))),
         "modelled_rmse_um": None if stands is None else stands.left,
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
@@ -218,6 +220,7 @@ def _diagnosis(
         verdict=judgement.verdict,
         noise_um=noise_with_treads(problem) if np.isfinite(problem.noise) else None,
         noise_over_s=next((float(b.test.t_s[1] - b.test.t_s[0]) for b in problem.blocks if len(b.test.t_s) > 1), None),
+        left_out_over_s=problem.step_s,
         rmse_um=alone.left if alone is not None else _left(problem),
         explainable=most,
         explainable_by=most_by,

@@ -21,6 +21,7 @@ from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.responses import response_index
 from thermodata.diagnosis.sound import sound, told
+from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
 from thermodata.diagnosis.weigh.by_phase import named_apart
 from thermodata.diagnosis.weigh.gain_by import named
 from thermodata.effect import effect as find_effect
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from thermodata.store.base.counting import Tell
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
-RULES_VERSION = 74
+RULES_VERSION = 75
 
 
 def _key(model: Loaded, left: dict[str, float] | None = None) -> str:
@@ -80,7 +81,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     tell: is told how many candidates are done, of how many. response: of which of the model's, by default of that of
     which most is left."""
     from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import keep_answer, save_diagnosis
+    from thermodata.store.catalogue.models import find_model, keep_answer, save_diagnosis
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
@@ -96,6 +97,8 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     shape = shape_left_on_locked(store, model).get(outcome.diagnosis.response)
     asked_on = {"locked_shape_um": shape, "data_version": model.data.data_version}
     found = outcome.diagnosis.model_copy(update=asked_on)
+    if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
+        found = by_its_own_parameters(found, load(store, model.identity))
     for look in outcome.looks:
         reason = f"confirming {', '.join(look.asked)}{_of(model, found.response)}"
         count_locked_look(store, model.identity, [t.key for t in look.tests], reason)

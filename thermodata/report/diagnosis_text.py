@@ -95,8 +95,10 @@ def _confirmed_sentence(result: Confirmed) -> str:
         if in_shape_only:
             rises = f", and it rises where it acts: {_START}"
         elif result.holds and after > before:
-            rises = ", where it rises in those in which it rests"
-        return f"{head} in which it acts ({where}): {shape}; from their first samples on, over all, {scored}{rises}"
+            rises = ", where it rises in those in which it acts least"
+        return (
+            f"{head} in which it acts most ({where}): {shape}; from their first samples on, over all, {scored}{rises}"
+        )
     if in_shape_only:
         return f"{head}: {shape}, but from their first samples on the error rises, {scored}: {_START}"
     if result.holds == (after < before) or not shape:
@@ -108,7 +110,7 @@ def _not_held(result: Confirmed, head: str, scored: str) -> str:
     """The reason first: a fall of the error as scored, which no verdict goes by, would else contradict it."""
     before, after = result.locked_shape_um_before, result.locked_shape_um_after
     acts = [t.test for t in result.tests if t.acts]
-    head += f" in which it acts ({', '.join(acts)})" if acts and len(acts) < len(result.tests) else ""
+    head += f" in which it acts most ({', '.join(acts)})" if acts and len(acts) < len(result.tests) else ""
     if before is None or after is None:
         return f"{head}: {scored}"
     figures = f"{number(before)} -> {number(after)} um"

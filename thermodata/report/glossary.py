@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+_FROM_THE_OTHERS = (
+    "foretold from the others: gains as they ask for them, effects free to act faster and slower than by one lag "
+    "each, samples weighed by the noise that is left"
+)
+
 ERRORS = {
     "locked": "tests that no fit and no choice has seen; they are opened to confirm what is claimed or likely, "
     "and every look is counted",
-    "left-out": "each open test in turn, foretold by a fit to the others; its level is free",
+    "left-out": f"each open test in turn, {_FROM_THE_OTHERS}; its level is free and all tests count alike, so a plain "
+    "refit without it gives other figures",
     "verification": "tests that were kept out of the fit; once they helped to choose an effect they are fitted too, "
     "and say so, as do those that hold samples of a fitted test",
     "fitted": "calibration tests, which the model was fitted to: how well it bends to them, not how well it foretells",
@@ -13,7 +19,7 @@ ERRORS = {
 """From what a model has seen least to what it has seen most. The first that a page knows is its headline error."""
 
 IN_SAMPLE = "its verification tests helped to choose an effect, and are fitted too, or hold samples of a fitted test"
-PARTS = "parts of the open tests in turn, foretold by a fit to the others"
+PARTS = f"parts of the open tests in turn, {_FROM_THE_OTHERS}"
 
 _FIRST = "from its first samples (zero, 10 min unless the campaign says otherwise)"
 LEVEL = f"level: the error of a calibration test is about a level fitted to it, that of any other counts {_FIRST}"

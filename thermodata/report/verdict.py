@@ -9,8 +9,8 @@ from thermodata.report.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import as_of_nothing, left_over, on_left_out
 from thermodata.report.refined import can_be_refined, named, told_with_errors
-from thermodata.report.words import number, percent
-from thermodata.schema.listed import listed
+from thermodata.report.words import duration, number, percent
+from thermodata.schema.listed import listed, with_count
 from thermodata.schema.places import heat_at
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
 _UNNAMED = ("lag", "control_compensation")  # which say no more than the channels that they read
 _MOST_TWINS = 2
+_MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
 PLAUSIBLE = 0.3
@@ -77,7 +78,22 @@ def other_heat(one: Candidate) -> str:
 def verdict_sentence(found: Diagnosis) -> str:
     """The verdict in one sentence with its figures: every claim, every refinement, and what of the logs was put right
     before."""
-    return "; ".join(filter(None, [_verdict(found), put_right(found.put_right)]))
+    return "; ".join(filter(None, [_verdict(found), put_right(found.put_right), without_steps(found)]))
+
+
+def without_steps(found: Diagnosis) -> str:
+    """'errors on left-out tests are without the step in V04 at 2.2 h (+14.0 um), ...': of what was taken out of these
+    alone; '' where nothing was."""
+    steps = [a for a in found.artefacts if a.kind == "step" and a.size_um is not None]
+    if not steps or found.rmse_um is None:
+        return ""
+    sizes = [f"{'+' if (a.size_um or 0.0) > 0 else ''}{number(a.size_um)} um" for a in steps]
+    named = [f"in {a.test} at {duration(a.at_s)} ({size})" for a, size in zip(steps, sizes, strict=True)]
+    s, it, gives = ("s", "them", "s give") if len(steps) > 1 else ("", "it", " gives")
+    return (
+        f"errors on left-out tests are without the step{s} {with_count(named, _MOST_STEPS)}, but fits, parameters "
+        f"and errors on locked tests have {it}, until the model has the line{s} that the artefact{gives}"
+    )
 
 
 def put_right(found: PutRight | None) -> str:

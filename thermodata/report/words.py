@@ -80,13 +80,17 @@ def duration(seconds: float | None) -> str:
 
 
 def change(before: float | None, after: float | None) -> str:
-    """'-62 %', '0 %' for less than half of one; '-' where either is missing."""
+    """'-62 %', '0 %' for less than half of one; '-' where either is missing. A fall to under 1 % has two digits of what
+    is left: '-99.54 %'."""
     if not before or after is None:
         return "-"
-    rounded = round(100 * (after / before - 1))
-    return f"{rounded:+d} %" if rounded else "0 %"
+    left = after / before
+    digits = 1 - math.floor(math.log10(100 * left)) if 0 < left < ALL_BUT else 0
+    changed = round(100 * (left - 1), digits)
+    return f"{changed:+.{digits}f} %" if changed else "0 %"
 
 
+ALL_BUT = 0.01  # of an error: a fall to less is not told as one by all of it
 MOST_NAMED = 6  # tests; more are counted
 LITTLE = 0.05  # of a squared error: what makes less is not named
 

@@ -39,7 +39,7 @@ class LeftOut(Result):
     test: id
     from_s: where the part begins, from the test's start [s]
     to_s: where it ends [s]
-    acts: whether the candidate does something in it
+    acts: whether the candidate does there at least a fifth of what it does in the test in which it does most
     rmse_um_before: error without the candidate, in the response's unit
     rmse_um_after: with it
     """

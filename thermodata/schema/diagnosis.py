@@ -17,7 +17,7 @@ class WeakSpot(Result):
     campaign: id
     test: id
     from_s: from the test's start [s]
-    to_s: from the test's start [s]
+    to_s: the same, where its last sample ends [s]
     rmse_um: error in the window, in the response's unit
     state: what the machine did, in words
     after_warm_start: whether the model fails there from the start of a test on that began warm: what warmed the
@@ -176,13 +176,16 @@ class Diagnosis(Result):
         the tests cannot tell
     noise_um: short-term noise of the response, in its unit; of a staircase at least what its treads leave
     noise_over_s: averaging time of the samples that the noise lies between [s]; null where it was not kept
+    left_out_over_s: averaging time of the samples that errors on left-out tests are of [s], over which noise is less;
+        null in an answer of an older version
     rmse_um: error on left-out tests without any candidate, where the effects of the model may act otherwise than by
         their one lag
     named_rmse_um: the same with all claims added, or where nothing is claimed with the refinements that let an error
         fall; null where nothing is named, or in an answer of an older version
     modelled_rmse_um: error on left-out tests without any candidate, where the effects of the model act as it has them;
         for the verdicts none and refine
-    fitted_rmse_um: error of the model as it is fitted, on the open tests from their first samples on
+    fitted_rmse_um: error of the model as it is fitted, on the open tests as they are scored: calibration tests about
+        levels fitted to them, others from their first samples on
     locked_rmse_um: error on the locked tests, known from when claims that the model has were confirmed; null where
         none were, or in another fit, on other tests or other data
     locked_shape_um: the same over those in which they act, a free offset for each, as left-out tests have it; null
@@ -211,6 +214,7 @@ class Diagnosis(Result):
     verdict: Literal["effect", "refine", "none", "unknown", "not_testable"]
     noise_um: float | None
     noise_over_s: float | None = None
+    left_out_over_s: float | None = None
     rmse_um: float | None
     named_rmse_um: float | None = None
     modelled_rmse_um: float | None = None

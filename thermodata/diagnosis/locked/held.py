@@ -11,7 +11,7 @@ RESTS = "it hardly acts in the locked tests, so they say nothing of it"
 HOLDS = "the error falls by what a cause of its size takes away"
 FALLS_SHORT = "about each test's mean the error falls by less than a cause of its size takes away"
 RISES = "the error rises"
-RISES_ELSEWHERE = "; over all locked tests the error rises, in those in which it rests: they say nothing of it"
+RISES_ELSEWHERE = "; over all locked tests the error rises, in those in which it acts least: they say nothing of it"
 IN_SHAPE_ONLY = (
     "in shape only: about each test's mean the error falls by what a cause of its size takes away, but counted from "
     "its first samples, as tests are scored, it rises. The course fits and its start does not: a test that began warm, "

@@ -76,11 +76,16 @@ class Known:
     @property
     def left_out(self) -> float:
         """RMS error of tests that are left out in turn, each alike, in the response's unit."""
+        return float(np.sqrt(np.mean(self.squares_left_out)))
+
+    @property
+    def squares_left_out(self) -> Float1D:
+        """Mean square of the error of each test that is left out, shape (tests,)."""
         squares = []
         for i, block in enumerate(self.problem.blocks):
             theta = self.mean(np.delete(self.every, i))
             squares.append(np.mean((block.response - np.hstack([block.base, block.slack]) @ theta) ** 2))
-        return float(np.sqrt(np.mean(squares)))
+        return np.array(squares)
 
     def log_probability(self, tests: Int1D) -> float:
         """Of some tests, but for terms of the noise and the prior: for differences between sets of known effects that

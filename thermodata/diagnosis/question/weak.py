@@ -56,7 +56,7 @@ def weak_spots(tests: Sequence[tuple[TestData, Float1D, Bool1D]], noise: float) 
             campaign=w.test.campaign,
             test=w.test.test,
             from_s=float(w.test.t_s[w.start]),
-            to_s=float(w.test.t_s[w.stop - 1]),
+            to_s=float(w.test.t_s[w.stop - 1] + w.test.t_s[1] - w.test.t_s[0]),  # where its last mean ends
             rmse_um=float(np.sqrt(w.sse / w.n)),
             state=", ".join([AFTER_WARM] * _is_warm(w) + [describe_state(w.test, w.start, w.stop)]),
             after_warm_start=_is_warm(w),

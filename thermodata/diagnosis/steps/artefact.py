@@ -247,6 +247,18 @@ def _made_by(step: Step) -> str:
     )
 
 
+def _to_write(step: Step) -> str:
+    """The line that takes it out of every fit. Its size stands in it: while an effect is missing, a step of a free time
+    and size is fitted to that."""
+    line = (
+        f"{{effect: step, tests: [{step.test.test}], fixed: {{at: {step.at_s / 60:.6g} min, gain: {step.size:.3g}}}}}"
+    )
+    return (
+        f"to fit without it, write '- {line}' under effects of model.yaml (with acts_on if it has other responses), "
+        "and free its gain once nothing is missing"
+    )
+
+
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
     return [
         Artefact(
@@ -256,7 +268,7 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             at_s=s.at_s,
             size_um=s.size,
             why=f"the displacement jumps by {s.size:+.1f} {unit} within {s.within_s:.0f} s, {_stands_out(s)}, "
-            f"and does not decay; {_made_by(s)}",
+            f"and does not decay; {_made_by(s)}; {_to_write(s)}",
         )
         for s in steps
     ]

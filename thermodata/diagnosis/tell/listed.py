@@ -133,7 +133,7 @@ def candidate(
         locked_tests_asked=_count(held.asked if held else s.looked.foretold.tests if s.looked else None),
         as_modelled=s.as_modelled,
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
-        beside=[] if of_model else judged_beside(s, member, investigation, judgement),
+        beside=[] if of_model else _beside(s, told, member, investigation, judgement),
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
@@ -143,6 +143,13 @@ def candidate(
         left_out=ladder.left_out(told, problem),
         courses=ladder.courses(s, problem) if heads or refining else [],
     )
+
+
+def _beside(
+    s: Scored, told: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement
+) -> list[str]:
+    """What has the equation of another is told beside the same."""
+    return judged_beside(s if told.candidate is s.candidate else told, member, investigation, judgement)
 
 
 def _as_ranked(s: Scored, ranked: Sequence[Scored]) -> Scored:
@@ -171,9 +178,11 @@ def _unread(s: Scored, named: Sequence[CandidateEffect], data: Dataset) -> list[
 
 def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, bool]:
     """The candidate beside the user's own model, where it shows there what it does; else beside what hides it. And
-    whether it is the former."""
+    whether it is the former. Of some candidates the answer has errors that are told in their place."""
     if s.as_modelled:
         return s, True
+    if (told := investigation.told.get(id(s.columns))) is not None:
+        return told
     ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
     alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), None)
     if alone is None:

@@ -61,25 +61,18 @@ def why(
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
     told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
     by_name: what says the same of its channels by a name, and has its probability stated."""
-    unit, count = investigation.problem.unit, int(s.acts.sum())
+    unit, tests = investigation.problem.unit, investigation.measure.tests
     others = judged_beside(s, member, investigation, judgement)
-    beside = f", beside {' and '.join(others)}," if others else ""
-    improves = round(s.better * count)
-    tests = investigation.measure.tests
     alone = told if of_model and others else None
-    beside = ", beside the effects as the model has them, one lag each," if s.as_modelled else beside
-    numbers = (
-        f"where it acts ({count} of {len(s.rows)} {tests}){beside} the error "
-        f"{way(s.error_before, s.error_after)} "
-        # unlike the errors on left-out tests, for which the known effects are left out as well
-        f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
-        f"fitted to all{_of_all(s, None if alone is not None else told, tests, unit)}, and it makes {improves} of "
-        f"{count} more probable; "
-        f"its gain differs between {tests} by {in_percent(s.spread)}"
-    )
-    if alone is not None:
+    like = told if told is not None and told.candidate is not s.candidate else None
+    if like is not None:
+        numbers = f"it is one equation with {like.candidate.id} and told as that: {_numbers(like, told, investigation)}"
+    elif alone is not None:
         left = from_to(*_left_out(alone), unit)
-        numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {numbers}"
+        own = _numbers(s, None, investigation, others)
+        numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {own}"
+    else:
+        numbers = _numbers(s, told, investigation, others)
     if among(member, judgement.claims):
         locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
         elsewhere = f"; {also_missing(s)}" if s.also_on else ""
@@ -117,6 +110,26 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def _numbers(s: Scored, told: Scored | None, investigation: Investigation, others: Sequence[str] = ()) -> str:
+    """Where it acts, how far the error falls there, and in how many tests it says so."""
+    unit, tests, count = investigation.problem.unit, investigation.measure.tests, int(s.acts.sum())
+    beside = f", beside {' and '.join(others)}," if others else ""
+    beside = ", beside the effects as the model has them, one lag each," if s.as_modelled else beside
+    return (
+        f"{where_it_acts(count, len(s.rows), tests)}{beside} the error "
+        f"{way(s.error_before, s.error_after)} "
+        # unlike the errors on left-out tests, for which the known effects are left out as well
+        f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
+        f"fitted to all{_of_all(s, told, tests, unit)}, and it makes {round(s.better * count)} of {count} more "
+        f"probable; its gain differs between {tests} by {in_percent(s.spread)}"
+    )
+
+
+def where_it_acts(count: int, of: int, tests: str) -> str:
+    """'where it acts most (6 of 7 tests)': in the others it does less than a fifth of its largest, which is no rest."""
+    return f"where it acts{' most' if count < of else ''} ({count} of {of} {tests})"
 
 
 def _left_out(s: Scored) -> tuple[float, float]:

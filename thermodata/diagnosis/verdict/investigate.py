@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
 import numpy as np
@@ -35,6 +35,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
 )
 from thermodata.diagnosis.steps import repeating
 from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.of_model import steps_of_model
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -62,7 +63,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 class Investigation:
     """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
     conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no open test
-    moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it."""
+    moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it. told: by the
+    identity of a candidate's columns the errors that are told of it (`together.told_alike`)."""
 
     problem: Problem
     selection: Selection | None
@@ -75,6 +77,7 @@ class Investigation:
     limits: tuple[Limit, ...] = ()
     at_rest: tuple[AtRest, ...] = ()
     looked_for: tuple[str, ...] = ()
+    told: Mapping[int, tuple[Scored, bool]] = field(default_factory=dict)
 
 
 def investigate(
@@ -92,10 +95,9 @@ def investigate(
     fine: Problem | None = None,
     means: Means | None = None,
 ) -> Investigation:
-    """fitted: to all tests that take part in the choice (never the locked ones). as_fitted: the model that is asked
-    about, whose weak spots are shown; by default the same. others: what other axes say; None: nothing. known_faults:
-    that were mended before, or left out. refused: channels; what reads these alone is not asked. fine, means: what was
-    made for other questions to the same response and tests (`Sound`)."""
+    """fitted: to all tests that take part in the choice. as_fitted: the model that is asked about, whose weak spots are
+    shown; by default the same. others: what other axes say; None: nothing. known_faults: mended before, or left out.
+    refused: channels; what reads these alone is not asked. fine, means: made for other questions (`Sound`)."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base) if fine is None else fine
@@ -104,7 +106,7 @@ def investigate(
     steps = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
     whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
-    problem = sharing(_without_steps(whole, steps, fine.step_s), means)
+    problem = sharing(_without_steps(fitted, whole, steps, fine.step_s), means)
     asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -156,12 +158,10 @@ def investigate(
     def conclude(judged: tuple[Judged, ...]) -> Judgement:
         return judgement if selection is None else concluded(problem, selection, measure, judged)
 
-    looked_for = tuple(lock.asked)
     others_of = [t for t in data.tests if t.key not in {o.key for o in tests}]
     rests = tuple(at_rest(asked, tests, others_of, data.channels))
-    return Investigation(
-        problem, selection, artefacts, spots, judgement, measure, borne_out, conclude, unseen, rests, looked_for
-    )
+    said = judgement, measure, borne_out, conclude, unseen, rests, tuple(lock.asked)
+    return Investigation(problem, selection, artefacts, spots, *said)
 
 
 def causes_of(
@@ -184,13 +184,13 @@ def weighed(fitted: FittedResponse, data: Dataset, tests: Sequence[TestData]) ->
     """In the samples in which candidates are weighed, and in those in which steps were looked for."""
     base = remembered(fitted)
     fine, rough = (compressed(fitted, data, tests, rows, base) for rows in (TARGET_ROWS, WEIGHED_ROWS))
-    return _without_steps(rough, repeating.single(find_steps(fine)), fine.step_s), fine
+    return _without_steps(fitted, rough, repeating.single(find_steps(fine)), fine.step_s), fine
 
 
-def _without_steps(problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
-    """With a free offset after each step, and without the samples around it, for one of them is a mean of both levels.
-    seen_s: between the samples in which steps were looked for."""
-    at: dict[tuple[str, str], list[float]] = {}
+def _without_steps(fitted: FittedResponse, problem: Problem, steps: Sequence[Step], seen_s: float) -> Problem:
+    """With a free offset after each step, of the model too, and without the samples around it, for one of them is a
+    mean of both levels. seen_s: between the samples in which steps were looked for."""
+    at = steps_of_model(fitted, problem)
     for step in steps:
         at.setdefault(step.test.key, []).append(step.at_s)
     return problem.split(at, parted_s=problem.step_s / 2 + 0.99 * seen_s)

@@ -14,7 +14,7 @@ from thermodata.plugin import Bool1D, Float1D
 if TYPE_CHECKING:
     from thermodata.diagnosis.weigh.evidence import Columns, Weighed
 
-ACTS = 0.2  # of its largest test: less, and a contribution rests there
+ACTS = 0.2  # of its largest test: less, and a contribution does little there
 
 
 @dataclass(frozen=True, slots=True)
