@@ -60,7 +60,7 @@ def test_what_foretells_left_out_tests_beside_the_model_as_it_stands_is_offered(
 
 @pytest.mark.parametrize(
     ("slow", "left"),
-    [([0.0] * TESTS, False), ([0.5, -0.5] * 3, True)],
+    [([0.0] * TESTS, False), ([0.5, -0.5] * 3, True), ([1.0, 0.1] * 3, True)],
 )
 def test_nothing_is_offered_where_noise_is_left_or_it_acts_otherwise_in_each_test(
     slow: list[float], left: bool
