@@ -60,7 +60,7 @@ def test_what_foretells_left_out_tests_beside_the_model_as_it_stands_is_offered(
 
 @pytest.mark.parametrize(
     ("slow", "left"),
-    [([0.0] * TESTS, False), ([0.5, -0.5] * 3, True), ([1.0, 0.1] * 3, True)],
+    [([0.0] * TESTS, False), ([0.5, -0.5] * 3, True), ([1.0, 0.6, 0.3] * 2, True)],
 )
 def test_nothing_is_offered_where_noise_is_left_or_it_acts_otherwise_in_each_test(
     slow: list[float], left: bool
@@ -68,6 +68,13 @@ def test_nothing_is_offered_where_noise_is_left_or_it_acts_otherwise_in_each_tes
     found, _ = asked(of_slow(slow))
     assert (found is not None) is left
     assert found is None or found.offered is None
+
+
+def test_what_acts_nearly_alike_in_all_tests_is_offered() -> None:
+    """Its gain differs by 48 %, and by 52 % where nothing is offered."""
+    found, _ = asked(of_slow([1.5, 1.0, 0.5] * 2))
+    assert found is not None
+    assert found.offered is not None
 
 
 def test_what_is_noise_is_left_alone() -> None:
