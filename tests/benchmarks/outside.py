@@ -137,12 +137,17 @@ def worth(lab: Lab, model: str, hidden: Sequence[Truth]) -> float | None:
     """Of the first right name alone: with two hidden, what is left of the other stands in both errors."""
     if not hidden or not hidden[0]["right"]:
         return None
-    try:
-        said = lab.ask("confirm", model, hidden[0]["right"][0])
-    except RefusedError:
-        return None
-    before, after = said["locked_rmse_um_before"], said["locked_rmse_um_after"]
+    before, after = on_locked(lab, model, hidden[0]["right"][0])
     return None if not before or after is None else 1 - after / before
+
+
+def on_locked(lab: Lab, model: str, candidate: str) -> tuple[float | None, float | None]:
+    """Locked errors without and with it; None where they can't be asked of it."""
+    try:
+        said = lab.ask("confirm", model, candidate)
+    except RefusedError:
+        return None, None
+    return said["locked_rmse_um_before"], said["locked_rmse_um_after"]
 
 
 def refined(
@@ -151,8 +156,7 @@ def refined(
     offered = next((c for c in said["candidates"] if c["refinement"]), None)
     if offered is None:
         return None
-    added = lab.ask("add", model, offered["id"])
-    return marks(hidden, [offered])[0][0], added["locked_rmse_um_before"], added["locked_rmse_um_after"]
+    return marks(hidden, [offered])[0][0], *on_locked(lab, model, offered["id"])
 
 
 def marks(hidden: Sequence[Truth], claims: Sequence[Mapping[str, Any]]) -> tuple[list[Claim], list[str]]:
