@@ -114,6 +114,23 @@ def test_all_claims_of_one_answer_are_told() -> None:
     assert "locked tests with all 3 " in text
 
 
+@pytest.mark.parametrize("verdict", ["none", "refine"])
+def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
+    second = one("mode", refinement=True, as_modelled=True, rmse_um_before=3.0, rmse_um_after=0.6)
+    given = {"rmse_um": 0.5, "noise_um": 0.1, "modelled_rmse_um": 3.0}
+    text = verdict_sentence(found(verdict, [second], **given))
+    assert text.startswith(
+        "the open tests show no missing effect, but as the model has its effects, one lag each, it leaves 3.00 um on "
+        "left-out tests, and 0.600 um with mode (T), another mode of them or a cause that they hide: add it, "
+    )
+    assert "; where they may act otherwise, 0.500 um are left on left-out tests, more than noise" in text
+    assert "refined by" not in text
+    alone = verdict_sentence(found("none", [one("mode")], **given))
+    assert "as the model has them it leaves 3.00 um, and no effect that is logged takes a third of that away" in alone
+    near = verdict_sentence(found("none", [one("mode")], **{**given, "modelled_rmse_um": 0.74}))
+    assert "as the model has them" not in near, "half as much again is told"
+
+
 def test_refinements_are_offered_and_never_missing() -> None:
     second, bearing = one("mode", refinement=True), one("bearing", refinement=True)
     assert verdict_sentence(found("refine", [second])) == (

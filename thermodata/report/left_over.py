@@ -72,19 +72,29 @@ def otherwise(found: Diagnosis) -> str:
 
 
 def _as_modelled(found: Diagnosis, modelled: float) -> str:
-    """The same by left-out tests, with what refines the model as it stands, or what may hide behind its effects."""
-    offered = [c for c in found.candidates if c.as_modelled]
-    if not offered and modelled <= max(MORE * (found.rmse_um or 0.0), NOISY * (found.noise_um or 0.0)):
+    """The same by left-out tests, with what may hide behind its effects."""
+    told = any(c.as_modelled for c in found.candidates)
+    if told or modelled <= max(MORE * (found.rmse_um or 0.0), NOISY * (found.noise_um or 0.0)):
         return of_levels(found)
-    mends = [
-        f"and {number(c.rmse_um_after)} um with {named(c)}, another mode of them or a cause that they hide: add it, "
-        f"thermodata add {found.model[:8]} {c.rank}"
-        for c in offered
-    ] or ["and no effect that is logged takes a third of that away by itself"]
-    instead = may_act_instead(found, but=[c.id for c in offered])
+    instead = may_act_instead(found)
     return (
         "; that is with its effects free to act otherwise than by one lag each: as the model has them it leaves "
-        f"{number(modelled)} um, {'; '.join(mends)}{f'; or {instead}' if instead else ''}{of_levels(found)}"
+        f"{number(modelled)} um, and no effect that is logged takes a third of that away by itself"
+        f"{f'; or {instead}' if instead else ''}{of_levels(found)}"
+    )
+
+
+def offered(found: Diagnosis) -> str:
+    """'but as the model has its effects, one lag each, it leaves 1.2 um ...': what is offered for the model as it
+    stands, and what may hide behind its effects; '' where nothing is."""
+    one = next((c for c in found.candidates if c.as_modelled), None)
+    if one is None:
+        return ""
+    instead = may_act_instead(found, but=[one.id])
+    return (
+        f"but as the model has its effects, one lag each, it leaves {number(found.modelled_rmse_um)} um on left-out "
+        f"tests, and {number(one.rmse_um_after)} um with {named(one)}, another mode of them or a cause that they hide: "
+        f"add it, thermodata add {found.model[:8]} {one.rank}{f'; or {instead}' if instead else ''}"
     )
 
 

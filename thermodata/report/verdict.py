@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.candidate_errors import left_out_errors, locked_errors
 from thermodata.report.could_hide import could_be
-from thermodata.report.left_over import as_of_nothing, left_over, on_left_out
+from thermodata.report.left_over import as_of_nothing, left_over, offered, on_left_out
 from thermodata.report.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words import duration, number, percent
 from thermodata.schema.listed import listed, with_count
@@ -126,6 +126,8 @@ def _verdict(found: Diagnosis) -> str:
         doubt = clock_in_doubt(found)
         named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
         colon = "; " if doubt else ": "
+        if mend := offered(found):
+            colon = f", {mend}; where they may act otherwise, "
         none = f"the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
         return "; ".join(filter(None, [none, open_still]))
     return {
