@@ -10,11 +10,12 @@ import pytest
 
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.tell.ladder import rungs
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
 
-from .hand_made import Parts, candidate, measure, problem
+from .hand_made import Parts, candidate, measure, problem, scored
 
 TESTS = 6
 OTHER = ("T_other", "T_b")
@@ -131,3 +132,10 @@ def test_a_name_is_offered_for_a_lag_of_its_channels() -> None:
     assert found is not None
     assert found.offered is not None
     assert found.offered.scored.candidate.effect.name == "screw"
+
+
+def test_what_is_offered_for_the_model_as_it_stands_is_held_against_no_chance() -> None:
+    one = scored("mode")
+    told = {r.name for r in rungs(one, measure(), "um")}
+    offered = {r.name for r in rungs(replace(one, as_modelled=True), measure(), "um")}
+    assert told - offered == {"chance", "probability"}

@@ -123,7 +123,7 @@ def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
         "the open tests show no missing effect, but as the model has its effects, one lag each, it leaves 3.00 um on "
         "left-out tests, and 0.600 um with mode (T), another mode of them or a cause that they hide: add it, "
     )
-    assert "; where they may act otherwise, 0.500 um are left on left-out tests, more than noise" in text
+    assert "; where its effects may act otherwise, 0.500 um are left on left-out tests, more than noise" in text
     assert "refined by" not in text
     alone = verdict_sentence(found("none", [one("mode")], **given))
     assert "as the model has them it leaves 3.00 um, and no effect that is logged takes a third of that away" in alone

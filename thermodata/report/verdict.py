@@ -127,7 +127,7 @@ def _verdict(found: Diagnosis) -> str:
         named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
         colon = "; " if doubt else ": "
         if mend := offered(found):
-            colon = f", {mend}; where they may act otherwise, "
+            colon = f", {mend}; where its effects may act otherwise, "
         none = f"the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
         return "; ".join(filter(None, [none, open_still]))
     return {

@@ -16,7 +16,8 @@ _QUANTILES = 41
 
 
 def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
-    """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold."""
+    """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold. What is
+    beside the effects as the model has them is no claim: chance and probability are of effects that may act otherwise."""
     return [
         Rung(
             name=rule.name,
@@ -30,6 +31,7 @@ def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
             fails=None if rule.holds else rule.fails,
         )
         for rule in (*rules(scored, measure, unit), surely(scored))
+        if not (scored.as_modelled and rule.name in ("chance", "probability"))
     ]
 
 

@@ -138,7 +138,7 @@ def candidate(
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
         why=why(s, member, investigation, judgement, held, told, by_name, of_model=of_model),
-        evidence=float(s.evidence) if np.isfinite(s.evidence) else None,
+        evidence=float(s.evidence) if np.isfinite(s.evidence) and not s.as_modelled else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),
         courses=ladder.courses(s, problem) if heads or refining else [],
