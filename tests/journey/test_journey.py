@@ -88,6 +88,7 @@ DIAGNOSIS = {
 }
 SPOT = {"campaign", "test", "from_s", "to_s", "rmse_um", "state", "after_warm_start"}
 CANDIDATE = {
+    "as_modelled",
     "rank",
     "id",
     "effect",
