@@ -17,7 +17,7 @@ _QUANTILES = 41
 
 def rungs(scored: Scored, measure: Measure, unit: str) -> list[Rung]:
     """Every rule of a claim, in the order in which they are asked; a candidate may be claimed where all hold. What is
-    beside the effects as the model has them is no claim: chance and probability are of effects free to act otherwise."""
+    beside the effects as the model has them is no claim: chance and probability are of effects that act freely."""
     return [
         Rung(
             name=rule.name,
