@@ -9,7 +9,7 @@ from pathlib import PurePath
 
 from thermodata.plugin import Head
 from thermodata.reader.text import decode_head
-from thermodata.reader.text.file.foreign_texts import by_width, fixed_width
+from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
 _MOST_NULS = 0.2  # of the bytes of a text that was damaged
 

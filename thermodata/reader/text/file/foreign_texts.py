@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from pathlib import PurePath
 
 from thermodata.errors import FormatError
-from thermodata.reader.text.cells.delimiter import find_delimiter
 
 # a measurement with its tags, its fields, and a time in nanoseconds or the like; what begins with a quote is a text and
 # nothing else: were there two ways to read it, a line of n of them would be tried in 2^n ways
@@ -20,7 +18,6 @@ _CELL_OF_NUMBERS = re.compile(r"[;\t,|]\s*\"?[+-]?\d+(?:[.,]\d+)?(?:[eE][+-]?\d+
 _MESSAGE = re.compile(r"[^\s{}\"]+(?: [^\s{}\"]+)? +\{\".*\}")
 _SCRAPED = re.compile(r"[a-zA-Z_:][\w:]*(?:\{[^{}]*\})? [+-]?(?:\d|NaN|Inf)[^\s]*(?: -?\d+)?")
 _LOOKED_AT, _NEARLY_ALL = 20, 0.8
-_FEWEST_FIXED, _RAGGED = 5, 0.15
 _FEWEST = 2
 
 
@@ -39,26 +36,6 @@ def refuse_foreign(lines: Sequence[str], where: str) -> None:
         what, do = known
         first = next(line for line in lines if line.strip())
         raise FormatError(f"{what}, no table", where=where, expected="a table", got=first.strip()[:60], hint=do)
-
-
-def fixed_width(lines: Sequence[str]) -> bool:
-    """Whether nothing but blanks parts the cells of lines that are all as long, some cells being empty or joined."""
-    full = [line.rstrip("\r\n") for line in lines if line.strip()][:-1]  # the last one may be cut
-    if len(full) < _FEWEST_FIXED or any(c in line for line in full for c in ",;|\t"):
-        return False
-    width = max(map(len, full))
-    numbers = sum(len(re.findall(r"(?<![\w.])[+-]?\d+(?:\.\d+)?", line)) > 2 for line in full)
-    alike = sum(abs(len(line) - width) <= _RAGGED * width for line in full)
-    even = min(numbers, alike) >= _NEARLY_ALL * len(full)
-    return even and foreign_text(lines) is None and find_delimiter(full) is None
-
-
-def by_width(name: str) -> str:
-    """What to do with a text of fixed width."""
-    return (
-        'make a CSV of its columns of fixed width: python -c "import pandas; '
-        f"pandas.read_fwf('{name}').to_csv('{PurePath(name).stem}.csv', index=False)\", and see that none is cut in two"
-    )
 
 
 def _is_scrape(lines: Sequence[str]) -> bool:

@@ -15,7 +15,7 @@ from thermodata.reader.text.cells import delimiter as delimiters
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.cells.zone_words import stated_zone
-from thermodata.reader.text.file.foreign_texts import by_width, fixed_width, refuse_foreign
+from thermodata.reader.text.file.foreign_texts import refuse_foreign
 from thermodata.reader.text.file.lines import WHOLE, Sample, sample
 from thermodata.reader.text.names.unit_cells import refuse_units_in_cells, unit_note
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
@@ -30,6 +30,7 @@ from thermodata.reader.text.preamble.begin import (
     first_times,
     unused_start,
 )
+from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
