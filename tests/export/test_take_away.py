@@ -12,6 +12,7 @@ from thermodata_reader_table import Reader
 from thermodata.errors import UsageError
 from thermodata.export import export_test
 from thermodata.export import mat as mat_module
+from thermodata.export.xlsx import _sheet_names
 from thermodata.plugin import Source
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
@@ -255,3 +256,10 @@ tests: [{id: warm, kind: spindle, role: calibration}]
     )
     assert other == pytest.approx(own)
     assert own[-1] < own[0] - 10, "turned to the machine's axis in the first store, and not again in the other"
+
+
+def test_sheets_have_names_that_differ_whatever_streams_are_called() -> None:
+    names = _sheet_names(["a/b", "a_b", "Z", "z", "about", "x" * 40, "x" * 41, "about"])
+    assert len({n.casefold() for n in names}) == len(names)
+    assert all(0 < len(n) <= 31 for n in names)
+    assert _sheet_names(["daq", "nc"]) == ["daq", "nc"]

@@ -44,7 +44,8 @@ _STYLES = (
 
 def write_xlsx(content: Content, path: Path) -> None:
     """UsageError where a stream does not fit into a sheet."""
-    sheets = [(_sheet_name(s.name, n), _rows(content, s)) for n, s in enumerate(content.streams)]
+    *names, about = _sheet_names([*(s.name for s in content.streams), "about"])
+    sheets = [(name, _rows(content, s)) for name, s in zip(names, content.streams, strict=True)]
     for stream in content.streams:
         columns = 2 + len(stream.values) + len(stream.flags)
         if stream.t_s.size + _HEAD > MOST_ROWS or columns > MOST_COLUMNS:
@@ -55,7 +56,7 @@ def write_xlsx(content: Content, path: Path) -> None:
                 got=f"{stream.t_s.size} rows, {columns} columns",
                 hint="a longer --step, or --format mat",
             )
-    sheets.append((_sheet_name("about", len(sheets)), _about(content)))
+    sheets.append((about, _about(content)))
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         for name, text in _parts([name for name, _ in sheets]).items():
             file.writestr(name, text)
@@ -119,10 +120,15 @@ def _frozen(is_table: bool) -> str:
     return f'<sheetViews><sheetView workbookViewId="0">{pane}</sheetView></sheetViews>'
 
 
-def _sheet_name(name: str, number: int) -> str:
-    """As Excel takes it; two that are cut alike differ by their number."""
-    plain = re.sub(r"[\[\]:*?/\\']", "_", name) or "sheet"
-    return plain if len(plain) <= _NAME else f"{plain[: _NAME - 4]}_{number}"
+def _sheet_names(names: Sequence[str]) -> list[str]:
+    """As Excel takes them; what is too long, or alike but for its case, differs by its number."""
+    made: list[str] = []
+    for number, name in enumerate(names):
+        plain = re.sub(r"[\[\]:*?/\\']", "_", name) or "sheet"
+        if len(plain) > _NAME or plain.casefold() in {m.casefold() for m in made}:
+            plain = f"{plain[: _NAME - 1 - len(str(number))]}_{number}"
+        made.append(plain)
+    return made
 
 
 def _parts(names: Sequence[str]) -> dict[str, str]:

@@ -96,3 +96,38 @@ def test_words_beside_a_time_that_are_no_part_of_it_are_signals(tmp_path: Path, 
         found = load(Reader(), path, Source())
         assert len(found.recording.signals) == 2
         assert found.t_ns["table"].tolist() == _T_NS
+
+
+_UNIX = [1_772_434_800 + 10 * k for k in range(_N)]
+
+
+@pytest.mark.parametrize(
+    ("values", "said", "told"),
+    [
+        ([float(t) for t in _UNIX], "s", ""),
+        ([float(t) for t in _UNIX], "seconds", ""),
+        ([1000 * t for t in _UNIX], "ms", ""),
+        (_UNIX, "unix timestamp", "no unit of time"),
+        (_UNIX, "UTC", "no unit of time"),
+        (_UNIX, "1", "no unit of time"),
+        (_UNIX, "s since 1970-01-01", ""),
+    ],
+)
+def test_metadata_of_a_time_lose_no_date(tmp_path: Path, values: list[Any], said: str, told: str) -> None:
+    """'s' of Unix times is their step, and what is no unit of time is told and left."""
+    made = pa.field("time", pa.array(values).type, metadata={"unit": said})
+    table = pa.table([pa.array(values), np.arange(float(_N))], schema=pa.schema([made, pa.field("T", pa.float64())]))
+    pq.write_table(table, path := tmp_path / "a.parquet")
+    recording = Reader().describe(path, Source())
+    assert recording.clock == "absolute"
+    assert recording.start_ns == _UNIX[0] * 10**9
+    assert any(told in n for n in recording.notes) if told else not any("metadata" in n for n in recording.notes)
+
+
+def test_metadata_tell_the_step_of_a_time_from_a_start(tmp_path: Path) -> None:
+    made = pa.field("time", pa.float64(), metadata={"unit": "min"})
+    table = pa.table(
+        [np.arange(float(_N)), np.arange(float(_N))], schema=pa.schema([made, pa.field("T", pa.float64())])
+    )
+    pq.write_table(table, path := tmp_path / "a.parquet")
+    assert Reader().describe(path, Source()).clock == "relative"

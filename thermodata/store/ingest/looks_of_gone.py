@@ -1,5 +1,5 @@
-"""Looks at the locked tests of data that were forgotten: they count on where the same data come back, for nobody has
-forgotten what he saw."""
+"""Looks at the locked tests of data that were forgotten: they count on where the same data come back next, for nobody
+has forgotten what he saw."""
 
 from __future__ import annotations
 

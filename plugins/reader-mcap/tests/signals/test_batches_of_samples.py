@@ -95,3 +95,25 @@ def test_a_declared_time_keeps_messages_whole(tmp_path: Path, write: Any, read: 
 def test_a_sample_is_found_in_its_message(tmp_path: Path, write: Any) -> None:
     path = write(tmp_path / "a.mcap", batches(4, FORMS["step in s"]))
     assert Reader().locate(path, Source(), "/daq", 12).startswith("message 3,")
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        lambda ks, z, unit: {"t0": at(ks[0]), "dt": 6.0, "dZ": z, "unit": unit},
+        lambda ks, z, unit: {"t": [at(k) for k in ks], "value": z, "unit": unit},
+    ],
+)
+def test_a_unit_that_is_said_once_is_of_all_samples_of_its_message(
+    tmp_path: Path, write: Any, read: Any, form: Any
+) -> None:
+    """The recorder is set to mm halfway."""
+
+    def made(ks: list[int]) -> dict[str, Any]:
+        late = ks[0] >= 20 * N
+        return form(ks, [k / 1000 if late else float(k) for k in ks], "mm" if late else "um")
+
+    recording, _, values, _, losses = read(write(tmp_path / "a.mcap", batches(40, made)))
+    (name,) = [s.name for s in recording.signals if s.unit == "um"]
+    assert not losses
+    np.testing.assert_allclose(values[name], np.arange(40.0 * N))

@@ -110,3 +110,26 @@ def test_channels_of_one_topic_that_declare_other_units_are_brought_to_the_first
     else:
         np.testing.assert_allclose(values["/daq.dZ"], UM)
         assert not losses
+
+
+@pytest.mark.parametrize("how", ["unit", "metadata"])
+def test_what_channel_and_message_say_alike_is_converted_once(tmp_path: Path, read: Any, how: str) -> None:
+    path = tmp_path / "a.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        for late, unit in enumerate(("um", "mm")):
+            field = {"type": "number"} | ({"unit": unit} if how == "unit" else {})
+            said = json.dumps({"type": "object", "properties": {"value": field, "unit": {"type": "string"}}}).encode()
+            metadata = {"unit.value": unit} if how == "metadata" else {}
+            channel = writer.register_channel(
+                "/daq", "json", writer.register_schema("s", "jsonschema", said), metadata=metadata
+            )
+            for k in range(late * N // 2, (1 + late) * N // 2):
+                message = {"value": UM[k] / 1000 if late else UM[k], "unit": unit}
+                writer.add_message(channel, T0 + k * STEP, json.dumps(message).encode(), T0 + k * STEP)
+        writer.finish()
+    recording, _, values, _, losses = read(path)
+    assert not losses
+    np.testing.assert_allclose(values["/daq.value"], UM)
+    assert sum("is converted" in n for n in recording.notes) == 1

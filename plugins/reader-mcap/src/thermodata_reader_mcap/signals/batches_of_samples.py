@@ -68,8 +68,8 @@ class Samples:
         return t_ns
 
     def parted(self, message: Any) -> tuple[list[dict[str, Any]], Int1D] | None:
-        """The samples of a message as messages, and their times; what it holds once stands in the first. None for a
-        message that holds none."""
+        """The samples of a message as messages, and their times; what it holds once stands in the first, and words
+        beside the arrays, as a unit, in all. None for a message that holds none."""
         held = _at(message, self.inside)
         t_ns = None if held is None else self.times(held)
         if held is None or t_ns is None or not 0 < t_ns.size <= _MOST:
@@ -79,11 +79,12 @@ class Samples:
         if not each:
             return None
         once = {k: v for k, v in mine.items() if k not in each}
+        words = {k: v for k, v in once.items() if isinstance(v, str)}
         rows = [
             _within(
                 message if k == 0 else {},
                 self.inside,
-                {name: mine[name][k] for name in each} | (once if k == 0 else {}),
+                {name: mine[name][k] for name in each} | (once if k == 0 else words),
             )
             for k in range(t_ns.size)
         ]

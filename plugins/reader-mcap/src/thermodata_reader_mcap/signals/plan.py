@@ -178,6 +178,8 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     notes += more
     kept = {chosen_options.stamp} if chosen_options.stamp is not None else set[Path]()
     units = units_said([t for t in found.topics if t not in series], found.topics, found.readers, batches, kept, notes)
+    found.sent.leave([one.of for one in units])
+    notes += filter(None, (found.sent.note(topic, _mine(found, topic)) for topic in found.topics.values()))
     return Plan(
         chosen_options,
         said,
@@ -226,7 +228,6 @@ def _topics(batches: dict[Channel, Batch], chosen: Options, source: Source, whol
             result.unsupported[topic] = "; ".join(dict.fromkeys(problems.values()))
         if found is not None:
             result.topics[topic] = result.sent.settle(found, made)
-            notes += filter(None, (result.sent.note(found, made),))
             result.readers.update(made)
         elif not problems:
             result.unsupported[topic] = "no message decodes" if not _empty(made, samples) else "its messages are empty"

@@ -4,7 +4,7 @@ sender that was started anew may send in other ones."""
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -60,6 +60,13 @@ class UnitsOfChannels:
                 Other(n, u, w, linear_conversion(u, w) if converts_here(u, w) else None) for n, u, w in pairs
             )
         return known
+
+    def leave(self, fields: Collection[str]) -> None:
+        """Takes no unit for fields that messages say the unit of: they know better what they hold."""
+        for own in self.units.values():
+            for name in fields:
+                own.pop(name, None)
+        self._known.clear()
 
     def note(self, topic: Topic, made: Mapping[Channel, Decoder]) -> str | None:
         """What is told of channels that send in several units."""

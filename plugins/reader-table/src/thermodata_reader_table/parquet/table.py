@@ -14,6 +14,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
 from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
+from thermodata.reader.text import split_unit
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_columns import column as find_column
 from thermodata.reader.text.clocks.time_columns import find_time, time_of
@@ -24,7 +25,7 @@ from thermodata.reader.text.page.layout import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.in_memory import times_of_numbers
-from thermodata.reader.time_units import check_unit, found_epoch, to_ns, with_step
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch, known_unit, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
 from thermodata_reader_table.parquet.field_metadata import said_of_fields, units_of
@@ -147,11 +148,11 @@ class Table:
             )
         if pt.is_duration(kind):
             return column, "duration"
-        text = with_step(unit or self.units[column] or unit_of_time(self.names[column]))
         found = next(self.batches(1000), None)
         cells = None if found is None else found.column(column)
         whole = cells is not None and pt.is_integer(kind)  # which may be longer than a float64 tells
         values = np.zeros(0) if cells is None else cells.drop_null().to_numpy() if whole else numbers(cells)
+        text = with_step(unit or self._unit_said(column, values) or unit_of_time(self.names[column]))
         if unit is None:
             ask_what_counts(self.names[column], values, text, self.path.name)
         if text is None:
@@ -160,6 +161,19 @@ class Table:
                 raise unit_question(self.names[column], values, self.path.name)
             self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
+
+    def _unit_said(self, column: int, values: Any) -> str | None:
+        """The unit in a time's name, or in its metadata: what these say of counts from a date by their size is the
+        step of that count, and what is no unit of time is told."""
+        said = self.units[column]
+        if said is None or split_unit(self.names[column])[1] is not None:
+            return said
+        known, epoch = known_unit(said), found_epoch(values)
+        if known is None:
+            self.notes.append(f"'{self.names[column]}': its metadata say '{said}', which is no unit of time: not used")
+            return None
+        same = epoch is not None and SECONDS.get(known) == EPOCHS[epoch].seconds
+        return epoch if same else known
 
     def _of_cells(self, said: Mapping[str, Any], units: list[str | None]) -> int:
         """The first column of a time that no type tells, found as in a table of text: with the others that a time of
