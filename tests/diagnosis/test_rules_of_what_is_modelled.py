@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,8 +13,9 @@ import pytest
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.tell.ladder import rungs
+from thermodata.diagnosis.tell.why import judged_beside
 from thermodata.diagnosis.verdict.as_modelled import AsModelled, as_modelled, refined
-from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.selection import Selection, first_ranking, select
 
 from .hand_made import Parts, candidate, measure, problem, scored
@@ -139,3 +142,15 @@ def test_what_is_offered_for_the_model_as_it_stands_is_held_against_no_chance() 
     told = {r.name for r in rungs(one, measure(), "um")}
     offered = {r.name for r in rungs(replace(one, as_modelled=True), measure(), "um")}
     assert told - offered == {"chance", "probability"}
+
+
+def test_what_is_offered_for_the_model_as_it_stands_stands_beside_no_other() -> None:
+    one, other = scored("one"), scored("other", channels=("T_b",))
+    own = Judged(one, one, None, ())
+    offer = Judged(replace(other, as_modelled=True), replace(other, as_modelled=True), "it refines", ())
+    judgement = Judgement("refine", (), (offer,), (own, offer), "")
+    investigation: Any = SimpleNamespace(selection=None)
+    assert judged_beside(one, own, investigation, judgement) == []
+    assert judged_beside(offer.scored, offer, investigation, judgement) == []
+    both = replace(judgement, judged=(own, Judged(other, other, None, ())))
+    assert judged_beside(one, own, investigation, both) == ["other:T_b"]

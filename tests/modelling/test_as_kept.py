@@ -133,6 +133,7 @@ def test_a_test_that_came_back_is_without_its_results_until_the_model_is_fitted_
     store, model, _ = edited
     assert forget(store, "c", "t0")["stale"] == [model]
     assert "gone: t0" in str(stale_line(store, model))
+    assert stale_line(store, model[:6]) == stale_line(store, model), "by a prefix, too"
     ingest(store, tmp_path / "campaign.yaml")
     assert "gone for a while: t0" in str(stale_line(store, model))
     assert run.fit(store, find_model(store, model).spec).model == model

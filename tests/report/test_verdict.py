@@ -126,7 +126,7 @@ def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
     assert "; where its effects may act otherwise, 0.500 um are left on left-out tests, more than noise" in text
     assert "refined by" not in text
     alone = verdict_sentence(found("none", [one("mode")], **given))
-    assert "as the model has them it leaves 3.00 um, and no effect that is logged takes a third of that away" in alone
+    assert "as the model has them it leaves 3.00 um, and no effect that is logged takes 30 % of that away" in alone
     near = verdict_sentence(found("none", [one("mode")], **{**given, "modelled_rmse_um": 0.74}))
     assert "as the model has them" not in near, "half as much again is told"
 
@@ -286,6 +286,9 @@ def test_the_errors_of_a_headline_are_of_the_users_model_and_of_all_that_it_name
     mode = one("mode", refinement=True, beside=["oil:T"])
     text = verdict_sentence(found("refine", [mode], rmse_um=1.46, named_rmse_um=1.16))
     assert text.endswith("refined by mode (T), error on left-out tests 1.46 -> 1.16 um")
+    two = [mode, one("bearing", refinement=True)]
+    text = verdict_sentence(found("refine", two, rmse_um=1.27, named_rmse_um=2.12))
+    assert text.endswith("foretold worse with all of them (1.27 -> 2.12 um): add one, and ask again")
 
 
 def test_what_is_not_excluded_says_how_probable_it_is() -> None:

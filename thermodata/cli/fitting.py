@@ -196,7 +196,7 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     with counting_line() as tell, watched(tell):
         parent = resolve(store, model)
         result = add(store, parent, candidate, plain=plain)
-    _answer_version(session, result, parent)
+    _answer_version(session, result, result.parent or parent)
     worse = made_worse(result, response_units(store, result.responses, result.campaigns))
     if worse is not None:
         session.say(worse)
@@ -230,7 +230,7 @@ def remove_command(session: Session, model: str, effect: str) -> None:
     with counting_line() as tell, watched(tell):
         parent = resolve(store, model)
         result = remove(store, parent, effect)
-    _answer_version(session, result, parent)
+    _answer_version(session, result, result.parent or parent)
 
 
 @command("history")

@@ -79,7 +79,7 @@ def _as_modelled(found: Diagnosis, modelled: float) -> str:
     instead = may_act_instead(found)
     return (
         "; that is with its effects free to act otherwise than by one lag each: as the model has them it leaves "
-        f"{number(modelled)} um, and no effect that is logged takes a third of that away by itself"
+        f"{number(modelled)} um, and no effect that is logged takes 30 % of that away in most tests alike"
         f"{f'; or {instead}' if instead else ''}{of_levels(found)}"
     )
 

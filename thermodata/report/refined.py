@@ -33,8 +33,13 @@ def told_with_errors(found: Diagnosis, advice: str = "") -> str:
     parts = []
     if worth:
         them = "it" if len(worth) == 1 else "them"
-        errors = left_out_errors(worth, found.rmse_um, found.named_rmse_um)
-        parts.append(f"{can_be_refined(found)}, {errors}{advice.format(them=them)}")
+        before, together = found.rmse_um, found.named_rmse_um
+        if len(worth) > 1 and before is not None and together is not None and together > before:
+            ask = f"left-out tests are foretold worse with all of them ({number(before)} -> {number(together)} um)"
+            parts.append(f"{can_be_refined(found)}, but {ask}: add one, and ask again")
+        else:
+            errors = left_out_errors(worth, before, together)
+            parts.append(f"{can_be_refined(found)}, {errors}{advice.format(them=them)}")
     return "; ".join([*parts, *map(_not_worth, others)])
 
 

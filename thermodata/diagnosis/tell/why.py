@@ -42,7 +42,9 @@ def judged_beside(s: Scored, member: Judged | None, investigation: Investigation
         return []
     if member is None:
         return list(s.others)
-    others = [j.scored.candidate.id for j in judgement.judged if j.alone is not member.alone]
+    # what is offered beside the model as it stands stands beside no other candidate
+    among_them = [j for j in judgement.judged if j.alone is not member.alone and not j.scored.as_modelled]
+    others = [j.scored.candidate.id for j in among_them]
     context = () if investigation.selection is None else investigation.selection.context
     return [*others, *(c.candidate.id for c in context)]
 

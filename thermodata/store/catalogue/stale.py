@@ -18,7 +18,9 @@ def stale_line(store: Store, model: str) -> str | None:
     if not stored.stale:
         return None
     with store.reader() as con:
-        rows = fetch(con, "select payload from finding where model = ? and kind = ? order by rowid", [model, STALE])
+        rows = fetch(
+            con, "select payload from finding where model = ? and kind = ? order by rowid", [stored.model, STALE]
+        )
     changed: dict[str, list[str]] = {}
     for found in (json.loads(r["payload"]) for r in rows):
         changed[found["test"]] = list(dict.fromkeys([*changed.get(found["test"], []), *found["what"]]))
