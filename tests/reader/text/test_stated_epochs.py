@@ -60,6 +60,11 @@ HEADS = [
     ("# time: minutes since 2026-03-12T08:00:00+01:00", "t [min]", 0, 1, None),
     ("# time base: GPS", "time_s", since(1980, 1, 6) + 18, 60, None),
     ("# Time scale: TAI", "time_s", since(1970) + 37, 60, None),
+    ("# timestamps: PTP (TAI), s since 1970-01-01", "timestamp_s", since(1970) + 37, 60, None),
+    ("# clock: TAI, ms since 1970-01-01", "time_ms", (since(1970) + 37) * 1e3, 6e4, None),
+    ("# GPS time, seconds since 1980-01-06", "time_s", since(1980, 1, 6) + 18, 60, None),
+    ("# PTP clock, seconds since 1970-01-01 UTC", "time_s", since(1970), 60, None),
+    ("# GPS receiver, seconds since 1970-01-01", "time_s", since(1970), 60, None),
 ]
 
 

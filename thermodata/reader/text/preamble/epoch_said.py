@@ -17,6 +17,10 @@ _LABEL = re.compile(
     r"(?P<value>\S.*)$"
 )
 _SCALE = re.compile(r"(?i)^(?P<scale>gps|tai|ntp|unix|posix|labview)\b")
+# scales that count leap seconds, and where they begin; PTP's own is TAI
+_LEAPING = re.compile(r"(?i)(?<![a-z])(?:(?P<tai>tai|ptp)|(?P<gps>gps))(?![a-z])")
+_ZERO_S = {"tai": 0, "gps": 315_964_800}
+_UTC = re.compile(r"(?i)(?<![a-z])(?:utc|gmt|unix|posix)(?![a-z])|\d\s*z(?![a-z])")
 _PLAIN = frozenset({"s", "min", "h", "d", "ms", "us", "ns"})
 _BEHIND = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}
 
@@ -64,7 +68,9 @@ def epoch_said(lines: Iterable[Sequence[str]]) -> SaidEpoch | None:
 
 def _said(text: str) -> SaidEpoch | None:
     if (counted := since(text)) is not None:
-        return SaidEpoch(*counted, "", text)
+        unit, zero = counted
+        scale = _leaping(text, zero)
+        return SaidEpoch(unit, zero, "", text) if scale is None else SaidEpoch(unit, None, scale, text)
     match = _LABEL.match(text)
     if match is None:
         return None
@@ -72,6 +78,14 @@ def _said(text: str) -> SaidEpoch | None:
         return SaidEpoch(None, zero, "", text)
     scale = _SCALE.match(match["value"])
     return None if scale is None else SaidEpoch(None, None, scale["scale"].lower(), text)
+
+
+def _leaping(text: str, zero: Zero) -> str | None:
+    """'tai' of 'PTP (TAI), ns since 1970-01-01': the scale with leap seconds that a count from its zero is said to be
+    of; None where the text says UTC, too, or another zero."""
+    named = {str(m.lastgroup) for m in _LEAPING.finditer(text)}
+    fitting = [scale for scale in sorted(named) if _ZERO_S[scale] == zero.zero_s]
+    return fitting[0] if fitting and _UTC.search(text) is None else None
 
 
 def _plain(unit: str) -> str | None:
