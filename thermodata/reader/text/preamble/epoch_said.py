@@ -68,9 +68,8 @@ def epoch_said(lines: Iterable[Sequence[str]]) -> SaidEpoch | None:
 
 def _said(text: str) -> SaidEpoch | None:
     if (counted := since(text)) is not None:
-        unit, zero = counted
-        scale = _leaping(text, zero)
-        return SaidEpoch(unit, zero, "", text) if scale is None else SaidEpoch(unit, None, scale, text)
+        leaping = _leaping(text, counted[1])
+        return SaidEpoch(*counted, "", text) if leaping is None else SaidEpoch(counted[0], None, leaping, text)
     match = _LABEL.match(text)
     if match is None:
         return None
