@@ -81,6 +81,18 @@ def test_a_line_above_the_rows_states_it(
     assert not [q for q in source.questions if not q.startswith("timezone?")]
 
 
+@pytest.mark.parametrize("ext", ["csv", "xlsx"])
+@pytest.mark.parametrize("head", ["# timestamps: PTP, s since 1970-01-01", "# PTP clock, seconds since 1970-01-01"])
+def test_a_clock_by_ptp_may_count_leap_seconds_or_none_and_is_asked(tmp_path: Path, head: str, ext: str) -> None:
+    path = written(tmp_path, head, "timestamp_s", since(1970) + 37, 60, ext)
+    with pytest.raises(QuestionError) as asked:
+        first_time(path)
+    assert asked.value.declare["time"]["unit"] == "tai"
+    assert "2026-03-12 07:00:00 UTC" in asked.value.ask
+    assert first_time(path, unit="tai") == AT
+    assert first_time(path, unit="unix") != AT
+
+
 @pytest.mark.parametrize(
     ("name", "first", "step"),
     [

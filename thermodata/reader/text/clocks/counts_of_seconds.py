@@ -24,12 +24,17 @@ _FIRST, _LAST = np.datetime64("2010-01-01"), np.datetime64("2040-01-01")  # when
 
 
 def scale_question(
-    name: str, values: Array, where: str, column: int | None = None, unit: str | None = None
+    name: str,
+    values: Array,
+    where: str,
+    column: int | None = None,
+    unit: str | None = None,
+    hint: str | None = None,
 ) -> QuestionError | None:
     """Asks whether times are of the scale that their name hints at; None where it hints at none, or they are of no year
     in it, or where their unit says what they count from. column: its number, from 1, where its name does not tell it
-    for a time."""
-    match = _HINT.search(name)
+    for a time. hint: what else of the file names a scale, in place of the name."""
+    match = _HINT.search(name if hint is None else hint)
     values = values[np.isfinite(values)]
     if match is None or not values.size or (unit is not None and known_unit(unit) in EPOCHS):
         return None

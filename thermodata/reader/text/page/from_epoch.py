@@ -10,10 +10,11 @@ import numpy as np
 
 from thermodata.plugin import Array
 from thermodata.reader.text.cells.cell import Cell, is_number, number_of
+from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.clocks.time_questions import likely_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.page.group import Group
-from thermodata.reader.text.preamble.epoch_said import SaidEpoch, epoch_said
+from thermodata.reader.text.preamble.epoch_said import PTP, SaidEpoch, epoch_said
 from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
 
 _SETTLED = ("unit", "format", "period")  # where one of these is declared, no head is asked
@@ -46,15 +47,21 @@ def from_epoch(
     names: Sequence[str],
     units: Sequence[str | None],
     data: Sequence[Sequence[Cell]],
+    where: str,
 ) -> tuple[list[Group], list[str]]:
     """(groups whose times count from what the head states, notes); those of dates, of no time, and whose names state an
-    epoch themselves, as they are."""
+    epoch themselves, as they are. QuestionError where it leaves open whether they count leap seconds."""
     found, noted = [], list(notes)
     for group in groups:
         place = group.time[0] if group.time and not group.dated and not group.counted else None
         if place is not None and (unit_of_time(names[place], units[place]) or "") not in EPOCHS:
+            values = _column_of(data, place)
+            number = None if is_time_header(names[place]) else place + 1
+            asked = scale_question(names[place], values, where, number, hint=PTP) if stated.scale == PTP else None
+            if asked is not None:
+                raise asked
             seconds = group.seconds if group.seconds is not None else EPOCHS[group.epoch or ""].seconds
-            epoch, note = _epoch_of(stated, seconds, _column_of(data, place))
+            epoch, note = _epoch_of(stated, seconds, values)
             noted.append(note)
             group = group if epoch is None else replace(group, seconds=None, epoch=epoch)
         found.append(group)

@@ -120,7 +120,7 @@ def find(
     try:
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
         if stated is not None:
-            groups, notes = from_epoch(stated, groups, notes, names, units, data)
+            groups, notes = from_epoch(stated, groups, notes, names, units, data, where)
     except QuestionError as question:
         answer = None if stated is None else answer_of(stated, names, units, data)
         if stated is None or answer is None:

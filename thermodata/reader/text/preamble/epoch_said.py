@@ -17,9 +17,10 @@ _LABEL = re.compile(
     r"(?P<value>\S.*)$"
 )
 _SCALE = re.compile(r"(?i)^(?P<scale>gps|tai|ntp|unix|posix|labview)\b")
-# scales that count leap seconds, and where they begin; PTP's own is TAI
-_LEAPING = re.compile(r"(?i)(?<![a-z])(?:(?P<tai>tai|ptp)|(?P<gps>gps))(?![a-z])")
-_ZERO_S = {"tai": 0, "gps": 315_964_800}
+# scales that count leap seconds, and where they begin; clocks that go by PTP count these or UTC
+PTP = "ptp"
+_LEAPING = re.compile(r"(?i)(?<![a-z])(?:(?P<tai>tai)|(?P<gps>gps)|(?P<ptp>ptp))(?![a-z])")
+_ZERO_S = {"tai": 0, "gps": 315_964_800, PTP: 0}
 _UTC = re.compile(r"(?i)(?<![a-z])(?:utc|gmt|unix|posix)(?![a-z])|\d\s*z(?![a-z])")
 _PLAIN = frozenset({"s", "min", "h", "d", "ms", "us", "ns"})
 _BEHIND = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}
@@ -27,8 +28,8 @@ _BEHIND = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}
 
 @dataclass(frozen=True, slots=True)
 class SaidEpoch:
-    """unit: of the count, None where the line leaves it to the column; zero: None where it names a scale; line: as it
-    stands."""
+    """unit: of the count, None where the line leaves it to the column; zero: None where it names a scale; scale: `PTP`
+    where that leaves it open; line: as it stands."""
 
     unit: str | None
     zero: Zero | None
@@ -83,7 +84,7 @@ def _leaping(text: str, zero: Zero) -> str | None:
     """'tai' of 'PTP (TAI), ns since 1970-01-01': the scale with leap seconds that a count from its zero is said to be
     of; None where the text says UTC, too, or another zero."""
     named = {str(m.lastgroup) for m in _LEAPING.finditer(text)}
-    fitting = [scale for scale in sorted(named) if _ZERO_S[scale] == zero.zero_s]
+    fitting = [scale for scale in _ZERO_S if scale in named and _ZERO_S[scale] == zero.zero_s]
     return fitting[0] if fitting and _UTC.search(text) is None else None
 
 
