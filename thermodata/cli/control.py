@@ -8,7 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import fields
 

@@ -8,7 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of
-from thermodata.cli.fitting import resolve, with_stale
+from thermodata.cli.stored_model import resolve, with_stale
 from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
 
 if TYPE_CHECKING:

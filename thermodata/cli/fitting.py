@@ -9,6 +9,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
+from thermodata.cli.stored_model import resolve, with_stale
 from thermodata.errors import UsageError
 from thermodata.report.fit_text import (
     before_after_text,
@@ -24,31 +25,6 @@ from thermodata.report.table import table
 if TYPE_CHECKING:
     from thermodata.schema.result import FitResult
     from thermodata.store import Store
-
-
-def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
-    """MODEL as the store knows it; where none is named, the one fitted last, and the session says which that is. Says
-    on stderr where models of several campaigns have the name, and where the data of the model changed since its fit:
-    every command that uses one comes by here."""
-    from thermodata.modelling.named import model_named, newest_model, of_which_campaign
-    from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
-
-    found = newest_model(store) if ref is None else model_named(store, ref)
-    stored = find_model(store, found)
-    if ref is None and session is not None:
-        session.say(f"of the model fitted last: {found} ({stored.name}, {', '.join(stored.spec.campaign_ids)})")
-    for said in (of_which_campaign(store, found), stale_line(store, stored.model)):
-        if said is not None:
-            click.echo(said, err=True)
-    return found
-
-
-def with_stale(store: Store, model: str, answer: Any) -> dict[str, Any]:
-    """The answer as JSON has it, with `stale`: the line on a model whose data changed since its fit, or null."""
-    from thermodata.store.catalogue.stale import stale_line
-
-    return {**plain(answer), "stale": stale_line(store, model)}
 
 
 @command("fit")

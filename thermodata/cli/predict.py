@@ -12,7 +12,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.glossary import PREDICTED_LEVEL
 from thermodata.report.table import table

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.stored_model import resolve
 from thermodata.report.table import table
 from thermodata.report.words import number
 

@@ -11,7 +11,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.stored_model import resolve
 
 if TYPE_CHECKING:
     from thermodata.web.desk import Desk

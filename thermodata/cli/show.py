@@ -10,7 +10,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.cli.fitting import resolve
+from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
 from thermodata.report.words import MOST_NAMED, duration, number, probability_text

@@ -15,7 +15,8 @@ from thermodata.report.words import in_unit, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.candidate import Candidate
-    from thermodata.schema.diagnosis import Confirmed, Diagnosis
+    from thermodata.schema.confirmed import Confirmed
+    from thermodata.schema.diagnosis import Diagnosis
 
 _COLUMNS = (
     ("rank", "#"),

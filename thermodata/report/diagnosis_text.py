@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from thermodata.schema.candidate import Candidate
-    from thermodata.schema.diagnosis import Confirmed, Diagnosis
+    from thermodata.schema.confirmed import Confirmed
+    from thermodata.schema.diagnosis import Diagnosis
 
 
 def confirmed_text(result: Confirmed) -> str:

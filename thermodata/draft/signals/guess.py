@@ -13,15 +13,14 @@ from functools import lru_cache
 from thermodata.draft.signals import units
 from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
 from thermodata.draft.signals.name_factor import with_factor_asked
+from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
 from thermodata.draft.signals.unit_at_end import beside, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words
-from thermodata.draft.words.place import place_of
-from thermodata.draft.words.place_rules import Place
-from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, foreign_in, places_in, quantities_in, says
+from thermodata.draft.words.vocabulary import foreign_in, quantities_in
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
@@ -67,21 +66,6 @@ _PLAUSIBLE = {
     "torque": (-5000.0, 5000.0),
     "voltage": (-1000.0, 1000.0),
 }
-_NEVER_DIFFERENCES = ("feed", "position", "rotational_speed", "torque", "current", "pressure")
-_NEEDS_PLACE = (
-    "temperature",
-    "temperature_difference",
-    "power",
-    "load",
-    "current",
-    "torque",
-    "position",
-    "flow",
-    "pressure",
-    "displacement",
-    "rotational_speed",
-    "feed",
-)
 
 
 def says_nothing(name: str) -> bool:
@@ -147,14 +131,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if counts or (known and not is_unit(known)):
         found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
-            return _place(found, own, text)
+            return placed(found, own, text)
         asked = f"{encoding_hint(known or '')}the file says '{known}', which is no unit known here"
         if counts:
             asked = f"the file says '{counts}': is each count one of these, or is that a range? ({range_text(values)})"
         if found.quantity is None or found.basis == ("values",):  # of which nobody knows what they count
             why = found.why_not if found.quantity is None and foreign_in(what) else f"quantity and unit? {asked}"
             return Guess(None, why_not=why)
-        return replace(_place(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
+        return replace(placed(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
     found = quantity_of(what, text, known, dtype, values)
     if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(_last(bare).strip()):
         return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
@@ -162,7 +146,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
-    found = _small(_place(_unit(found, text, unit, written, values), own, text), own, values)
+    found = _small(placed(_unit(found, text, unit, written, values), own, text), own, values)
     if not unit and units.may_be_an_inlet(_last(name)):
         asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
         found = replace(found, sure=False, questions=(*found.questions, asked))
@@ -268,40 +252,3 @@ def _in_range(found: Guess, text: str, values: Values | None) -> Guess:
     if values.median > hottest_c(text) or values.median < -100:
         return replace(found, sure=False, questions=(*found.questions, f"values {values.span()}: raw counts, or K?"))
     return found
-
-
-def _place(found: Guess, own: str, text: str) -> Guess:
-    if found.quantity == "position" and (axis_of(own) or "") in ("a", "b", "c") and "unit" not in found.basis:
-        # a rotary axis stands at an angle, whatever length was taken for its unit
-        found = replace(found, quantity="angle", unit="deg", sure=False, questions=("unit: deg?",))
-    quantity = found.quantity or ""
-    place, axis = place_of(own, quantity), axis_of(own)
-    nowhere = not places_in(own) and axis is None and quantity != "displacement"
-    if place.at is None or (quantity in _NEEDS_PLACE and nowhere):
-        wider = place_of(text, quantity)
-        if wider.at is not None and (places_in(text) or axis_of(text)) and not _group_is_test(text, own):
-            # the folder of names above tells where: less sure than the name itself
-            place = Place(wider.at, False, wider.question)
-    axis = axis or (axis_of(text) if quantity in ("displacement", "tilt") else None)
-    questions = list(found.questions)
-    if place.question and (quantity in _NEEDS_PLACE or quantity == "state"):
-        questions.append(place.question)
-    letter = axis.upper() if axis and quantity in ("displacement", "tilt") else None
-    if quantity == "displacement" and place.at == "tcp" and letter is None:
-        questions.append("axis?")
-    if says(SETPOINT, own) and quantity not in ("state", "displacement"):
-        questions.append("a set value, not the actual one? written only where it changes: held: true")
-    elif says(LIMIT, own) and quantity not in ("state", "displacement"):
-        questions.append("a limit, or a reading?")
-    elif says(DIFFERENCE, own) and quantity in _NEVER_DIFFERENCES:
-        questions.append("a difference, not the quantity itself?")
-    if found.basis == ("unit",) and place.at is not None and quantity not in ("position", "voltage"):
-        # degC at a bearing: the name need not say T
-        found = replace(found, basis=("name", "unit"), sure=found.sure or place.sure)
-    sure = found.sure and (place.sure or place.at is None) and not questions
-    return replace(found, at=place.at, axis=letter, sure=sure, questions=tuple(dict.fromkeys(questions)))
-
-
-def _group_is_test(text: str, own: str) -> bool:
-    """A group called 'Spindle test 3' or 'measurement' names the test, not the place."""
-    return says("test. tests. run. versuch. messung. measurement. mereni. 试验 测试", text.removesuffix(own))

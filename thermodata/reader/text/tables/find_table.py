@@ -34,6 +34,7 @@ from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
+from thermodata.reader.text.tables.head_lines import records, top_of
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
 from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
@@ -46,8 +47,6 @@ from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, 
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.text.times.unpadded import unpadded_note
 
-_HEAD_LINES = 500  # in which the layout shows
-_HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 
 
@@ -105,7 +104,7 @@ def find_table(
     refuse_foreign(head, where)
     said = source.table or {}
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
-    top = _top(head)
+    top = top_of(head)
     delimiter = delimiter or delimiters.find_delimiter(top)
     if delimiter is None:
         raise FormatError(
@@ -123,7 +122,7 @@ def find_table(
             head=tuple(map(delimiters.parted, first.head)),
             rest=tuple(map(delimiters.parted, first.rest)),
         )
-        top = _top(head)
+        top = top_of(head)
     quoted = any('"' in line for line in (*head, *first.rest))
 
     def cells(line: str) -> list[str]:
@@ -132,7 +131,7 @@ def find_table(
             return [c if c and c[0] > '"' < c[-1] else clean(c) for c in found]
         return [clean(c) for c in found]
 
-    rows = [cells(line) for line in (_records(top) if quoted else top)]
+    rows = [cells(line) for line in (records(top) if quoted else top)]
     if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
         rows[0] = [""]
     looked = first
@@ -220,27 +219,6 @@ def find_table(
         row_quality=of_rows,
         states=codes,
     )
-
-
-def _records(lines: Sequence[str]) -> list[str]:
-    """The lines, those of a header whose cells go over several joined: at the last of them, the others blank, so that
-    lines keep their numbers."""
-    joined: list[str] = []
-    at = 0
-    while at < len(lines):
-        end = at
-        if at < _HEADER_LINES and lines[at].count('"') % 2:
-            more = range(at + 1, min(len(lines), at + _CELL_LINES))
-            end = next((k for k in more if lines[k].count('"') % 2), at)
-        joined += [*[""] * (end - at), " ".join(lines[at : end + 1])]
-        at = end + 1
-    return joined
-
-
-def _top(head: Sequence[str]) -> Sequence[str]:
-    """The lines up to the 500th that is not empty."""
-    full = [k for k, line in enumerate(head) if line and not line.isspace()][:_HEAD_LINES]
-    return head[: full[-1] + 1] if full else head
 
 
 def _timed(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
@@ -14,17 +13,17 @@ from thermodata.plugin import Source
 from thermodata.reader.series import Declaration, Series
 from thermodata.reader.text.names.unit_column import UnitColumn
 from thermodata_reader_mcap.container.attachments import extras
-from thermodata_reader_mcap.container.data_section import Damage, data_section, is_complete
+from thermodata_reader_mcap.container.data_section import is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS, Content, collect_messages
-from thermodata_reader_mcap.container.records import ATTACHMENT, CHUNK, MESSAGE_INDEX, METADATA, Record, chunk_head
 from thermodata_reader_mcap.container.summary import Summary, summary
 from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
 from thermodata_reader_mcap.signals.batches_of_samples import Samples, find_samples, parted
+from thermodata_reader_mcap.signals.chunk_survey import WHOLE, chosen_of, survey
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
@@ -32,8 +31,6 @@ from thermodata_reader_mcap.signals.topic_discovery import by_name, discover, re
 from thermodata_reader_mcap.signals.units_in_messages import units_said
 from thermodata_reader_mcap.signals.units_of_channels import UnitsOfChannels
 
-WHOLE = 8 << 20  # uncompressed bytes that are looked at completely
-_SEARCHED = 64 << 20  # the same, of a file whose chunks do not say which topics they hold
 EARLIEST_NS = 10**17  # log times before 1973 count from the start of the recording
 
 
@@ -61,52 +58,6 @@ class Plan:
     notes: list[str]
 
 
-@dataclass(slots=True)
-class _Chunks:
-    sizes: list[int] = field(default_factory=list)
-    channels: list[set[int]] = field(default_factory=list)
-    extras: list[Record] = field(default_factory=list)
-    damaged: bool = False
-
-
-def _survey(view: memoryview) -> _Chunks:
-    """Sizes of the chunks and the channels that the indexes behind them name, without opening any."""
-    found = _Chunks()
-    for record in data_section(view):
-        if isinstance(record, Damage) or record.cut:
-            found.damaged = True
-        if isinstance(record, Damage):
-            continue
-        if record.opcode == CHUNK:
-            head = chunk_head(view, record)
-            found.sizes.append(head.size if head is not None else 0)
-            found.channels.append(set())
-        elif record.opcode == MESSAGE_INDEX and found.channels and not record.cut and record.stop - record.start >= 6:
-            channel, size = struct.unpack_from("<HI", view, record.start)
-            if size:
-                found.channels[-1].add(channel)
-        elif record.opcode in (ATTACHMENT, METADATA) and not record.cut:
-            found.extras.append(record)
-    return found
-
-
-def _chosen(chunks: _Chunks) -> set[int] | None:
-    """Which chunks to open; None for all."""
-    total, count = sum(chunks.sizes), len(chunks.sizes)
-    if total <= WHOLE:
-        return None
-    if not all(chunks.channels):
-        if total <= _SEARCHED:
-            return None
-        return {0, 1, count - 1, *(count * k // 16 for k in range(16))}
-    chosen = {0, count - 1, *(count * k // 6 for k in range(6))}
-    places: dict[int, tuple[int, int]] = {}
-    for k, inside in enumerate(chunks.channels):
-        for channel in inside:
-            places[channel] = (places.get(channel, (k, k))[0], k)
-    return chosen | {k for pair in places.values() for k in pair}
-
-
 def wanted_topic(topic: str, source: Source) -> bool:
     """Whether a source's topics ask for this one; `*` stands for anything, no topics for all."""
     return not source.topics or any(t == topic or fnmatchcase(topic, t) for t in source.topics)
@@ -119,8 +70,8 @@ def content(view: memoryview, name: str, said: Summary) -> Content:
 
 def plan(view: memoryview, name: str, source: Source) -> Plan:
     """The topics of a recording. FormatError: a declared topic is missing, or no topic can be read."""
-    chosen_options, said, chunks = options(source), summary(view), _survey(view)
-    chosen = _chosen(chunks)
+    chosen_options, said, chunks = options(source), summary(view), survey(view)
+    chosen = chosen_of(chunks)
     met = content(view, name, said)
     met.key = lambda channel: channel if wanted_topic(channel.topic, source) else None
     whole = chosen is None

@@ -1,0 +1,37 @@
+"""The stored model that a command is asked about: by what is written for it, and what is said of it on the way."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from thermodata.cli.common import Session, plain
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
+    """MODEL as the store knows it; where none is named, the one fitted last, and the session says which that is. Says
+    on stderr where models of several campaigns have the name, and where the data of the model changed since its fit:
+    every command that uses one comes by here."""
+    from thermodata.modelling.named import model_named, newest_model, of_which_campaign
+    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.stale import stale_line
+
+    found = newest_model(store) if ref is None else model_named(store, ref)
+    stored = find_model(store, found)
+    if ref is None and session is not None:
+        session.say(f"of the model fitted last: {found} ({stored.name}, {', '.join(stored.spec.campaign_ids)})")
+    for said in (of_which_campaign(store, found), stale_line(store, stored.model)):
+        if said is not None:
+            click.echo(said, err=True)
+    return found
+
+
+def with_stale(store: Store, model: str, answer: Any) -> dict[str, Any]:
+    """The answer as JSON has it, with `stale`: the line on a model whose data changed since its fit, or null."""
+    from thermodata.store.catalogue.stale import stale_line
+
+    return {**plain(answer), "stale": stale_line(store, model)}
