@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN
-from thermodata.reader.text.clocks.counts_of_seconds import scale_question
+from thermodata.reader.text.clocks.counts_of_seconds import may_be, scale_question
 from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
@@ -50,20 +50,8 @@ def count_question(name: str, values: Array, where: str, column: int | None = No
     unit = counted_by(name, values)
     if unit is None:
         return None
-    said = {"time": {**({} if column is None else {"column": column}), "unit": unit}}
-    day = when(values[0], unit)
-    shown = ", ".join(f"{key}: {value}" for key, value in said["time"].items())
-    return QuestionError(
-        f"times that may be {_SAID[unit]}",
-        where=where,
-        got=f"{name}: {values[0]:.14g} ...",
-        expected="a unit",
-        hint=f"declare table: {{time: {{{shown}}}}}; else {{time: {{period: 60 s}}}}",
-        times=[name],
-        ask=f"unit of the time: is '{name}' in {unit} ({_SAID[unit]})? {values[0]:.14g} is {day} then",
-        declare=said,
-        meanwhile=said,
-    )
+    of, day = (unit, _SAID[unit]), when(values[0], unit)
+    return may_be(name, values[0], where, column, of, day, declare_else="; else {time: {period: 60 s}}")
 
 
 def excel_or_question(name: str, values: Array, where: str, other: str) -> str:

@@ -44,18 +44,36 @@ def scale_question(
     if own is None:
         return None
     other = found_epoch(values)
-    said = {"time": {**({} if column is None else {"column": column}), "unit": own}}
     instead = "" if other is None else f"; as {other} it is {_when(values[0], other)}"
+    at = f"{_when(values[0], own)} UTC"
+    unit_of = own, _SCALES[scale]
+    return may_be(name, values[0], where, column, unit_of, at, declare_else=instead, asked_else=instead)
+
+
+def may_be(
+    name: str,
+    first: float,
+    where: str,
+    column: int | None,
+    unit: tuple[str, str],
+    at: str,
+    *,
+    declare_else: str,
+    asked_else: str = "",
+) -> QuestionError:
+    """Asks whether times are counted in a unit, which a draft takes meanwhile. first: of them; column: its number, from
+    1, where it has to be declared; unit: by its name and in words; at: when the first one is then."""
+    own, what = unit
+    said = {"time": {**({} if column is None else {"column": column}), "unit": own}}
     shown = ", ".join(f"{key}: {value}" for key, value in said["time"].items())
     return QuestionError(
-        f"times that may be {_SCALES[scale]}",
+        f"times that may be {what}",
         where=where,
-        got=f"{name}: {values[0]:.14g} ...",
+        got=f"{name}: {first:.14g} ...",
         expected="a unit",
-        hint=f"declare table: {{time: {{{shown}}}}}{instead}",
+        hint=f"declare table: {{time: {{{shown}}}}}{declare_else}",
         times=[name],
-        ask=f"unit of the time: is '{name}' in {own} ({_SCALES[scale]})? {values[0]:.14g} is "
-        f"{_when(values[0], own)} UTC then{instead}",
+        ask=f"unit of the time: is '{name}' in {own} ({what})? {first:.14g} is {at} then{asked_else}",
         declare=said,
         meanwhile=said,
     )
