@@ -476,6 +476,8 @@ class TestAnswer:
         assert order(member(duller), ranked=(dull, duller)) == ["first", "twin"]
         broken = replace(TWIN, gained=-TWIN.gained)
         assert order(member(broken), ranked=(dull, broken)) == ["first", "twin"]
+        of_the_model = replace(FIRST, candidate=replace(FIRST.candidate, kin="same"))
+        assert order(ranked=(of_the_model, TWIN)) == ["twin", "first"], "it would give more, and refines by its kin"
 
     @pytest.mark.parametrize(("after", "order"), [(0.9, ["twin", "first"]), (1.1, ["first", "twin"])])
     def test_a_refinement_that_lets_no_error_fall_comes_behind_the_likeliest(

@@ -13,7 +13,7 @@ from thermodata.diagnosis.claims.probability import elsewhere, probability
 from thermodata.diagnosis.claims.rules import blunt, explained
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import ladder
-from thermodata.diagnosis.tell.stated import Row, goes_by_name, likeliest, stated
+from thermodata.diagnosis.tell.stated import Row, goes_by_name, is_a_cause, likeliest, stated
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
@@ -83,7 +83,7 @@ def with_probability(shown: Sequence[Row], investigation: Investigation, judgeme
 
 def first_cause(shown: Sequence[Row]) -> Scored | None:
     """The first of the list that refines nothing: what does is no missing cause, also where it leaves much."""
-    return next((s for s, m in shown if not s.candidate.within and (m is None or m.refines is None)), None)
+    return next((s for s, m in shown if is_a_cause(s, m)), None)
 
 
 def candidate(

@@ -26,8 +26,8 @@ def likeliest(rows: Sequence[Row], measure: Measure, unit: str) -> Scored | None
     """The head of what is not claimed: of what would give most and of all of which a probability is stated. rows: by
     what they would give."""
     told = stated(rows, measure, unit)
-    no_refinement = (s for s, m in rows if not s.candidate.within and (m is None or m.refines is None))
-    most = next((s for s in no_refinement if goes_by_name(s, told) is None), None)
+    causes = (s for s, m in rows if is_a_cause(s, m))
+    most = next((s for s in causes if goes_by_name(s, told) is None), None)
     return max([*([most] if most is not None else []), *told], key=probability, default=None)
 
 
