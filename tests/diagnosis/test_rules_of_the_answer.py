@@ -455,6 +455,10 @@ class TestAnswer:
         assert of(lag) == [("twin", True), ("first", False)]
         assert self.why["first"].endswith("not claimed: twin:T_a says the same of its channels by a name")
         assert of(less) == [("first", True), ("twin", True)]
+        # of what refines the model it is another reading, however evident
+        found = self.answered(monkeypatch, spec, nothing("refine", member(name, "a mode")), ranked=(less, name))
+        assert [(c.effect, c.probability) for c in found.candidates] == [("twin", None), ("first", None)]
+        assert found.candidates[1].why.endswith("not claimed: twin:T_a says the same of its channels by a name")
 
     def test_the_likeliest_comes_first_of_what_is_not_claimed(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

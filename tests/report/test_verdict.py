@@ -521,6 +521,8 @@ def test_a_cause_that_is_not_excluded_is_named_though_none_is_said_to_be_missing
     again = one("lag", probability=0.24, drivers=["T_b"])
     for slight in (one("screw", probability=0.09), one("screw", probability=None), again):
         assert "not excluded" not in verdict_sentence(found(verdict, [*mode, slight]))
+    likely = one("shift", probability=0.74, drivers=["T_b"], rungs=[rung("probability", holds=True)])
+    assert verdict_sentence(found(verdict, [*mode, likely])).endswith("; not excluded: shift (T_b), probability 74 %")
 
 
 @pytest.mark.parametrize(("fitted", "told_of"), [(0.29, False), (0.31, True), (None, False)])

@@ -155,11 +155,12 @@ def clock_in_doubt(found: Diagnosis) -> str:
 
 def _not_excluded_one(found: Diagnosis) -> Candidate | None:
     """The likeliest cause where none is said to be missing, if it is one in so many cases, and by another channel than
-    what is refined."""
+    what is refined, or as probable as a claim asks."""
     first = next((c for c in found.candidates if not c.refinement and not c.gain_by and not c.phases), None)
     if first is None or (first.probability or 0.0) < NOT_EXCLUDED:
         return None
-    return None if any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found)) else first
+    of_refined = any(set(first.drivers) <= set(c.drivers) for c in refinements_of(found))
+    return None if of_refined and not _is_likely(first) else first
 
 
 def _not_excluded(found: Diagnosis) -> str:

@@ -13,7 +13,7 @@ from thermodata.diagnosis.claims.probability import elsewhere, probability
 from thermodata.diagnosis.claims.rules import blunt, explained
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import ladder
-from thermodata.diagnosis.tell.stated import Row, goes_by_name, is_a_cause, likeliest, stated
+from thermodata.diagnosis.tell.stated import Row, causes, goes_by_name, likeliest, reads_as, stated
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
@@ -47,7 +47,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
                 others.append((s, None))
     # what lets no error fall gives nothing, and stands by what is known of it otherwise
     others.sort(key=lambda item: (-explained(beside_the_model(item[0], investigation)[0]), -probability(item[0])))
-    head = likeliest(others, investigation.measure, investigation.problem.unit)
+    head = likeliest([*order, *others], investigation.measure, investigation.problem.unit)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
         others.sort(key=lambda item: item[0] is not head)
@@ -83,7 +83,7 @@ def with_probability(shown: Sequence[Row], investigation: Investigation, judgeme
 
 def first_cause(shown: Sequence[Row]) -> Scored | None:
     """The first of the list that refines nothing: what does is no missing cause, also where it leaves much."""
-    return next((s for s, m in shown if is_a_cause(s, m)), None)
+    return next((s for s, _ in causes(shown)), None)
 
 
 def candidate(
@@ -107,6 +107,7 @@ def candidate(
     shape = held.on(held.asked) if held else _added(s) if refining else None
     told, of_model = beside_the_model(s, investigation)
     by_name = goes_by_name(s, told_with) if member is None else None
+    mode = reads_as(s, [j.scored for j in judgement.refinements]) if member is None else None
     twins = [t.candidate for t in equivalents(_as_ranked(s, beside), beside)]
     return Candidate(
         rank=rank,
@@ -137,7 +138,7 @@ def candidate(
         equivalent=[t.id for t in twins],
         unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
         also_on=dict(s.also_on),
-        why=why(s, member, investigation, judgement, held, told, by_name, of_model=of_model),
+        why=why(s, member, investigation, judgement, held, told, by_name or mode, of_model=of_model),
         evidence=float(s.evidence) if np.isfinite(s.evidence) and not s.as_modelled else None,
         rungs=ladder.rungs(s, measure, problem.unit),
         left_out=ladder.left_out(told, problem),

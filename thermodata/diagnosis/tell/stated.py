@@ -18,7 +18,7 @@ Row = tuple[Scored, Judged | None]
 def stated(rows: Sequence[Row], measure: Measure, unit: str) -> list[Scored]:
     """Those that keep every rule but that of the probability, and are causes of their own; without what a name among
     them says of the same channels. unit: of the response."""
-    sound = [(s, m) for s, m in rows if is_a_cause(s, m) and len(s.rows) and not failed_rules(s, measure, unit)]
+    sound = [(s, m) for s, m in causes(rows) if len(s.rows) and not failed_rules(s, measure, unit)]
     return [s for s, m in sound if m is not None or goes_by_name(s, [t for t, _ in sound]) is None]
 
 
@@ -26,9 +26,14 @@ def likeliest(rows: Sequence[Row], measure: Measure, unit: str) -> Scored | None
     """The head of what is not claimed: of what would give most and of all of which a probability is stated. rows: by
     what they would give."""
     told = stated(rows, measure, unit)
-    causes = (s for s, m in rows if is_a_cause(s, m))
-    most = next((s for s in causes if goes_by_name(s, told) is None), None)
+    most = next((s for s, _ in causes(rows) if goes_by_name(s, told) is None), None)
     return max([*([most] if most is not None else []), *told], key=probability, default=None)
+
+
+def causes(rows: Sequence[Row]) -> list[Row]:
+    """Those that refine nothing, nor are a lag of what does."""
+    modes = [s for s, m in rows if m is not None and m.refines is not None]
+    return [(s, m) for s, m in rows if is_a_cause(s, m) and (m is not None or reads_as(s, modes) is None)]
 
 
 def is_a_cause(s: Scored, member: Judged | None) -> bool:
@@ -41,8 +46,13 @@ def is_a_cause(s: Scored, member: Judged | None) -> bool:
 
 def goes_by_name(s: Scored, sound: Sequence[Scored]) -> Scored | None:
     """The sound effect with a name that says of the same channels what a lag of them does, and is as evident."""
+    return reads_as(s, [t for t in sound if t.evidence >= NAMED_SHARE * s.evidence])
+
+
+def reads_as(s: Scored, among: Sequence[Scored]) -> Scored | None:
+    """The effect with a name of the same channels, where a candidate is a lag or a difference of them."""
     if s.candidate.family not in UNNAMED:
         return None
     own = set(s.candidate.channels)
-    named = (t for t in sound if t.candidate.family not in UNNAMED and set(t.candidate.channels) == own)
-    return next((t for t in named if t.evidence >= NAMED_SHARE * s.evidence), None)
+    named = (t for t in among if t.candidate.family not in UNNAMED)
+    return next((t for t in named if set(t.candidate.channels) == own), None)
