@@ -259,6 +259,19 @@ def test_a_motor_that_cools_once_its_axis_rests_excuses_no_slip() -> None:
     assert in_tests(slipped(still, at + 1), jumps_of(of=0.0), quantity="temperature") == [("t0", 5)]
 
 
+@pytest.mark.parametrize(("gate", "explained"), [(0.45, False), (0.6, True), (1.3, True)])
+def test_air_that_a_gate_changes_explains_its_steps_though_a_day_moves_it_much_further(
+    gate: float, explained: bool
+) -> None:
+    def opened(test: tuple[Float1D, Float1D]) -> tuple[Float1D, Float1D]:
+        return test[0], gate * test[1] + np.linspace(0.0, 15.0, len(test[1]))
+
+    days = [opened(jumps_of(1.0, 0.0, of=5.0)), opened(jumps_of(0.0, 1.0, of=5.0))]
+    assert (in_tests(*days, quantity="temperature") == []) is explained
+    still = opened(jumps_of(1.0, 0.0))
+    assert in_tests(slipped(still, 140), still, quantity="temperature") == [("t0", 5)], "it makes no step elsewhere"
+
+
 @pytest.mark.parametrize("quantity", ["humidity", "pressure"])
 def test_what_is_no_command_explains_no_step(quantity: str) -> None:
     assert len(in_tests(jumps_of(1.0, of=5.0), jumps_of(1.0, of=5.0), quantity=quantity)) == 2

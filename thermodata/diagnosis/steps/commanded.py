@@ -32,6 +32,9 @@ EITHER_WAY = 0  # no power: how far it changes, up or down
 WARM = -1  # nor that: how far an axis moves, times how warm it is
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
 MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
+# and of a temperature, too, what is so many times its usual sudden change and so large: a gate opens on air that warms by
+# ten times as much in a day
+SUDDEN, LEAST_K = 4.0, 0.5
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
 ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
@@ -200,9 +203,16 @@ def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course 
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
-    span = {p: float(np.ptp(every**p)) for p in POWERS}
+    least = {p: MOVED * float(np.ptp(every**p)) for p in POWERS}
+    if told:
+        return [_of_command(b, v, hole, least) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
+    # a motor that cools once its axis rests is no other body
+    sudden = [suddenly(v, b.t_s, BESIDE + 2) for b, (v, _) in zip(blocks, held, strict=True)]
+    usual = float(np.sqrt(np.mean(np.concatenate([*sudden, np.zeros(1)]) ** 2)))
+    enough = min(least[1], max(SUDDEN * usual, LEAST_K))
     return [
-        _course(b, v, hole & told, span, told) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)
+        _of_temperature(b, v, x, enough) if len(v) else None
+        for b, (v, _), x in zip(blocks, held, sudden, strict=True)
     ]
 
 
@@ -262,15 +272,17 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
 
 
-def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float], told: bool) -> _Course:
+def _of_command(block: Block, value: Float1D, old: Bool1D, least: Mapping[int, float]) -> _Course:
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
-    # a motor that cools once its axis rests is no other body; and a body expands by its temperature, not by the square
-    moved = change if told else {1: suddenly(value, block.t_s, BESIDE + 2), 2: np.zeros(len(value))}
-    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * span[p]) for p in POWERS}
-    change[EITHER_WAY] = np.abs(change[1])
-    rows[EITHER_WAY] = rows[1] if told else np.empty(0, np.int64)
+    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > least[p]) for p in POWERS}
     # a hole begins after the last logged sample and ends before the next one
     hole = old.copy()
     hole[1:] |= old[:-1]
     hole[:-1] |= old[1:]
-    return _Course(change, rows, hole)
+    return _Course({**change, EITHER_WAY: np.abs(change[1])}, {**rows, EITHER_WAY: rows[1]}, hole)
+
+
+def _of_temperature(block: Block, value: Float1D, sudden: Float1D, least: float) -> _Course:
+    """A body expands by its temperature, not by the square, and one way."""
+    nowhere = np.zeros(len(value), dtype=np.bool_)
+    return _Course({1: over_three(value, block.t_s)}, {1: np.flatnonzero(sudden > least)}, nowhere)
