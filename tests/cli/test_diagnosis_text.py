@@ -116,3 +116,6 @@ def test_a_claim_has_its_parameters_and_the_command_that_takes_it_in() -> None:
     said = text("effect", candidate(1, "screw", claimed=True, parameters={"tau": tau}), candidate(2, "rest"))
     assert "screw:T: tau 49.7 min\nto have it: thermodata add m 1" in said
     assert "add m 2" not in said
+    several = [candidate(k, name, claimed=True) for k, name in enumerate(("screw", "motor", "oil"), start=1)]
+    assert "to have both: thermodata add m 1 2" in text("effect", *several[:2])
+    assert "to have all: thermodata add m 1 2 3" in text("effect", *several)

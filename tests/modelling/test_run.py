@@ -291,6 +291,11 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     assert "coolant.tau" in add(store, parent.model, "1").parameters
     direct = add(store, parent.model, EffectSpec(effect="ambient_frame"))
     assert "ambient_frame.gain" in direct.parameters
+    several = add(store, parent.model, "1", "feed_screw:T_nut", EffectSpec(effect="ambient_frame"), plain=True)
+    assert several.added == ["coolant", "feed_screw", "ambient_frame"]
+    assert several.parent == parent.model
+    with pytest.raises(UsageError, match="'coolant:coolant_on' is named twice"):
+        add(store, parent.model, 1, "coolant:coolant_on")
 
 
 def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None:

@@ -20,8 +20,8 @@ class Asked:
     def unit_of(self, response: str) -> str:
         return {"dZ": "um", "T_nut": "K"}[response]
 
-    def add(self, candidate: str | int, *, plain: bool = False) -> None:
-        self.told.append((candidate, plain))
+    def add(self, *candidates: str | int, plain: bool = False) -> None:
+        self.told.append((*candidates, plain))
 
     def confirm(self, candidate: str | int, response: str | None = None) -> Any:
         self.told.append((candidate, response))
@@ -46,6 +46,9 @@ def test_a_rank_is_one_of_this_verdict_whatever_was_asked_since() -> None:
     one.add("1", plain=True)
     one.confirm("lag:T_hall")
     assert of.told == [("coolant:coolant_on", "T_nut"), ("coolant:coolant_on", True), ("lag:T_hall", "T_nut")]
+    one.add()
+    one.add(1, "lag:T_hall")
+    assert of.told[3:] == [("coolant:coolant_on", False), ("coolant:coolant_on", "lag:T_hall", False)]
 
 
 def test_a_verdict_on_a_temperature_is_in_kelvin() -> None:

@@ -152,12 +152,12 @@ def compare_command(
 
 @command("add")
 @click.argument("model", shell_complete=completing.models)
-@click.argument("candidate", shell_complete=completing.candidates)
-@click.option("--plain", is_flag=True, help="Add that one effect, with one time constant, and no more.")
-def add_command(session: Session, model: str, candidate: str, plain: bool) -> None:
+@click.argument("candidate", nargs=-1, required=True, shell_complete=completing.candidates)
+@click.option("--plain", is_flag=True, help="Add what is named, each with one time constant, and no more.")
+def add_command(session: Session, model: str, candidate: tuple[str, ...], plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
+    CANDIDATE is its rank or id, as diagnose printed them, or several of them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
     each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase. Where tests that are
     left out of the fit want it, the effect and those that MODEL has get a second lag, for a part of a machine answers
     heat by a quick share and a slow one.
@@ -171,7 +171,7 @@ def add_command(session: Session, model: str, candidate: str, plain: bool) -> No
     store = session.store()
     with counting_line() as tell, watched(tell):
         parent = resolve(store, model)
-        result = add(store, parent, candidate, plain=plain)
+        result = add(store, parent, *candidate, plain=plain)
     _answer_version(session, result, result.parent or parent)
     worse = made_worse(result, response_units(store, result.responses, result.campaigns))
     if worse is not None:

@@ -18,22 +18,26 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 
-def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: bool = False) -> FitResult:
-    """A new version with one effect more: a rank or id of the stored diagnosis, or any 'effect:channels'; or with
+def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool = False) -> FitResult:
+    """A new version with further effects: each a rank or id of the stored diagnosis, or any 'effect:channels'; or with
     one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
     left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
     are left out (`unsound`).
-    `before` has the parent's scores, `added` the ids of what is new, `notes` why."""
+    `before` has the parent's scores, `added` the ids of what is new, `notes` why. UsageError where one is named twice."""
     from thermodata.store.catalogue.models import find_model, load_diagnosis
 
     parent = find_model(store, ref)
     old = load(store, parent.model, anew=True)
-    if isinstance(candidate, EffectSpec):
-        grown = with_effect(parent.spec, candidate)
-        name = None
-    else:
+    grown, names = parent.spec, list[str]()
+    for candidate in candidates:
+        if isinstance(candidate, EffectSpec):
+            grown = with_effect(grown, candidate)
+            continue
         name = chosen_id(store, parent.model, candidate)
-        grown = with_candidate(parent.spec, name, old.data.channels)
+        if name in names:
+            raise UsageError(f"candidate '{name}' is named twice", expected="each once", got=str(candidate))
+        grown = with_candidate(grown, name, old.data.channels)
+        names.append(name)
     before = make_result(old.fitted, old.data, parent.model).scores
     # what was found before the data changed may be mended
     diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
@@ -47,7 +51,7 @@ def add(store: Store, ref: str, candidate: str | int | EffectSpec, *, plain: boo
     named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
     notes = [*notes, *filter(None, [note_of_response(list(named), old.data.channels)])]
     result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
-    claims = [c for c in diagnosis.candidates if c.claimed and c.id == name] if diagnosis is not None else []
+    claims = [c for c in diagnosis.candidates if c.claimed and c.id in names] if diagnosis is not None else []
     if diagnosis is None or not claims or diagnosis.data_version != old.data.data_version:
         return result
     # the lock was opened when it was claimed, on these data: what that gave is told, and nothing is opened again

@@ -97,11 +97,11 @@ class Fit(Shown):
 
         return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
 
-    def add(self, candidate: str | int, *, plain: bool = False) -> Fit:
-        """A new version with an effect more: a rank or id of the diagnosis, or any 'effect:channels'."""
+    def add(self, *candidates: str | int, plain: bool = False) -> Fit:
+        """A new version with further effects: each a rank or id of the diagnosis, or any 'effect:channels'."""
         from thermodata.modelling.add import add
 
-        return Fit(self.store, add(self.store, self.id, candidate, plain=plain))
+        return Fit(self.store, add(self.store, self.id, *candidates, plain=plain))
 
     def remove(self, effect: str) -> Fit:
         """A new version without an effect."""

@@ -40,7 +40,7 @@ class Diagnosed(Protocol[F_co]):
     @property
     def name(self) -> str: ...
     def unit_of(self, response: str) -> str: ...
-    def add(self, candidate: str | int, *, plain: bool = False) -> F_co: ...
+    def add(self, *candidates: str | int, plain: bool = False) -> F_co: ...
     def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation: ...
 
 
@@ -75,9 +75,9 @@ class Verdict(Shown, Generic[F]):
         """All that were weighed, by rank."""
         return Listed((c.model_dump() for c in self.result.candidates), _COLUMNS)
 
-    def add(self, candidate: str | int = 1, *, plain: bool = False) -> F:
-        """A new version with a candidate: its rank or id."""
-        return self.of.add(self._own(candidate), plain=plain)
+    def add(self, *candidates: str | int, plain: bool = False) -> F:
+        """A new version with candidates, by rank or id; with the first where none is named."""
+        return self.of.add(*map(self._own, candidates or (1,)), plain=plain)
 
     def confirm(self, candidate: str | int = 1) -> Confirmation:
         """Opens the locked tests for an effect of your choice; the look is counted."""

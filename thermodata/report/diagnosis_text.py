@@ -137,8 +137,17 @@ def _asked(found: Diagnosis) -> str:
     return f"{said}; --response asks of another" if said else ""
 
 
+def _claims(found: Diagnosis) -> list[str]:
+    """What each claimed effect is like, and the command that takes it in, and that which takes all in."""
+    claims = [c for c in found.candidates if c.claimed]
+    each = [_claim(found.model, c) for c in claims]
+    if len(claims) < 2:
+        return each
+    ranks = " ".join(str(c.rank) for c in claims)
+    return [*each, f"to have {'both' if len(claims) == 2 else 'all'}: thermodata add {found.model} {ranks}"]
+
+
 def _claim(model: str, c: Candidate) -> str:
-    """What a claimed effect is like, and the command that takes it in."""
     values = ", ".join(f"{name} {number(p.value)} {p.unit}".rstrip() for name, p in c.parameters.items())
     return (f"{c.id}: {values}\n" if values else "") + f"to have it: thermodata add {model} {c.rank}"
 
@@ -160,7 +169,7 @@ def diagnosis_text(found: Diagnosis, top: int = 8) -> str:
     parts = ["\n".join(filter(None, [verdict_sentence(found), _asked(found), ", ".join(filter(None, figures))]))]
     if found.candidates:
         parts.append(_candidates_text(found.candidates[:top], found.rmse_um))
-        parts += [_claim(found.model, c) for c in found.candidates if c.claimed]
+        parts += _claims(found)
         parts += [f"why {c.id}: {c.why}" for c in told(found) if c.why]
     if found.weak_spots:
         parts.append(spots_text(found.weak_spots, most=top))

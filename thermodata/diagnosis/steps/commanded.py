@@ -211,8 +211,7 @@ def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course 
     usual = float(np.sqrt(np.mean(np.concatenate([*sudden, np.zeros(1)]) ** 2)))
     enough = min(least[1], max(SUDDEN * usual, LEAST_K))
     return [
-        _of_temperature(b, v, x, enough) if len(v) else None
-        for b, (v, _), x in zip(blocks, held, sudden, strict=True)
+        _of_temperature(b, v, x, enough) if len(v) else None for b, (v, _), x in zip(blocks, held, sudden, strict=True)
     ]
 
 
