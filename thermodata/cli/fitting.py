@@ -157,10 +157,10 @@ def compare_command(
 def add_command(session: Session, model: str, candidate: tuple[str, ...], plain: bool) -> None:
     """Make a new version of MODEL with an effect more.
 
-    CANDIDATE is its rank or id, as diagnose printed them, or several of them; gain_by:EFFECT,CONDITION gives an effect of MODEL a gain for
-    each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase. Where tests that are
-    left out of the fit want it, the effect and those that MODEL has get a second lag, for a part of a machine answers
-    heat by a quick share and a slow one.
+    CANDIDATE is its rank or id, as diagnose printed them, or several of them; gain_by:EFFECT,CONDITION gives an effect
+    of MODEL a gain for each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase.
+    Where tests that are left out of the fit want it, the effects and those that MODEL has get a second lag, for a part
+    of a machine answers heat by a quick share and a slow one.
     Prints the errors before and after.
     """
     from thermodata.cli.progress import counting_line

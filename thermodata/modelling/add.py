@@ -23,7 +23,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
     left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
     are left out (`unsound`).
-    `before` has the parent's scores, `added` the ids of what is new, `notes` why. UsageError where one is named twice."""
+    `before` has the parent's scores, `added` the ids of what is new, `notes` why.
+    UsageError where one is named twice."""
     from thermodata.store.catalogue.models import find_model, load_diagnosis
 
     parent = find_model(store, ref)

@@ -32,8 +32,8 @@ EITHER_WAY = 0  # no power: how far it changes, up or down
 WARM = -1  # nor that: how far an axis moves, times how warm it is
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
 MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
-# and of a temperature, too, what is so many times its usual sudden change and so large: a gate opens on air that warms by
-# ten times as much in a day
+# and of a temperature, too, what is so many times its usual sudden change and so large: a gate opens on air that a day
+# warms by ten times as much
 SUDDEN, LEAST_K = 4.0, 0.5
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
