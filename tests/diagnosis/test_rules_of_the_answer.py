@@ -427,8 +427,10 @@ class TestAnswer:
         assert of(claim(SECOND, FIRST)) == [other, borne_out, None]
         assert of(claim(FIRST)) == [borne_out, None, None]
         assert of(nothing("unknown")) == [first, twin, None], "the last one does no better than chance"
-        assert of(nothing("refine", member(FIRST, "a mode"))) == [None, twin, None]
-        assert of(nothing("unknown", member(FIRST, "a mode"))) == [twin, None, None], "something else is missing"
+        judged_beside = (FIRST, replace(TWIN, others=("first:T_a",)), OTHER)
+        assert of(nothing("refine", member(FIRST, "a mode")), judged_beside) == [None, twin, None]
+        assert of(nothing("unknown", member(FIRST, "a mode")), judged_beside) == [twin, None, None], "or it is missing"
+        assert of(nothing("unknown", member(FIRST, "a mode"))) == 3 * [None], "nobody asked what it is beside the mode"
         mode = replace(TWIN, candidate=replace(TWIN.candidate, kin="same"))
         assert of(nothing("unknown"), (FIRST, mode)) == [first, None], "of what was not selected nobody asked"
         given = {f.name: getattr(TWIN.candidate, f.name) for f in fields(TWIN.candidate)}
@@ -465,16 +467,19 @@ class TestAnswer:
     ) -> None:
         """Of what keeps the other rules and of what would give most; a mode of the model, and what breaks a rule, is no
         head."""
-        dull = replace(FIRST, evidence=20.0)
+        dull = replace(FIRST, evidence=20.0, others=("twin:T_a",))
 
         def order(*members: Judged, ranked: Sequence[Scored] = (dull, TWIN)) -> list[str]:
             found = self.answered(monkeypatch, spec, nothing("unknown", *members), ranked=ranked)
+            self.whys = [c.why for c in found.candidates]
             told = [c.probability for c in found.candidates if c.probability is not None]
             assert told[0] == max(told), "what heads the list is called the likeliest"
             return [c.effect for c in found.candidates if c.probability is not None or not c.refinement]
 
         assert order() == ["twin", "first"]
         assert order(member(TWIN)) == ["twin", "first"]
+        assert order(member(TWIN), ranked=(FIRST, TWIN)) == ["twin", "first"], "what that is beside it nobody asked"
+        assert self.whys[1].endswith("not claimed: it keeps the rules by itself, and twin:T_b was chosen without it")
         assert order(member(TWIN, "another mode")) == ["first", "twin"]
         duller = replace(TWIN, evidence=10.0)
         assert order(member(duller), ranked=(dull, duller)) == ["first", "twin"]
@@ -503,7 +508,7 @@ class TestAnswer:
         as_ranked = self.answered(monkeypatch, spec, nothing("unknown"))
         assert [c.effect for c in as_ranked.candidates] == ["first", "twin", "other"]
         standing = self.answered(monkeypatch, spec, nothing("unknown", member(replace(TWIN, evidence=60.0))))
-        assert "not claimed: causes like it were right in 62 % of cases only" in standing.candidates[1].why
+        assert "not claimed: causes like it were right in 62 % of cases only" in standing.candidates[0].why
 
     def test_what_lets_no_error_fall_stands_by_its_probability(
         self, monkeypatch: pytest.MonkeyPatch, spec: Model

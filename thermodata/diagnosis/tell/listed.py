@@ -13,7 +13,7 @@ from thermodata.diagnosis.claims.probability import elsewhere, probability
 from thermodata.diagnosis.claims.rules import blunt, explained
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import ladder
-from thermodata.diagnosis.tell.stated import Row, causes, goes_by_name, likeliest, reads_as, stated
+from thermodata.diagnosis.tell.stated import Row, causes, goes_by_name, is_judged_beside, likeliest, reads_as, stated
 from thermodata.diagnosis.tell.why import among, judged_beside, why
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
@@ -47,7 +47,8 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
                 others.append((s, None))
     # what lets no error fall gives nothing, and stands by what is known of it otherwise
     others.sort(key=lambda item: (-explained(beside_the_model(item[0], investigation)[0]), -probability(item[0])))
-    head = likeliest([*order, *others], investigation.measure, investigation.problem.unit)
+    chosen = bool(judgement.judged)
+    head = likeliest([*order, *others], investigation.measure, investigation.problem.unit, chosen=chosen)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
         others.sort(key=lambda item: item[0] is not head)
@@ -71,14 +72,16 @@ def _added(s: Scored) -> Foretold | None:
 
 def with_probability(shown: Sequence[Row], investigation: Investigation, judgement: Judgement) -> list[Scored]:
     """Of which candidates a probability is stated: claims, what the locked tests refused, the first cause, and causes
-    that keep all other rules. What a claim may explain is judged beside it, or not at all, and may be another mode of
-    it where its probability would do."""
+    that keep all other rules, each where it was judged beside what was chosen. What a claim may explain is judged
+    beside it, or not at all, and may be another mode of it where its probability would do."""
     heads = [s for s, m in shown if among(m, judgement.claims) or among(m, judgement.refused)]
-    told = stated(shown, investigation.measure, investigation.problem.unit)
+    chosen = bool(judgement.judged)
+    told = stated(shown, investigation.measure, investigation.problem.unit, chosen=chosen)
     if heads:
         judged = [j.scored for j in judgement.judged]
         told = [s for s in told if blunt(s) is not None and any(s is j for j in judged)]
-    return [*heads, *told, *([first] if (first := first_cause(shown)) is not None else [])]
+    first = [s for s, m in causes(shown)[:1] if is_judged_beside(s, m, chosen=chosen)]
+    return [*heads, *told, *first]
 
 
 def first_cause(shown: Sequence[Row]) -> Scored | None:

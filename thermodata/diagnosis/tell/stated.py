@@ -15,19 +15,27 @@ Row = tuple[Scored, Judged | None]
 """A candidate, and how it was judged; None where it was not selected."""
 
 
-def stated(rows: Sequence[Row], measure: Measure, unit: str) -> list[Scored]:
+def stated(rows: Sequence[Row], measure: Measure, unit: str, *, chosen: bool) -> list[Scored]:
     """Those that keep every rule but that of the probability, and are causes of their own; without what a name among
-    them says of the same channels. unit: of the response."""
-    sound = [(s, m) for s, m in causes(rows) if len(s.rows) and not failed_rules(s, measure, unit)]
+    them says of the same channels. unit: of the response. chosen: whether anything was."""
+    judged = [(s, m) for s, m in causes(rows) if len(s.rows) and is_judged_beside(s, m, chosen=chosen)]
+    sound = [(s, m) for s, m in judged if not failed_rules(s, measure, unit)]
     return [s for s, m in sound if m is not None or goes_by_name(s, [t for t, _ in sound]) is None]
 
 
-def likeliest(rows: Sequence[Row], measure: Measure, unit: str) -> Scored | None:
-    """The head of what is not claimed: of what would give most and of all of which a probability is stated. rows: by
-    what they would give."""
-    told = stated(rows, measure, unit)
-    most = next((s for s, _ in causes(rows) if goes_by_name(s, told) is None), None)
-    return max([*([most] if most is not None else []), *told], key=probability, default=None)
+def likeliest(rows: Sequence[Row], measure: Measure, unit: str, *, chosen: bool) -> Scored | None:
+    """The head of what is not claimed: of what would give most and of all of which a probability is stated; where none
+    was judged beside what was chosen, what would give most. rows: by what they would give."""
+    told = stated(rows, measure, unit, chosen=chosen)
+    own = [(s, m) for s, m in causes(rows) if goes_by_name(s, told) is None]
+    most = [s for s, m in own if is_judged_beside(s, m, chosen=chosen)][:1]
+    return max([*most, *told], key=probability, default=next((s for s, _ in own), None))
+
+
+def is_judged_beside(s: Scored, member: Judged | None, *, chosen: bool) -> bool:
+    """Whether it was weighed beside what was chosen, if anything was: what the others of the ranking are beside that
+    nobody asked (docs/method.md#probability)."""
+    return member is not None or not chosen or bool(s.others)
 
 
 def causes(rows: Sequence[Row]) -> list[Row]:

@@ -11,7 +11,7 @@ from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probabili
 from thermodata.diagnosis.claims.refinement import SURE
 from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
-from thermodata.diagnosis.tell.stated import is_a_cause
+from thermodata.diagnosis.tell.stated import is_a_cause, is_judged_beside
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.figures import from_to, way
@@ -19,6 +19,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import in_percent
+from thermodata.schema.listed import listed as in_a_row
 from thermodata.view.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
@@ -102,12 +103,17 @@ def why(
         return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
         return f"{numbers}; not claimed: it would be another mode of what the model has"
-    failed += [why for why in [blunt(s)] if why]
+    if is_judged_beside(s, member, chosen=bool(judgement.judged)):
+        failed += [why for why in [blunt(s)] if why]
     if failed:
         asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
         return f"{numbers}; not claimed: {failed[0]}" + (f"; {on_locked(s.looked)}" if asked and s.looked else "")
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+    if not judgement.refused and not is_judged_beside(s, member, chosen=bool(judgement.judged)):
+        chosen = in_a_row([j.scored.candidate.id for j in judgement.judged])
+        were = "was" if len(judgement.judged) == 1 else "were"
+        return f"{numbers}; not claimed: it keeps the rules by itself, and {chosen} {were} chosen without it"
     if judgement.refused:
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
