@@ -20,7 +20,8 @@ from thermodata.plugin import Block, Loss, Source
 from thermodata.reader import registry
 from thermodata.store import Store
 from thermodata.store.ingest import side_by_side, worker
-from thermodata.store.ingest.run import NOTHING, IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import NOTHING, IngestSummary
 from thermodata.store.raw import streams
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "hardening"))
@@ -100,10 +101,10 @@ def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
 def test_the_short_way_is_taken_after_the_first_ingest_too(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import run
+    from thermodata.store.ingest import layers
 
     first = ingest(store, lab)
-    monkeypatch.setattr(run, "bind", None)
+    monkeypatch.setattr(layers, "bind", None)
     assert said(ingest(store, lab)) == as_again(first)
 
 

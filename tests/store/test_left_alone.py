@@ -16,8 +16,9 @@ import pytest
 from thermodata.reader import registry
 from thermodata.store import Store
 from thermodata.store.base.connection import insert
-from thermodata.store.ingest import run
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest import layers, run
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "hardening"))
 import whole
@@ -96,8 +97,8 @@ class Looked:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.tests: list[str] = []
-        right = run.bind
-        monkeypatch.setattr(run, "bind", lambda plan: self.tests.append(plan.test.id) or right(plan))
+        right = layers.bind
+        monkeypatch.setattr(layers, "bind", lambda plan: self.tests.append(plan.test.id) or right(plan))
 
     def __call__(self, store: Store, lab: Path) -> tuple[list[str], IngestSummary]:
         self.tests.clear()

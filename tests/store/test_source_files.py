@@ -17,7 +17,8 @@ from thermodata.errors import FormatError, StoreError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
 from thermodata.store.ingest.resolve import SourceFiles
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
 
 

@@ -13,7 +13,8 @@ from store_fakes import START_NS, daq, times, write_log
 from thermodata.errors import SpecError, ThermodataError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 NAMES = [
     "x'; drop table file; --",
