@@ -13,7 +13,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import ArxFunction
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.inputs.overlap import overlaps
-from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys
+from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys, in_full
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.model_file.transfer import DIRECT, NAME, FreeFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
@@ -106,9 +106,9 @@ def _on_what_is_left(spec: Model, roles: Roles, data: Dataset) -> Model:
 
     return spec.model_copy(
         update={
-            "calibrate_on": ["/".join(k) for k in roles.calibrate],
-            "verify_on": ["/".join(k) for k in roles.verify],
-            "locked": ["/".join(k) for k in roles.locked],
+            "calibrate_on": in_full(roles.calibrate),
+            "verify_on": in_full(roles.verify),
+            "locked": in_full(roles.locked),
             "weights": {},  # they count in a fit only
             "effects": [left(e) for e in spec.effects],
         }
