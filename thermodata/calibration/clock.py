@@ -176,11 +176,11 @@ def _coarse(a: tuple[Float1D, Float1D], b: tuple[Float1D, Float1D], cell: float)
     lively = enough & (vx > 0.05) & (vy > 0.05)
     r = np.where(lively, (over("x", "y") / n - sx * sy) / np.sqrt(np.maximum(vx * vy, 1e-12)), -1.0)
     best = int(np.argmax(r))
-    _refuse_rivals(r, n, best, cell)
+    _refuse_rivals(r, best, cell)
     return (best - (len(x) - 1)) * cell, float(min(r[best], 1.0))
 
 
-def _refuse_rivals(r: Float1D, n: Float1D, best: int, cell: float) -> None:
+def _refuse_rivals(r: Float1D, best: int, cell: float) -> None:
     if r[best] < _LEAST_CORRELATION:
         return
     left, right = best, best  # the peak's own flanks are no rivals

@@ -124,7 +124,7 @@ def _response(
         told = {n.removeprefix(start): p.value for n, p in result.parameters.items() if n.startswith(start)}
         terms.append(_term(term, told))
     bound = replace(bound, terms=tuple(t.bound for t in terms))
-    checks = tuple(_own(c, bound.name, bool(prefix)) for c in result.checks if _is_of(c, bound.name, bool(prefix)))
+    checks = tuple(_own(c, bool(prefix)) for c in result.checks if _is_of(c, bound.name, bool(prefix)))
     wanted = None if spec.phases is None else tuple(spec.phases)
     return FittedResponse(bound, tuple(terms), wanted, frozenset(roles.calibrate), checks, fitted_on=fitted_on)
 
@@ -139,7 +139,7 @@ def _is_of(check: Check, response: str, several: bool) -> bool:
     return not several or check.name.partition(":")[2].partition("/")[0] == response
 
 
-def _own(check: Check, response: str, several: bool) -> Check:
+def _own(check: Check, several: bool) -> Check:
     """With the name that it has where the model has one response."""
     kind, _, rest = check.name.partition(":")
     subject = rest.partition("/")[2]
