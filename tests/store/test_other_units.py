@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_levels import Course, Levels
+from thermodata.calibration.between_tests.levels import Course, Levels
 from thermodata.store.ingest.other_units import other_units
 
 

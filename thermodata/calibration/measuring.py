@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring

@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection
 from pathlib import Path
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.draft.known.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Campaign, SourceSpec, Test

@@ -12,8 +12,8 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from thermodata.calibration.quality_levels import Levels
-from thermodata.calibration.quality_still import Reading
+from thermodata.calibration.between_tests.levels import Levels
+from thermodata.calibration.quality.still import Reading
 from thermodata.store.tidy.between import Verdict, levels_of
 from thermodata.store.tidy.source_clock import Clock
 

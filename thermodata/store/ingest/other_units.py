@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality_levels import Levels
+from thermodata.calibration.between_tests.levels import Levels
 from thermodata.schema.listed import with_count
 from thermodata.store.ingest.losses import Losses, loss_row
 

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.calibration.limits import with_limits
+from thermodata.calibration.jump.limits import with_limits
 from thermodata.schema.left_out import left_out_for_a_fault
 from thermodata.store.ingest.bare_conditions import conditions_without_unit
 from thermodata.store.ingest.beside_each_other import odd_clocks

@@ -234,7 +234,7 @@ def _listed(columns: int | str | list[int | str]) -> list[int | str]:
 
 def operands(expression: str) -> list[str]:
     """The channels of an expression in the order of their first appearance."""
-    from thermodata.calibration.expression import parse
+    from thermodata.calibration.expression.parser import parse
 
     words, names = re.findall(r"[^\W\d]\w*(?:\.[^\W\d]\w*)*", expression), parse(expression).names
     return list(dict.fromkeys(word for word in words if word in names))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.clock import ClockEstimate
+from thermodata.calibration.clock.estimate import ClockEstimate
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Int1D
 

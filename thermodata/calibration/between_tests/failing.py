@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality_levels import LEAST_OTHERS, Levels, differences_of
-from thermodata.calibration.quality_starts import Start, off_from_start
+from thermodata.calibration.between_tests.levels import LEAST_OTHERS, Levels, differences_of
+from thermodata.calibration.between_tests.starts import Start, off_from_start
 from thermodata.plugin import Bool1D, Float1D, Int1D
 
 _LEAST_K = 8.0
@@ -53,7 +53,7 @@ def offsets_between_tests(tests: Sequence[Levels]) -> dict[tuple[str, str], Off]
     that had levelled out (after a rest of 4 h, or without clocks, with most temperatures alike, and not where it is
     said to start warm), for then a part that stays hot would look the same; nor of what is powered, which looks so from
     the day on which it is switched on. With clocks a channel is also off whose starts after a rest say so
-    (`quality_starts`).
+    (`starts`).
     """
     dated = all(t.start_s is not None and t.end_s is not None for t in tests)
     ordered = sorted(tests, key=lambda t: t.start_s or 0.0) if dated else list(tests)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.clock_refine import refine, stretches_with_events
+from thermodata.calibration.clock.refine import refine, stretches_with_events
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Array, Float1D, Int1D
 

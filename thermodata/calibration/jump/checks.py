@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.jump_fit import JumpFit
-from thermodata.calibration.jump_plausible import probe_exists
-from thermodata.calibration.limits import DWELL
-from thermodata.calibration.plateaus import Plateau
+from thermodata.calibration.jump.fit import JumpFit
+from thermodata.calibration.jump.limits import DWELL
+from thermodata.calibration.jump.plateaus import Plateau
+from thermodata.calibration.jump.plausible import probe_exists
 from thermodata.calibration.result import Check, check
 from thermodata.calibration.static import ratio_units
 from thermodata.errors import UsageError

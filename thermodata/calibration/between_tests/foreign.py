@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality_levels import Course, Levels
+from thermodata.calibration.between_tests.levels import Course, Levels
 from thermodata.plugin import Float1D
 
 _LEAST_CHANNELS = 4

@@ -22,9 +22,9 @@ from typing import Any, cast
 
 import numpy as np
 
-from thermodata.calibration import nodes
-from thermodata.calibration.evaluation import Evaluation, Logic, Number, logic, number
-from thermodata.calibration.nodes import Node
+from thermodata.calibration.expression import nodes
+from thermodata.calibration.expression.evaluation import Evaluation, Logic, Number, logic, number
+from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.schema.quantity import is_unit, linear_conversion, normal_unit

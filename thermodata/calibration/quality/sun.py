@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats
+from thermodata.calibration.quality.value import RunStats
 from thermodata.calibration.tread import exact_tread_of
 from thermodata.plugin import Float1D, Int1D
 

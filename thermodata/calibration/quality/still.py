@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats
+from thermodata.calibration.quality.value import RunStats
 
 _LEAST_MOVING = 200  # differences, or a test does not tell how a channel reads
 _LEAST_STOOD_S = 60.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.calibration.jump_fit import JumpFit
+from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.result import Check, check
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import JumpCalibration

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats, is_staircase, refreshed, true_runs
+from thermodata.calibration.quality.value import RunStats, is_staircase, refreshed, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.calibration.nodes import (
+from thermodata.calibration.expression.nodes import (
     Absolute,
     AnyOf,
     Arithmetic,

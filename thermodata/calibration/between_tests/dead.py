@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality_levels import Levels
+from thermodata.calibration.between_tests.levels import Levels
 from thermodata.plugin import Float1D
 
 _LEAST_POINTS = 16  # of a test, or nothing is said

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats, true_runs
+from thermodata.calibration.quality.value import RunStats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 _LEAST_S = 1800.0

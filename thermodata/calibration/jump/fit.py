@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.plateaus import Plateau
+from thermodata.calibration.jump.plateaus import Plateau
 from thermodata.plugin import Float1D, Float2D
 
 _COLLINEAR = 0.9  # |correlation| of position and time above which drift hides

@@ -11,12 +11,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thermodata.calibration import jump_checks
 from thermodata.calibration.facing import facing_axis, geometric_sign
-from thermodata.calibration.jump_fit import JumpFit, answer, fit_plateaus
-from thermodata.calibration.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
-from thermodata.calibration.quality_limit import impossible, sentinels
-from thermodata.calibration.quality_value import run_stats
+from thermodata.calibration.jump import checks
+from thermodata.calibration.jump.fit import JumpFit, answer, fit_plateaus
+from thermodata.calibration.jump.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
+from thermodata.calibration.quality.limit import impossible, sentinels
+from thermodata.calibration.quality.value import run_stats
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
@@ -91,7 +91,7 @@ def evaluate_jump(
         nonlinearity_pct=fit.nonlinearity_pct,
         drift_um=fit.drift_um,
         crosstalk=crosstalk,
-        checks=jump_checks.rows(spec, moves, fit, crosstalk, dwells, unit),
+        checks=checks.rows(spec, moves, fit, crosstalk, dwells, unit),
         detail={
             "unit_in": unit,
             "unit_out": "um",

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality_edges import without_pauses
-from thermodata.calibration.quality_frozen import drives_stand, frozen_runs
-from thermodata.calibration.quality_limit import SAY_RANGE, clipped, impossible, sentinels
-from thermodata.calibration.quality_range import Limits
-from thermodata.calibration.quality_spike import spikes
-from thermodata.calibration.quality_step import offset_steps, stood_before
-from thermodata.calibration.quality_sun import RESTS_BELOW, is_clear_sky, least_count_of_sun, rests
-from thermodata.calibration.quality_time import TimeFlags, time_flags
-from thermodata.calibration.quality_value import RunStats, held_runs, run_stats, true_runs
+from thermodata.calibration.quality.edges import without_pauses
+from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
+from thermodata.calibration.quality.limit import SAY_RANGE, clipped, impossible, sentinels
+from thermodata.calibration.quality.range import Limits
+from thermodata.calibration.quality.spike import spikes
+from thermodata.calibration.quality.step import offset_steps, stood_before
+from thermodata.calibration.quality.sun import RESTS_BELOW, is_clear_sky, least_count_of_sun, rests
+from thermodata.calibration.quality.time import TimeFlags, time_flags
+from thermodata.calibration.quality.value import RunStats, held_runs, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.schema.places import is_at_tool

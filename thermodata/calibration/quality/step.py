@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality_value import RunStats
+from thermodata.calibration.quality.value import RunStats
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import Flag
 

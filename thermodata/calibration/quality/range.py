@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from thermodata.calibration.quality_still import Reading
+from thermodata.calibration.quality.still import Reading
 
 _LEAST_AT = 10  # readings of a test at its extreme
 _LEAST_TESTS = 2

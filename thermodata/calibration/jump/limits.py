@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from thermodata.calibration.jump_plausible import COARSEST_UM_PER_V, FINEST_UM_PER_V
+from thermodata.calibration.jump.plausible import COARSEST_UM_PER_V, FINEST_UM_PER_V
 
 DWELL = (0.4, 2.5)  # of the declared dwell
 _ODD = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality_value import true_runs
+from thermodata.calibration.quality.value import true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 _LEVEL = 4  # samples: one more than a spike or a puff of air has
