@@ -54,7 +54,7 @@ class GivenReader:
 @pytest.fixture
 def given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """given(signals: name -> values, t_ns, channels: channel -> signal) -> summary and store."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", lambda name: GivenReader())
 

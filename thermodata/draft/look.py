@@ -89,7 +89,7 @@ def campaign_of(file: Path) -> Path | None:
 
 def meaning_of(campaign: Campaign, at: Path, file: Path) -> Meant | None:
     """The source and test that a file belongs to by `files` of the campaign file; None where it is in none."""
-    from thermodata.store.ingest.resolve import resolve
+    from thermodata.store.ingest.reading.resolve import resolve
 
     folder = at.absolute().parent
     try:

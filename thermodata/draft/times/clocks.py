@@ -17,7 +17,7 @@ from thermodata.errors import ThermodataError
 from thermodata.reader.step_back import likely_cause, said
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.schema.counted import counted
-from thermodata.store.ingest.repeated_times import MANY
+from thermodata.store.ingest.told.repeated_times import MANY
 from thermodata.store.tidy.times_of_day import NEAR_NS, began, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]

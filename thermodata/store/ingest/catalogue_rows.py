@@ -13,8 +13,8 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.schema.campaign import Campaign, Measuring
 from thermodata.schema.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
-from thermodata.store.ingest.beyond_the_end import phases_of
-from thermodata.store.ingest.inventory import Row
+from thermodata.store.ingest.known.inventory import Row
+from thermodata.store.ingest.told.beyond_the_end import phases_of
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_to_json
 from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import raw_row
 from thermodata.store.ingest.commit import parts_of
-from thermodata.store.ingest.file_versions import keep_earlier
-from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row
-from thermodata.store.ingest.left_alone import LeftAlone, TestNote
-from thermodata.store.ingest.raw_layer import RawIngest
-from thermodata.store.ingest.state import version_of
+from thermodata.store.ingest.known.file_versions import keep_earlier
+from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row
+from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote
+from thermodata.store.ingest.known.state import version_of
+from thermodata.store.ingest.reading.campaign_files import CampaignFiles
+from thermodata.store.ingest.reading.raw_layer import RawIngest
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.calibrations import evaluate

@@ -15,16 +15,16 @@ from thermodata.schema.load import load_campaign
 from thermodata.schema.locate import located, placed
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
-from thermodata.store.ingest.campaign_files import CampaignFiles
 from thermodata.store.ingest.catalogue_rows import calibration_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
-from thermodata.store.ingest.inventory import Inventory, Row, generation_of, read_inventory
+from thermodata.store.ingest.known.inventory import Inventory, Row, generation_of, read_inventory
+from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
+from thermodata.store.ingest.known.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
 from thermodata.store.ingest.layers import Layers, make_layers
-from thermodata.store.ingest.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.progress import Progress, TextProgress
+from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
-from thermodata.store.ingest.taken_out import taken_out
-from thermodata.store.ingest.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
+from thermodata.store.ingest.told.taken_out import taken_out
 from thermodata.store.tidy.check_derived import check_derived
 from thermodata.store.tidy.check_measuring import check_measuring
 

@@ -10,16 +10,16 @@ from typing import Any
 
 from thermodata.calibration.jump.limits import with_limits
 from thermodata.schema.left_out import left_out_for_a_fault
-from thermodata.store.ingest.bare_conditions import conditions_without_unit
-from thermodata.store.ingest.beside_each_other import odd_clocks
-from thermodata.store.ingest.empty_channels import nothing_brought
-from thermodata.store.ingest.inventory import Inventory, Row
+from thermodata.store.ingest.known.inventory import Inventory, Row
+from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers
-from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, loss_row, told_once
-from thermodata.store.ingest.same_content import same_content
-from thermodata.store.ingest.spec_lines import with_lines
-from thermodata.store.ingest.unanswered import unanswered
+from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
+from thermodata.store.ingest.told.beside_each_other import odd_clocks
+from thermodata.store.ingest.told.empty_channels import nothing_brought
+from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
+from thermodata.store.ingest.told.same_content import same_content
+from thermodata.store.ingest.told.spec_lines import with_lines
+from thermodata.store.ingest.told.unanswered import unanswered
 
 NOTHING = "nothing changed: the store holds these files and this campaign file already"
 

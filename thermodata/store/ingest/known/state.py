@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from thermodata.store.base.files import key_of
 from thermodata.store.catalogue.models import GONE
-from thermodata.store.ingest.inventory import Row, comparable
+from thermodata.store.ingest.known.inventory import Row, comparable
 
 Rows = Mapping[str, Mapping[str, Sequence[Row]]]
 State = Mapping[str, str]

@@ -11,15 +11,15 @@ from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
 from thermodata.schema.campaign import JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import is_whole, with_room_for, write_error
-from thermodata.store.ingest.campaign_files import CampaignFiles
-from thermodata.store.ingest.file_versions import pinned, read_otherwise, twins
-from thermodata.store.ingest.inventory import Inventory
-from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
+from thermodata.store.ingest.known.file_versions import pinned, read_otherwise, twins
+from thermodata.store.ingest.known.inventory import Inventory
+from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.progress import counted
-from thermodata.store.ingest.resolve import file_inside
-from thermodata.store.ingest.side_by_side import read_side_by_side, workers_for
-from thermodata.store.ingest.worker import Task
+from thermodata.store.ingest.reading.campaign_files import CampaignFiles
+from thermodata.store.ingest.reading.resolve import file_inside
+from thermodata.store.ingest.reading.side_by_side import read_side_by_side, workers_for
+from thermodata.store.ingest.reading.worker import Task
+from thermodata.store.ingest.told.losses import Losses, Said, add_unread, loss_row, tell, unread_signals
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
 from thermodata.store.raw.streams import declared, raw_key, read_raw

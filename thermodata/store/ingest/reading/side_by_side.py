@@ -14,10 +14,10 @@ from collections.abc import Callable, Iterator
 from queue import SimpleQueue
 
 from thermodata.errors import FormatError
-from thermodata.store.ingest.worker import Done, Ready, Samples, Task
+from thermodata.store.ingest.reading.worker import Done, Ready, Samples, Task
 from thermodata.store.raw.raw_stream import RawStream
 
-_START = "from thermodata.store.ingest.worker import main; main()"
+_START = "from thermodata.store.ingest.reading.worker import main; main()"
 MOST = 8
 _ROOM = 1 << 30  # [bytes] of memory for a worker: its reader, and row groups on their way
 # what a file, a byte and a worker cost [s]: a few small files are read sooner than a process starts

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
-from thermodata.store.ingest.state import Rows
+from thermodata.store.ingest.known.state import Rows
 
 if TYPE_CHECKING:
     import duckdb

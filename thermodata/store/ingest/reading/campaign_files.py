@@ -12,10 +12,10 @@ from thermodata.plugin import Reader, Source
 from thermodata.reader import registry
 from thermodata.reader.guard import described
 from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
+from thermodata.store.ingest.known.unchanged import Seen, seen
 from thermodata.store.ingest.progress import Progress
-from thermodata.store.ingest.resolve import SourceFiles, resolve
-from thermodata.store.ingest.unchanged import Seen, seen
-from thermodata.store.ingest.worker import Task
+from thermodata.store.ingest.reading.resolve import SourceFiles, resolve
+from thermodata.store.ingest.reading.worker import Task
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 from thermodata.store.raw.streams import RAW_VERSION, declared, find_reader, raw_key, version_of

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.schema.listed import with_count
-from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.told.losses import Losses, loss_row
 
 ZERO_K = 273.15
 APART_K = 60.0  # two tests of one place differ by less, but for that

@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.counted import counted
 from thermodata.schema.listed import with_count
-from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.known.left_alone import TestNote
+from thermodata.store.ingest.told.losses import Losses, loss_row
 from thermodata.store.tidy.derive import names
 
 

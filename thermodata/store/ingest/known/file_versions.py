@@ -13,7 +13,7 @@ from typing import Any, cast
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Reader, Source
-from thermodata.store.ingest.inventory import Inventory, Row
+from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.streams import raw_key
 

@@ -8,8 +8,8 @@ from thermodata.plugin import Signal
 from thermodata.reader.text.preamble.units_said import HEAD, units_in
 from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import converts, normal_unit
-from thermodata.store.ingest.left_alone import TestNote
-from thermodata.store.ingest.losses import Losses, loss_row
+from thermodata.store.ingest.known.left_alone import TestNote
+from thermodata.store.ingest.told.losses import Losses, loss_row
 
 _SHOWN = 3
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.catalogue.models import BACK, STALE
-from thermodata.store.ingest.state import VERSION, State, what_differs
+from thermodata.store.ingest.known.state import VERSION, State, what_differs
 
 if TYPE_CHECKING:
     import duckdb
