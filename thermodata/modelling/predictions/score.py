@@ -44,6 +44,7 @@ def role_of(fitted: FittedModel, test: TestData) -> str:
 
 
 def score_test(response: FittedResponse, test: TestData, model_id: str, role: str) -> Iterator[Score]:
+    """Errors of the free run over the whole test and over each of its phases, in the response's unit."""
     measured, residual, mask = response.measured(test), response.residual(test), response.mask(test)
     whole = {ALL: np.ones(len(mask), bool)}
     for phase, inside in (whole | phases(test, response.bound.channel_of(test))).items():

@@ -160,6 +160,8 @@ def raw_rows(plan: TestPlan, now: datetime) -> list[Row]:
 
 
 def raw_row(campaign: str, test: str, source: str, raw: RawStream, part: str, now: datetime) -> Row:
+    """A row of the table `file`. test: '' for a jump test; source: then the name of its calibration; part: test or
+    calibration."""
     return {
         "campaign": campaign,
         "test": test,
@@ -180,6 +182,7 @@ def raw_row(campaign: str, test: str, source: str, raw: RawStream, part: str, no
 
 
 def calibration_row(campaign: str, result: CalibrationResult) -> Row:
+    """A row of the table `calibration`; what is no finite number is NULL."""
     row = result.row(campaign)
     return {
         k: _json(v)

@@ -51,6 +51,8 @@ class Question:
 
 
 def ask(fitted: FittedResponse, data: Dataset, tests: list[TestData]) -> Question:
+    """What the rivals are given: the residual of a fitted response and all channels, in means over `STEP_S`, of the
+    samples that count."""
     names = tuple(n for n, c in data.channels.items() if c.quantity not in NOT_DRIVERS)
     per = max(1, round(STEP_S / data.step_s))
     left: list[Float1D] = []
