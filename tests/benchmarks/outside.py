@@ -106,10 +106,9 @@ def ask(name: str, case: int, program: str) -> Asked:
         for _ in range(ROUNDS):
             new = [c for c in said["candidates"] if c["claimed"]]
             claims += new
-            for candidate in new:
-                added = lab.ask("add", asked_of, candidate["id"])
-                asked_of, um[1] = added["model"], added["locked_rmse_um_after"]
-                um[0] = added["locked_rmse_um_before"] if um[0] is None else um[0]
+            if new:
+                asked_of, before, um[1] = with_all(lab, asked_of, [c["id"] for c in new])
+                um[0] = before if um[0] is None else um[0]
             if not new or len(claims) >= len(truth["hidden"]):
                 break
             said = lab.ask("diagnose", asked_of)
@@ -131,6 +130,17 @@ def ask(name: str, case: int, program: str) -> Asked:
             losses=[str(loss) for loss in taken["losses"]],
             refined=refined(lab, model, first, truth["hidden"]) if first["verdict"] == "refine" else None,
         )
+
+
+def with_all(lab: Lab, model: str, claims: Sequence[str]) -> tuple[str, float | None, float | None]:
+    """(the model with all claims of its diagnosis, its locked errors without and with all of them). The first one that
+    is added tells both: the lock was opened once for all, and versions between have no diagnosis of their own."""
+    errors = []
+    for claim in claims:
+        added = lab.ask("add", model, claim)
+        model = added["model"]
+        errors.append((added["locked_rmse_um_before"], added["locked_rmse_um_after"]))
+    return model, *errors[0]
 
 
 def worth(lab: Lab, model: str, hidden: Sequence[Truth]) -> float | None:

@@ -18,10 +18,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.calibration.quality import ColumnInput, flag_stream
-from thermodata.calibration.quality_between import offsets_between_tests
-from thermodata.calibration.quality_foreign import foreign_part
-from thermodata.calibration.quality_levels import POINTS, Course, Levels
+from thermodata.calibration.between_tests.failing import offsets_between_tests
+from thermodata.calibration.between_tests.foreign import foreign_part
+from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
+from thermodata.calibration.quality.flags import ColumnInput, flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import INVALID, Flag
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality.flags import ColumnInput, QualityEvent, flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 
 N = 6000

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.clock import ClockEstimate, estimate_offset
+from thermodata.calibration.clock.estimate import ClockEstimate, estimate_offset
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Float1D, Int1D
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from thermodata.calibration.clock_events import offset_from_events
+from thermodata.calibration.clock.events import offset_from_events
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Int1D
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.errors import UsageError
 from thermodata.schema.quantity import linear_conversion
 

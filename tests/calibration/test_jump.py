@@ -10,8 +10,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from thermodata.calibration.jump import evaluate_jump
-from thermodata.calibration.plateaus import find_steps
+from thermodata.calibration.jump.evaluate import evaluate_jump
+from thermodata.calibration.jump.plateaus import find_steps
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Float1D, Int1D

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.calibration import jump_checks
-from thermodata.calibration.limits import with_limits
+from thermodata.calibration.jump.evaluate import checks as jump_checks
+from thermodata.calibration.jump.limits import with_limits
 from thermodata.calibration.result import check
 
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_between import offsets_between_tests
-from thermodata.calibration.quality_levels import POINTS, Course, Levels, _median_of_others
+from thermodata.calibration.between_tests.failing import offsets_between_tests
+from thermodata.calibration.between_tests.levels import POINTS, Course, Levels, _median_of_others
 from thermodata.plugin import Float1D
 
 DAY = 86_400.0

@@ -1,12 +1,12 @@
-"""A temperature that stands still through whole tests (calibration/quality_dead.py)."""
+"""A temperature that stands still through whole tests (calibration/between_tests/dead.py)."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_dead import dead_throughout
-from thermodata.calibration.quality_levels import POINTS, Course, Levels
+from thermodata.calibration.between_tests.dead import dead_throughout
+from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
 from thermodata.plugin import Float1D
 
 T_S = np.linspace(0, 6 * 3600, POINTS)

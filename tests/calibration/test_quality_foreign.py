@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_foreign import foreign_part
-from thermodata.calibration.quality_levels import Course, Levels
+from thermodata.calibration.between_tests.foreign import foreign_part
+from thermodata.calibration.between_tests.levels import Course, Levels
 
 H = 3600.0
 

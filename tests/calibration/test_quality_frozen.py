@@ -1,4 +1,4 @@
-"""A temperature that freezes while it is logged (calibration/quality_frozen.py)."""
+"""A temperature that freezes while it is logged (calibration/quality/frozen.py)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from quality_data import clock, kinds, run
 
-from thermodata.calibration.quality import ColumnInput, flag_stream
+from thermodata.calibration.quality.flags import ColumnInput, flag_stream
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import Flag
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality import ColumnInput, flag_stream
-from thermodata.calibration.quality_range import ends_of_ranges
-from thermodata.calibration.quality_still import Reading
+from thermodata.calibration.quality.flags import ColumnInput, flag_stream
+from thermodata.calibration.quality.range import ends_of_ranges
+from thermodata.calibration.quality.still import Reading
 from thermodata.schema.flag import Flag
 
 FINE = Reading(0.2, 0.005, 0.01, 0.66, moving=5000, stood_s=600.0, low=-20.3, low_n=1, high=142.067, high_n=2000)

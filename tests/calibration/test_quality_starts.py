@@ -1,4 +1,4 @@
-"""A temperature sensor whose starts after a rest leave the others' from one test on (calibration/quality_starts.py)."""
+"""A temperature sensor whose starts after a rest leave the others' from one test on (between_tests/starts.py)."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_between import offsets_between_tests
-from thermodata.calibration.quality_levels import Levels
-from thermodata.calibration.quality_starts import Start, off_from_start
+from thermodata.calibration.between_tests.failing import offsets_between_tests
+from thermodata.calibration.between_tests.levels import Levels
+from thermodata.calibration.between_tests.starts import Start, off_from_start
 from thermodata.plugin import Float1D
 
 from .test_quality_between import POINTS, day, found, undated

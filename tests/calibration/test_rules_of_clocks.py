@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from thermodata.calibration import clock, clock_events, clock_refine
+from thermodata.calibration.clock import estimate, events, refine
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Float1D
 
@@ -24,17 +24,17 @@ def refused(what: str, call: Callable[[], object], refuses: bool) -> None:
 
 @pytest.mark.parametrize(("correlation", "refuses"), [(0.80, False), (0.799, True)])
 def test_logs_must_look_alike(correlation: float, refuses: bool) -> None:
-    refused("look alike", lambda: clock.refuse_logs_that_do_not_look_alike(correlation), refuses)
+    refused("look alike", lambda: estimate.refuse_logs_that_do_not_look_alike(correlation), refuses)
 
 
 @pytest.mark.parametrize(("stretches", "refuses"), [(1, False), (0, True)])
 def test_both_logs_must_see_an_event(stretches: int, refuses: bool) -> None:
-    refused("no event that both", lambda: clock.refuse_logs_without_a_common_event(stretches), refuses)
+    refused("no event that both", lambda: estimate.refuse_logs_without_a_common_event(stretches), refuses)
 
 
 @pytest.mark.parametrize(("events", "refuses"), [(2, False), (1, True), (0, True)])
 def test_one_event_is_not_enough(events: int, refuses: bool) -> None:
-    refused("one event is not enough", lambda: clock.refuse_a_single_event(events), refuses)
+    refused("one event is not enough", lambda: estimate.refuse_a_single_event(events), refuses)
 
 
 @pytest.mark.parametrize(("n", "refuses"), [(10, False), (9, True)])
@@ -42,16 +42,16 @@ def test_a_log_has_ten_samples(n: int, refuses: bool) -> None:
     """That are finite and later than the one before."""
     t = np.arange(20, dtype=np.int64) * S
     values = np.where(np.arange(20) < n, np.arange(20) % 3, np.nan)
-    refused("hardly any", lambda: clock._prepared(t, values, "here"), refuses)
+    refused("hardly any", lambda: estimate._prepared(t, values, "here"), refuses)
     again = np.minimum(t, (n - 1) * S)
-    refused("hardly any", lambda: clock._prepared(again, np.arange(20) % 3, "here"), refuses)
+    refused("hardly any", lambda: estimate._prepared(again, np.arange(20) % 3, "here"), refuses)
 
 
 @pytest.mark.parametrize(("change", "refuses"), [(4e-9, False), (1e-9, True)])
 def test_a_log_must_change(change: float, refuses: bool) -> None:
     """A change of alternating samples is a deviation of half of it, of 1: limit 2e-9."""
     values = 1.0 + change * (np.arange(20) % 2)
-    refused("never changes", lambda: clock._prepared(np.arange(20) * S, values, "here"), refuses)
+    refused("never changes", lambda: estimate._prepared(np.arange(20) * S, values, "here"), refuses)
 
 
 def peaks(rival: float, at: int = 80) -> Float1D:
@@ -65,18 +65,18 @@ def peaks(rival: float, at: int = 80) -> Float1D:
 @pytest.mark.parametrize(("rival", "refuses"), [(0.969, False), (0.971, True)])
 def test_one_offset_must_stand_out(rival: float, refuses: bool) -> None:
     r = peaks(rival)
-    refused("equally well", lambda: clock._refuse_rivals(r, np.ones(101), 20, 1.0), refuses)
+    refused("equally well", lambda: estimate._refuse_rivals(r, 20, 1.0), refuses)
 
 
 def test_a_peaks_own_flank_is_no_rival() -> None:
     r = np.clip(0.9 - 0.01 * np.abs(np.arange(101) - 20.0), 0, None)
-    clock._refuse_rivals(r, np.ones(101), 20, 1.0)
+    estimate._refuse_rivals(r, 20, 1.0)
 
 
 @pytest.mark.parametrize(("height", "refuses"), [(0.80, True), (0.79, False)])
 def test_rivals_are_asked_for_only_where_the_logs_look_alike(height: float, refuses: bool) -> None:
     r = peaks(1.0) * height / 0.9
-    refused("equally well", lambda: clock._refuse_rivals(r, np.ones(101), 20, 1.0), refuses)
+    refused("equally well", lambda: estimate._refuse_rivals(r, 20, 1.0), refuses)
 
 
 @pytest.mark.parametrize(("share", "seen"), [(0.27, True), (0.23, False)])
@@ -85,7 +85,7 @@ def test_logs_must_overlap_by_a_quarter_of_the_shorter(share: float, seen: bool)
     common = round(share * 400)
     whole = rng.normal(size=1000)
     here, there = whole[:400], whole[400 - common :]
-    lag, correlation = clock._coarse((here, np.ones(400)), (there, np.ones(len(there))), 1.0)
+    lag, correlation = estimate._coarse((here, np.ones(400)), (there, np.ones(len(there))), 1.0)
     assert (correlation > 0.99 and lag == common - 400) is seen
 
 
@@ -93,7 +93,7 @@ def test_logs_must_overlap_by_a_quarter_of_the_shorter(share: float, seen: bool)
 def test_an_overlap_without_change_is_no_evidence(change: float, seen: bool) -> None:
     """The variance of both within the overlap is at least 0.05 of theirs: 0.0625 and 0.04."""
     quiet = change * np.random.default_rng(0).permutation(np.tile([1.0, -1.0], 200))
-    lag, correlation = clock._coarse((quiet, np.ones(400)), (quiet, np.ones(400)), 1.0)
+    lag, correlation = estimate._coarse((quiet, np.ones(400)), (quiet, np.ones(400)), 1.0)
     assert (correlation > 0.99 and lag == 0.0) is seen
 
 
@@ -103,14 +103,14 @@ def test_an_overlap_without_change_is_no_evidence(change: float, seen: bool) -> 
 )
 def test_a_stretch_tells_its_lag(moved: float, correlation: float, told: bool) -> None:
     """A correlation of 0.7, and not at the end of the reach (98 % of 3 s)."""
-    assert clock_refine.is_told(moved, 3.0, correlation) is told
+    assert refine.is_told(moved, 3.0, correlation) is told
 
 
 @pytest.mark.parametrize(("n", "told"), [(6, True), (5, False)])
 def test_a_stretch_has_six_samples(n: int, told: bool) -> None:
     t = np.arange(100.0)
     b = np.cumsum(np.random.default_rng(0).normal(size=100))
-    found = clock_refine.refine(t[40 : 40 + n], b[40 : 40 + n], t, b, 0.0, 1.0)
+    found = refine.refine(t[40 : 40 + n], b[40 : 40 + n], t, b, 0.0, 1.0)
     assert (found is not None) is told
 
 
@@ -118,7 +118,7 @@ def drift(ppm: float, scatter_s: float = 0.0, events: int = 8) -> float:
     """The drift [ppm] that events over a day tell, sampled each second, with a scatter that turns."""
     at = np.linspace(0.0, 86_400.0, events)
     lags = 5.0 + ppm * 1e-6 * at + scatter_s * (np.arange(events) % 2 - 0.5)
-    return clock._line(at, lags, np.ones(events), 1.0)[2]
+    return estimate._line(at, lags, np.ones(events), 1.0)[2]
 
 
 @pytest.mark.parametrize(("ppm", "events", "told"), [(80.0, 4, True), (80.0, 3, False)])
@@ -142,10 +142,10 @@ def test_a_drift_must_move_the_clock_by_half_of_what_a_sample_is_worth() -> None
 # ---- events that a person typed
 
 
-def typed(*offsets: float, apart_s: float) -> clock.ClockEstimate:
+def typed(*offsets: float, apart_s: float) -> estimate.ClockEstimate:
     here = np.arange(len(offsets)) * apart_s
     there = here + np.asarray(offsets)
-    return clock_events.offset_from_events(np.rint(here * S).astype(np.int64), np.rint(there * S).astype(np.int64))
+    return events.offset_from_events(np.rint(here * S).astype(np.int64), np.rint(there * S).astype(np.int64))
 
 
 @pytest.mark.parametrize(("apart_s", "tells"), [(3600.0, True), (3599.0, False)])

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.calibration.jump_checks import rows
-from thermodata.calibration.jump_fit import JumpFit
-from thermodata.calibration.plateaus import Plateau
+from thermodata.calibration.jump.checks import rows
+from thermodata.calibration.jump.fit import JumpFit
+from thermodata.calibration.jump.plateaus import Plateau
 from thermodata.calibration.result import Check
 from thermodata.schema.campaign import JumpCalibration
 

@@ -46,7 +46,7 @@ sys.exit(main(["--store", {store!r}, "tests"]))
 SWALLOWED = """
 import contextlib, os, signal, sys
 from thermodata.cli import main
-from thermodata.store.ingest.campaign_files import CampaignFiles
+from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 
 survey = CampaignFiles.survey
 

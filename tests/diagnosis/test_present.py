@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.diagnosis.question.known_effects import base_columns, from_other_zero, remembered
+from thermodata.diagnosis.question.known_effects import from_other_zero, remembered
 from thermodata.diagnosis.question.present import ALL_MODES, Present, modes, present
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
@@ -51,7 +51,7 @@ def test_what_tells_the_phases_and_what_an_inner_model_reads_change_the_columns(
         moved = replace(test, values={**test.values, channel: np.roll(test.values[channel], 90)})
         base = remembered(response)
         assert not np.array_equal(base(test), base(moved))
-        np.testing.assert_array_equal(base(moved), base_columns(response, moved))
+        np.testing.assert_array_equal(base(moved), remembered(response)(moved))
         assert channel in response.terms[0].bound.reads(test)
 
 

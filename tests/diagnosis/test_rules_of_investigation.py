@@ -12,7 +12,7 @@ import pytest
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.question.compressed import error_of
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known_effects import base_columns, otherwise, owners
+from thermodata.diagnosis.question.known_effects import otherwise, owners, remembered
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict import investigate as investigating
 from thermodata.diagnosis.verdict import on_locked as locking
@@ -57,7 +57,7 @@ def test_a_known_effect_may_grow_and_its_time_constant_move(data: Dataset, fitte
     """One column a gain, that doubles it; one a time constant, that stretches it by e to first order."""
     response, test = fitted.responses[0], data.tests[0]
     (term,) = response.terms
-    columns = base_columns(response, test)
+    columns = remembered(response)(test)
     assert columns.shape == (len(test.t_s), 2)
     np.testing.assert_allclose(columns[:, 0], term.contribution(test))
     little = 1e-3
@@ -84,7 +84,7 @@ def test_each_column_has_the_term_that_it_belongs_to(data: Dataset, fitted: Fitt
     two = replace(fitted.responses[0], terms=(term, term))
     base, spare = owners(two)
     assert (base, spare) == ([0, 0, 1, 1], [0, 0, 0, 0, 1, 1, 1, 1])
-    assert base_columns(two, data.tests[0]).shape[1] == len(base)
+    assert remembered(two)(data.tests[0]).shape[1] == len(base)
     assert otherwise(two, data.tests[0]).shape[1] == len(spare)
 
 
@@ -100,8 +100,8 @@ def test_a_known_effect_that_is_absent_in_a_test_can_do_nothing_there(data: Data
         }
     )
     response = fit_model(model, data, uncertainty=False).responses[0]
-    assert base_columns(response, data.tests[0]).any()
-    assert not base_columns(response, data.tests[2]).any()
+    assert remembered(response)(data.tests[0]).any()
+    assert not remembered(response)(data.tests[2]).any()
     assert not otherwise(response, data.tests[2]).any()
 
 

@@ -12,7 +12,7 @@ from thermodata.diagnosis.candidates import basis as module
 from thermodata.diagnosis.candidates.basis import Means, basis, sharing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.by_commands import timings
-from thermodata.diagnosis.question.known_effects import base_columns, remembered
+from thermodata.diagnosis.question.known_effects import remembered
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.steps.commanded import commands_of
 from thermodata.modelling.fit.model import fit_model
@@ -135,6 +135,6 @@ def test_a_changed_copy_of_a_test_has_its_own_columns_and_leaves_those_of_the_te
     moved = replace(test, values={**test.values, "T_hall": np.roll(test.values["T_hall"], 5)})
     base = remembered(response)
     for asked in (test, moved, test, data.tests[1], moved):
-        np.testing.assert_array_equal(base(asked), base_columns(response, asked))
+        np.testing.assert_array_equal(base(asked), remembered(response)(asked))
     assert not np.array_equal(base(test), base(moved))
     np.testing.assert_array_equal(base(test)[:, :2], base(moved)[:, :2])

@@ -20,7 +20,7 @@ import store_fakes  # noqa: E402
 import whole  # noqa: E402
 
 from thermodata.store import Store  # noqa: E402
-from thermodata.store.ingest import campaign_files  # noqa: E402
+from thermodata.store.ingest.reading import campaign_files  # noqa: E402
 from thermodata.store.ingest.run import ingest  # noqa: E402
 from thermodata.store.keep.lifecycle import gc  # noqa: E402
 

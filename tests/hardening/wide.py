@@ -17,7 +17,7 @@ import numpy as np
 
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest import campaign_files
+from thermodata.store.ingest.reading import campaign_files
 from thermodata.store.ingest.run import ingest
 
 

@@ -15,7 +15,7 @@ from thermodata.report.fit_text import before_after_text, made_worse
 from thermodata.report.words import in_units
 from thermodata.schema.campaign import Campaign
 from thermodata.schema.result import FitResult, Score
-from thermodata.store.ingest.unanswered import unanswered
+from thermodata.store.ingest.told.unanswered import unanswered
 from thermodata.view import StoreView
 
 from .conftest import Lab

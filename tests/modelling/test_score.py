@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.modelling import fit_model
 from thermodata.modelling.inputs.phases import activity, phases
-from thermodata.modelling.predictions.score import IN_SAMPLE, figures, peak_sum, scores, share_removed
+from thermodata.modelling.predictions.score import IN_SAMPLE, figures, peak_sum, scores
 from thermodata.modelling.predictions.table import prediction_columns, prediction_tables
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.view.dataset import Dataset, TestData
@@ -32,7 +32,6 @@ def test_fit_is_the_papers_and_is_not_clipped() -> None:
         "max_um": 2.0,
     }
     assert peak_sum(np.array([3.0, 5.0])) == 8.0
-    assert share_removed(y, y / 10, np.ones(4, bool)) == pytest.approx(0.9)
     assert set(figures(y[:0], y[:0]).values()) == {None}
     assert set(figures(y[:1], y[:1]).values()) == {None}, "its offset is taken from it"
     assert figures(y[:2], np.array([-1.0, 1.0]))["rmse_um"] == 1.0

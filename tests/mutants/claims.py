@@ -110,7 +110,7 @@ def constant(old: str, new: str, why: str) -> Mutant:
 
 def starts(old: str, new: str, why: str) -> Mutant:
     tests = ("tests/calibration/test_quality_starts.py",)
-    return Mutant("thermodata/calibration/quality_starts.py", old, new, why, tests)
+    return Mutant("thermodata/calibration/between_tests/starts.py", old, new, why, tests)
 
 
 MUTANTS = [
@@ -886,7 +886,7 @@ MUTANTS = [
         ("tests/calibration/test_tread.py",),
     ),
     Mutant(
-        "thermodata/calibration/quality_step.py",
+        "thermodata/calibration/quality/step.py",
         "_BACK = 0.3",
         "_BACK = 0.0",
         "what comes back by itself is an offset",
@@ -952,34 +952,39 @@ MUTANTS = [
     starts("_fastest(after, new) >= AS_FAST * known", "True", "a motor that never rests is a sensor that fails"),
     starts("+ ALIKE_K", "+ 10 * ALIKE_K", "what is warm by another time each day fails"),
     starts("if name not in found}", "}", "one that fails hides the next one"),
-    calibration("jump_checks.py", "DATA_SHEET_PCT = 10.0", "DATA_SHEET_PCT = 90.0", "the wrong probe passes"),
-    calibration("jump_checks.py", "UNCERTAINTY_PCT = 5.0", "UNCERTAINTY_PCT = 50.0", "poor calibrations pass"),
+    calibration("jump/checks.py", "DATA_SHEET_PCT = 10.0", "DATA_SHEET_PCT = 90.0", "the wrong probe passes"),
+    calibration("jump/checks.py", "UNCERTAINTY_PCT = 5.0", "UNCERTAINTY_PCT = 50.0", "poor calibrations pass"),
     calibration(
-        "jump_checks.py", "NONLINEARITY_PCT = 2.0", "NONLINEARITY_PCT = 20.0", "a probe out of its range passes"
+        "jump/checks.py", "NONLINEARITY_PCT = 2.0", "NONLINEARITY_PCT = 20.0", "a probe out of its range passes"
     ),
-    calibration("jump_checks.py", "100.0 * abs(fit.drift_um)", "100.0 * fit.drift_um", "negative drift passes"),
-    calibration("jump_checks.py", "NOISE_PCT = 5.0", "NOISE_PCT = 50.0", "noisy jumps pass"),
-    calibration("jump_checks.py", "CROSSTALK_PCT = 10.0", "CROSSTALK_PCT = 100.0", "misaligned probes pass"),
-    calibration("jump_checks.py", "answers[most] < 100.0,", "True,", "swapped cables pass"),
+    calibration("jump/checks.py", "100.0 * abs(fit.drift_um)", "100.0 * fit.drift_um", "negative drift passes"),
+    calibration("jump/checks.py", "NOISE_PCT = 5.0", "NOISE_PCT = 50.0", "noisy jumps pass"),
+    calibration("jump/checks.py", "CROSSTALK_PCT = 10.0", "CROSSTALK_PCT = 100.0", "misaligned probes pass"),
+    calibration("jump/checks.py", "answers[most] < 100.0,", "True,", "swapped cables pass"),
     calibration(
-        "jump_checks.py",
+        "jump/checks.py",
         "DWELL[0] * spec.dwell <= dwell <= DWELL[1] *",
         "0.0 * spec.dwell <= dwell <= 99 *",
         "other steps pass as the moves",
     ),
-    calibration("jump_checks.py", "smallest = min(", "smallest = max(", "noise against the largest move"),
+    calibration("jump/checks.py", "smallest = min(", "smallest = max(", "noise against the largest move"),
     calibration(
-        "clock.py", "_LEAST_CORRELATION = 0.8", "_LEAST_CORRELATION = 0.2", "clocks of logs that don't look alike"
+        "clock/estimate.py",
+        "_LEAST_CORRELATION = 0.8",
+        "_LEAST_CORRELATION = 0.2",
+        "clocks of logs that don't look alike",
     ),
-    calibration("clock.py", "_RIVAL = 0.97", "_RIVAL = 1.1", "a periodic programme sets the clock"),
-    calibration("clock.py", "_LEAST_OVERLAP = 0.25", "_LEAST_OVERLAP = 0.01", "a chance overlap sets the clock"),
-    calibration("clock.py", "_LEAST_EVENTS = 2", "_LEAST_EVENTS = 1", "one event sets the clock"),
-    calibration("clock.py", "abs(slope) > 4 * error", "abs(slope) > 0 * error", "scatter is a drift"),
-    calibration("clock_refine.py", "_LEAST_CORRELATION = 0.7", "_LEAST_CORRELATION = 0.0", "noise tells a lag"),
+    calibration("clock/estimate.py", "_RIVAL = 0.97", "_RIVAL = 1.1", "a periodic programme sets the clock"),
     calibration(
-        "clock_refine.py", "_NEAR_THE_END = 0.98", "_NEAR_THE_END = 9.0", "a lag at the end of the search is believed"
+        "clock/estimate.py", "_LEAST_OVERLAP = 0.25", "_LEAST_OVERLAP = 0.01", "a chance overlap sets the clock"
     ),
-    calibration("clock_events.py", "_MOST_PPM = 500.0", "_MOST_PPM = 1e9", "mixed-up events set the clock"),
-    calibration("clock_events.py", "_MOST_OFF_S = 30.0", "_MOST_OFF_S = 1e9", "mixed-up events set the clock"),
-    calibration("clock_events.py", "_LEAST_SPAN_S = 3600.0", "_LEAST_SPAN_S = 60.0", "typing errors are a drift"),
+    calibration("clock/estimate.py", "_LEAST_EVENTS = 2", "_LEAST_EVENTS = 1", "one event sets the clock"),
+    calibration("clock/estimate.py", "abs(slope) > 4 * error", "abs(slope) > 0 * error", "scatter is a drift"),
+    calibration("clock/refine.py", "_LEAST_CORRELATION = 0.7", "_LEAST_CORRELATION = 0.0", "noise tells a lag"),
+    calibration(
+        "clock/refine.py", "_NEAR_THE_END = 0.98", "_NEAR_THE_END = 9.0", "a lag at the end of the search is believed"
+    ),
+    calibration("clock/events.py", "_MOST_PPM = 500.0", "_MOST_PPM = 1e9", "mixed-up events set the clock"),
+    calibration("clock/events.py", "_MOST_OFF_S = 30.0", "_MOST_OFF_S = 1e9", "mixed-up events set the clock"),
+    calibration("clock/events.py", "_LEAST_SPAN_S = 3600.0", "_LEAST_SPAN_S = 60.0", "typing errors are a drift"),
 ]

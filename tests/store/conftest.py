@@ -17,7 +17,7 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
     """The store finds the reader of these tests, as it would find an installed one."""
     import store_fakes
 
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
     from thermodata.store.trace import reread
 
     for module in (campaign_files, reread):
@@ -29,7 +29,7 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """The installed readers, which another process finds too."""
     from thermodata.reader import registry
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
 
@@ -39,7 +39,7 @@ def _made(once: Callable[[str, Callable[[Path], object]], Path]) -> Path:
     """An empty store, and a campaign with the store that holds it; each test gets copies."""
     import store_fakes
 
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
     from thermodata.store.ingest.run import ingest
 
     def make(folder: Path) -> None:

@@ -135,6 +135,6 @@ def write_campaign(folder: Path, text: str = CAMPAIGN, *, logs: bool = True) -> 
 
 def install() -> None:
     """Lets the store find the reader, as an entry point would."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     campaign_files.find_reader = lambda name: NpzReader()  # type: ignore[assignment]

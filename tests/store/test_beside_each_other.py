@@ -1,4 +1,4 @@
-"""A log that in one test begins and ends as much later beside another is told (store/ingest/beside_each_other.py)."""
+"""A log that in one test begins and ends as much later beside another is told (ingest/told/beside_each_other.py)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from thermodata.store.ingest.beside_each_other import odd_clocks, together
+from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
 
 DAY, MINUTE = 86_400.0, 60.0
 

@@ -8,7 +8,8 @@ import pytest
 
 from thermodata.draft.make import draft_files
 from thermodata.store import Store
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 pytestmark = pytest.mark.usefixtures("installed_readers")
 

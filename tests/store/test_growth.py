@@ -19,8 +19,9 @@ from thermodata.errors import FormatError, PluginError, QuestionError, StoreErro
 from thermodata.plugin import Block, Loss, Source
 from thermodata.reader import registry
 from thermodata.store import Store
-from thermodata.store.ingest import side_by_side, worker
-from thermodata.store.ingest.run import NOTHING, IngestSummary, ingest
+from thermodata.store.ingest.reading import side_by_side, worker
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import NOTHING, IngestSummary
 from thermodata.store.raw import streams
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "hardening"))
@@ -80,7 +81,9 @@ def test_an_ingest_looks_the_version_of_a_reader_up_once_whatever_the_number_of_
 def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files, run, unchanged
+    from thermodata.store.ingest import run
+    from thermodata.store.ingest.known import unchanged
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
     first = ingest(store, lab)
@@ -100,17 +103,18 @@ def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
 def test_the_short_way_is_taken_after_the_first_ingest_too(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import run
+    from thermodata.store.ingest import layers
 
     first = ingest(store, lab)
-    monkeypatch.setattr(run, "bind", None)
+    monkeypatch.setattr(layers, "bind", None)
     assert said(ingest(store, lab)) == as_again(first)
 
 
 def test_after_an_edit_only_what_was_edited_is_hashed_again(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files, unchanged
+    from thermodata.store.ingest.known import unchanged
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
     ingest(store, lab)
@@ -220,7 +224,7 @@ def test_files_read_side_by_side_are_the_same_store(
     monkeypatch.setenv("THERMODATA_WORKERS", "2")
     asked: list[str] = []
     right = worker.Task
-    from thermodata.store.ingest import campaign_files, raw_layer
+    from thermodata.store.ingest.reading import campaign_files, raw_layer
 
     monkeypatch.setattr(campaign_files, "Task", lambda *words: asked.append(words[2]) or right(*words))
     monkeypatch.setattr(raw_layer, "read_raw", None)  # the ingest itself reads none

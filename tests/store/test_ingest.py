@@ -14,8 +14,8 @@ from thermodata.errors import CalibrationError, SpecError, UsageError
 from thermodata.plugin import Loss
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
-from thermodata.store.ingest.losses import loss_row, told_once
 from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.told.losses import loss_row, told_once
 
 
 def rows(store: Store, query: str, *params: Any) -> list[tuple[Any, ...]]:
@@ -406,7 +406,7 @@ def test_a_unit_in_brackets_may_be_left_out_and_is_the_unit(store: Store, campai
 def test_a_reader_that_is_not_there_is_refused_before_the_store_changes(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     def missing(name: str) -> Any:
         raise UsageError(f"no reader '{name}'", hint="did you mean 'npz'?")

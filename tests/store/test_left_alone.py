@@ -16,8 +16,9 @@ import pytest
 from thermodata.reader import registry
 from thermodata.store import Store
 from thermodata.store.base.connection import insert
-from thermodata.store.ingest import run
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest import layers, run
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "hardening"))
 import whole
@@ -28,7 +29,8 @@ CHANNELS = ("front", "rear", "nut", "motor", "hall")
 
 @pytest.fixture(autouse=True)
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata.store.ingest import campaign_files, unchanged
+    from thermodata.store.ingest.known import unchanged
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", registry.reader)
     monkeypatch.setattr(unchanged, "_YOUNG_NS", -(10**15))  # as if the files were written long ago
@@ -96,8 +98,8 @@ class Looked:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.tests: list[str] = []
-        right = run.bind
-        monkeypatch.setattr(run, "bind", lambda plan: self.tests.append(plan.test.id) or right(plan))
+        right = layers.bind
+        monkeypatch.setattr(layers, "bind", lambda plan: self.tests.append(plan.test.id) or right(plan))
 
     def __call__(self, store: Store, lab: Path) -> tuple[list[str], IngestSummary]:
         self.tests.clear()
@@ -320,7 +322,7 @@ def test_a_clock_that_tests_lend_each_other_is_asked_of_all(
 def test_without_the_notes_of_the_tests_all_are_looked_at(
     store: Store, lab: Path, looked: Looked, tmp_path: Path, what: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import left_alone
+    from thermodata.store.ingest.known import left_alone
 
     ingest(store, lab)
     (notes,) = (store.path / "known").glob("*.tests")
@@ -386,7 +388,7 @@ def test_whatever_else_differs_all_tests_are_looked_at(
 def test_another_version_of_the_reader_or_of_this_program_is_seen_with_an_edit(
     store: Store, lab: Path, looked: Looked, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     ingest(store, lab)
     longer(lab.parent / "raw")
@@ -440,7 +442,7 @@ def test_models_of_the_edited_test_only_go_stale(store: Store, lab: Path, looked
 
 
 def test_a_note_that_lacks_a_field_is_of_another_version() -> None:
-    from thermodata.store.ingest.left_alone import TestNote
+    from thermodata.store.ingest.known.left_alone import TestNote
 
     line = TestNote(samples=3).to_text()
     assert TestNote.from_text(line).samples == 3
@@ -456,7 +458,7 @@ def test_looking_at_every_test_is_no_attempt(
 ) -> None:
     from thermodata.errors import StoreError
     from thermodata.store.ingest.commit import VanishedError
-    from thermodata.store.ingest.left_alone import OtherwiseError
+    from thermodata.store.ingest.known.left_alone import OtherwiseError
 
     left, whole = list(raised), run._ingest
 

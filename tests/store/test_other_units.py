@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_levels import Course, Levels
-from thermodata.store.ingest.other_units import other_units
+from thermodata.calibration.between_tests.levels import Course, Levels
+from thermodata.store.ingest.told.other_units import other_units
 
 
 def levels(test: str, **medians: float) -> Levels:

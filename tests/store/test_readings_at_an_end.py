@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.calibration.quality_range import ends_of_ranges
-from thermodata.calibration.quality_still import Reading
+from thermodata.calibration.quality.range import ends_of_ranges
+from thermodata.calibration.quality.still import Reading
 from thermodata.store.tidy.between import _more
 from thermodata.store.tidy.chunk import Column
 

@@ -10,7 +10,7 @@ from store_fakes import CAMPAIGN, times, write_campaign, write_log
 
 from thermodata.errors import UsageError
 from thermodata.store import Store
-from thermodata.store.ingest import campaign_files
+from thermodata.store.ingest.reading import campaign_files
 from thermodata.store.ingest.run import checked, ingest
 from thermodata.store.raw.streams import find_reader
 

@@ -1,4 +1,4 @@
-"""One recording under the names of two tests, said with every ingest (store/ingest/same_content.py)."""
+"""One recording under the names of two tests, said with every ingest (store/ingest/told/same_content.py)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from store_fakes import write_campaign
 
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.ingest.same_content import same_content
+from thermodata.store.ingest.told.same_content import same_content
 
 
 def test_two_tests_with_the_same_file_are_named_with_it(store: Store, tmp_path: Path) -> None:

@@ -11,7 +11,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from thermodata.store import Store
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 pytestmark = pytest.mark.usefixtures("installed_readers")
 

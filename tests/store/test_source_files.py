@@ -16,8 +16,9 @@ from store_fakes import daq, write_log
 from thermodata.errors import FormatError, StoreError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest.resolve import SourceFiles
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.reading.resolve import SourceFiles
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen, settled
 
 
@@ -46,7 +47,7 @@ class LineReader:
 @pytest.fixture
 def lines(campaign: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A campaign of one text file, test 'one'."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", lambda name: LineReader())
     monkeypatch.setattr(LineReader, "meddle", None)
@@ -236,7 +237,7 @@ class Choosy(LineReader):
 @pytest.fixture
 def choosy(lines: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The same, read by a reader that refuses some files, and where any file is a huge one."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", lambda name: Choosy())
     monkeypatch.setattr(campaign_files, "_HUGE", 1)
@@ -248,7 +249,7 @@ def choosy(lines: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def hashed(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The names of the files that are hashed."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     found: list[str] = []
 
@@ -279,7 +280,7 @@ def test_a_huge_file_that_its_reader_refuses_is_not_hashed(store: Store, choosy:
 def test_a_smaller_file_is_hashed_and_looked_at_once(
     store: Store, choosy: Path, hashed: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "_HUGE", 1 << 30)
     assert not ingest(store, choosy).losses

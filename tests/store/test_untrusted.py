@@ -13,7 +13,8 @@ from store_fakes import START_NS, daq, times, write_log
 from thermodata.errors import SpecError, ThermodataError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
 from thermodata.store import Store
-from thermodata.store.ingest.run import IngestSummary, ingest
+from thermodata.store.ingest.run import ingest
+from thermodata.store.ingest.summary import IngestSummary
 
 NAMES = [
     "x'; drop table file; --",
@@ -53,7 +54,7 @@ class GivenReader:
 @pytest.fixture
 def given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     """given(signals: name -> values, t_ns, channels: channel -> signal) -> summary and store."""
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", lambda name: GivenReader())
 

@@ -122,7 +122,7 @@ def test_a_copy_beside_the_file_counts_once(store: Store, campaign: Path) -> Non
 def test_a_file_that_cannot_be_read_any_more_keeps_what_was_read(
     filled: Store, campaign: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import campaign_files
+    from thermodata.store.ingest.reading import campaign_files
 
     right = campaign_files.settled
 

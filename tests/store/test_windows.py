@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from store_fakes import daq, write_log
 
-from thermodata.calibration.quality import ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality.flags import ColumnInput, QualityEvent, flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.campaign import Channel
 from thermodata.schema.flag import Flag

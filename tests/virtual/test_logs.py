@@ -86,7 +86,7 @@ def test_the_jump_test_moves_by_what_the_campaign_file_says(lab: tuple[Path, Wor
 def test_the_jump_test_gives_back_the_probes_signed_sensitivity(lab: tuple[Path, World]) -> None:
     from nptdms import TdmsFile
 
-    from thermodata.calibration.jump import evaluate_jump
+    from thermodata.calibration.jump.evaluate import evaluate_jump
     from thermodata.schema.campaign import JumpCalibration
 
     folder, world = lab

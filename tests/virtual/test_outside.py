@@ -52,3 +52,14 @@ def test_a_command_that_fails_is_told(outside: Any, tmp_path: Path, code: int) -
 )
 def test_each_case_of_one_cause_stands_in_one_row(outside: Any, worth: float | None, sort: str) -> None:
     assert [name for name, counts in outside.SORTS.items() if counts({"kind": "one", "worth": worth})] == [sort]
+
+
+def test_of_several_claims_added_one_after_the_other_the_locked_error_is_that_with_all(
+    outside: Any, tmp_path: Path
+) -> None:
+    program = tmp_path / "program"
+    first = '{"model": "b", "locked_rmse_um_before": 4.0, "locked_rmse_um_after": 1.0}'
+    second = '{"model": "c", "locked_rmse_um_before": null, "locked_rmse_um_after": null}'
+    program.write_text(f"#!/bin/sh\nif [ $2 = a ]; then echo '{first}'; else echo '{second}'; fi\n")
+    program.chmod(0o755)
+    assert outside.with_all(outside.Lab(tmp_path, str(program)), "a", ["one", "two"]) == ("c", 4.0, 1.0)

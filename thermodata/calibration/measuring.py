@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
@@ -18,7 +18,7 @@ from thermodata.schema.flag import Flag
 from thermodata.schema.quantity import linear_conversion, split_value
 
 _OUT = int(Flag.OUT_OF_RANGE | Flag.SATURATED)
-_BREAK = 10.0  # a pause of so many periods ends a stretch
+BREAK = 10.0  # a pause of so many periods ends a stretch
 
 
 def measuring_names(measuring: str | Measuring | None) -> frozenset[str]:
@@ -70,7 +70,7 @@ def stretches(t_ns: Int1D, mask: Bool1D) -> tuple[Int1D, Int1D]:
     joined = mask[1:] & mask[:-1]
     dt = np.diff(t_ns)
     if len(dt):
-        joined &= dt <= _BREAK * max(float(np.median(dt)), 1.0)
+        joined &= dt <= BREAK * max(float(np.median(dt)), 1.0)
     first = np.flatnonzero(mask & np.concatenate([[True], ~joined]))
     last = np.flatnonzero(mask & np.concatenate([~joined, [True]])) + 1
     return first.astype(np.int64), last.astype(np.int64)

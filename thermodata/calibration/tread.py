@@ -6,14 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.calibration.tread_noisy import noisy_tread_of
+from thermodata.calibration.tread_noisy import LEAST_LEVELS, PART, noisy_tread_of
 from thermodata.plugin import Float1D
 
 MOST_ROWS = 20_000  # of a stretch: its middle tells as much
-PART = 500  # samples with a zero of their own, so that a slip of the probe costs one part only
 SAME = 1e-9  # of the range: means of equal readings differ in their last bits
 LEAST_STANDING = 20  # samples, or there is nothing to say
-LEAST_LEVELS = 3  # of a staircase: two levels are a switch
 MOST_RISES = 12  # that a spacing is sought among, the commonest ones
 OFF = 0.05  # of a tread: a value so near to a multiple is on it, by chance one of ten
 ON_TREAD = 0.5  # least share of the standing samples that are on it

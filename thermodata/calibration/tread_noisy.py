@@ -9,12 +9,12 @@ import numpy as np
 
 from thermodata.plugin import Float1D
 
-PART = 500  # samples with a zero of their own, as in `tread`
+PART = 500  # samples with a zero of their own, so that a slip of the probe costs one part only
 MOST_PARTS = 40  # evenly taken
 RISER = 6.0  # of the usual change of neighbours: what is more is no noise
 LEAST_LEVEL = 3  # samples that stand together
 LEAST_RISES = 8  # between levels, or nothing is proved
-LEAST_LEVELS = 3  # two levels are a switch
+LEAST_LEVELS = 3  # of a staircase: two levels are a switch
 SINGLE = 0.6  # least share of the rises that are one tread
 ON = 0.15  # of a tread: a level so near to a multiple is on it, by chance three of ten
 ON_TREAD = 0.75  # least share of the levels' samples that are on it

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,7 +15,14 @@ from thermodata.errors import UsageError
 from thermodata.report.table import fields
 from thermodata.report.verdict import claims_of, refinements_of, verdict_sentence
 from thermodata.report.words import change, duration, number, pooled
+from thermodata.schema.counted import counted
 from thermodata.schema.listed import listed
+
+if TYPE_CHECKING:
+    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.result import FitResult
+    from thermodata.store import Store
 
 _MARK = ".thermodata-demo"  # a folder that holds it was made by a demo and may be made anew
 _MADE = ("raw", "campaign.yaml", "model.yaml", "truth", "thermodata.store", "report.html")
@@ -81,17 +89,45 @@ def prepare(folder: Path, hide: str | None, seed: int) -> str:
 
 
 def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
-    """The seven steps; returns the demo's JSON without the seconds."""
-    from thermodata.schema.counted import counted
+    """The seven steps; returns the demo's JSON without the seconds.
 
+    Each imports what it needs below its title: the first line of the story comes at once."""
     # the mark comes first: an interrupted demo is still known as one
     (folder / _MARK).write_text(f"thermodata demo --hide {hide} --seed {seed}\n", encoding="utf-8")
+    truth = _simulated(step, folder, hide, seed)
+    store = _ingested(step, folder)
+    base = _fitted(step, store, folder)
+    found = _failing(step, store, base)
+    _tell_missing(step, found)
+    better = _added(step, store, base, found)
+    page = _reported(step, store, better.model, folder)
+    claims = claims_of(found)
+    claimed = claims[0] if claims else None
+    return {
+        "hidden": None if hide == "none" else truth.get("hidden", hide),
+        "found": claimed.effect if claimed else None,
+        "verdict": found.verdict,
+        "claims": [c.id for c in claims],
+        "refinements": [c.id for c in refinements_of(found)],
+        "probability": claimed.probability if claimed else None,
+        "family": claimed.family if claimed else None,
+        "equivalents": claimed.equivalent if claimed else [],
+        "rmse_um_before": better.before_um,
+        "rmse_um_after": better.after_um,
+        "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
+        "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
+        "model": better.model,
+        "store": str(store.path),
+        "report": str(page),
+    }
 
-    # imports stand where they are needed: the first line of the story comes at once
+
+def _simulated(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
+    """What is true of the machine."""
     step.title(1, "A machine runs its tests and writes raw logs")
     from thermodata.virtual import simulate
 
-    truth = plain(simulate(folder, hide=hide, seed=seed))
+    truth: dict[str, Any] = plain(simulate(folder, hide=hide, seed=seed))
     raw = [p for p in (folder / "raw").rglob("*") if p.is_file()]
     kinds = ", ".join(f"{sum(p.suffix == s for p in raw)} {s[1:]}" for s in sorted({p.suffix for p in raw}))
     step.line(
@@ -99,21 +135,18 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         f"{folder / 'raw'}; "
         "what the model lacks, if anything, nobody tells it"
     )
+    return truth
 
+
+def _ingested(step: Step, folder: Path) -> Store:
     step.title(2, "ingest: raw and calibrated layers, by the campaign file")
     from thermodata.store import Store
     from thermodata.store.ingest.run import ingest
 
     store = Store(step.session.store_path if step.session.store_named else folder / "thermodata.store", create=True)
     summary = plain(ingest(store, folder / "campaign.yaml").to_json())
-    flags = (
-        ", ".join(
-            f"{name.replace('_', ' ')} {100 * n / max(summary['samples'], 1):.2g} %"
-            for name, n in summary["flags"].items()
-            if n
-        )
-        or "nothing"
-    )
+    shares = {name: 100 * n / max(summary["samples"], 1) for name, n in summary["flags"].items() if n}
+    flags = ", ".join(f"{name.replace('_', ' ')} {share:.2g} %" for name, share in shares.items()) or "nothing"
     step.line(f"{counted(summary['tests'], 'test')}, {summary['samples'] / 1e6:.1f} million samples; flagged: {flags}")
     for row in summary["calibrations"]:
         name = row.get("calibration") or row.get("name")
@@ -123,9 +156,11 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
             if row.get("kind") == "jump"
             else f"{row.get('kind')} {name}: {number(row['gain'])} {row.get('gain_unit') or ''}"
         )
+    return store
 
+
+def _fitted(step: Step, store: Store, folder: Path) -> FitResult:
     step.title(3, "fit: the baseline model, with the effects that one would expect")
-    from thermodata.modelling.add import add
     from thermodata.modelling.run import fit
     from thermodata.schema.load import load_model
 
@@ -134,7 +169,10 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     errors = (pooled(base.scores, role, responses=base.responses) for role in ("calibration", "verification"))
     fitted, kept_out = map(number, errors)
     step.line(f"{', '.join(effects)}; error {fitted} um in calibration, {kept_out} um in verification")
+    return base
 
+
+def _failing(step: Step, store: Store, base: FitResult) -> Diagnosis:
     step.title(4, "compare: where it fails")
     from thermodata.diagnosis.run import diagnose
 
@@ -145,7 +183,10 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
         )
     if not found.weak_spots:
         step.line("nowhere that stands out of the noise")
+    return found
 
+
+def _tell_missing(step: Step, found: Diagnosis) -> None:
     step.title(5, "diagnose: which effect is missing?")
     step.line(verdict_sentence(found))
     claims = claims_of(found)
@@ -157,51 +198,54 @@ def story(step: Step, folder: Path, hide: str, seed: int) -> dict[str, Any]:
     if found.next_test:
         step.line(f"next test: {found.next_test}")
 
-    model, before, after = base.model, pooled(base.scores, responses=base.responses), None
-    if claims:
-        from thermodata.modelling.compare.common import on_common
 
-        step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
-        for claim in claims:
-            better = add(store, model, claim.id)
-            model = better.model
-        before, after = (pooled(some, responses=base.responses) for some in on_common([base.scores, better.scores]))
-        step.line(
-            f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"
-        )
-        a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
-        if b is not None:
-            step.line(f"locked tests {number(a)} -> {number(b)} um ({change(a, b)})")
-    elif found.verdict in ("none", "refine"):
+@dataclass(frozen=True, slots=True)
+class _Better:
+    """The model with all claims: the baseline itself, and no error after, where nothing is claimed."""
+
+    model: str
+    before_um: float | None
+    after_um: float | None = None
+
+
+def _added(step: Step, store: Store, base: FitResult, found: Diagnosis) -> _Better:
+    claims = claims_of(found)
+    if claims:
+        return _with_claims(step, store, base, claims)
+    if found.verdict in ("none", "refine"):
         step.title(6, "add: no cause is missing, so nothing is added")
         for offered in refinements_of(found):
             step.line(f"offered: thermodata --store {store.path} add {base.model[:12]} {offered.id}")
     else:
         step.title(6, "add: nothing is added where the evidence does not suffice")
+    return _Better(base.model, pooled(base.scores, responses=base.responses))
 
+
+def _with_claims(step: Step, store: Store, base: FitResult, claims: Sequence[Candidate]) -> _Better:
+    step.title(6, f"add {listed([c.id for c in claims])}, and compare again")
+    from thermodata.modelling.add import add
+    from thermodata.modelling.compare.common import on_common
+
+    better = base
+    for claim in claims:
+        better = add(store, better.model, claim.id)
+    before, after = (pooled(some, responses=base.responses) for some in on_common([base.scores, better.scores]))
+    step.line(
+        f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"
+    )
+    a, b = claims[0].locked_rmse_um_before, claims[0].locked_rmse_um_after
+    if b is not None:
+        step.line(f"locked tests {number(a)} -> {number(b)} um ({change(a, b)})")
+    return _Better(better.model, before, after)
+
+
+def _reported(step: Step, store: Store, model: str, folder: Path) -> Path:
     step.title(7, "report")
     from thermodata.report import build_report
 
     page = build_report(store, model, folder / "report.html")
     step.line(str(page))
-    claimed = claims[0] if claims else None
-    return {
-        "hidden": None if hide == "none" else truth.get("hidden", hide),
-        "found": claimed.effect if claimed else None,
-        "verdict": found.verdict,
-        "claims": [c.id for c in claims],
-        "refinements": [c.id for c in refinements_of(found)],
-        "probability": claimed.probability if claimed else None,
-        "family": claimed.family if claimed else None,
-        "equivalents": claimed.equivalent if claimed else [],
-        "rmse_um_before": before,
-        "rmse_um_after": after,
-        "locked_rmse_um_before": claimed.locked_rmse_um_before if claimed else None,
-        "locked_rmse_um_after": claimed.locked_rmse_um_after if claimed else None,
-        "model": model,
-        "store": str(store.path),
-        "report": str(page),
-    }
+    return page
 
 
 def summary_text(result: dict[str, Any]) -> str:

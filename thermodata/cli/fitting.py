@@ -112,14 +112,18 @@ def compare_command(
         return
     if tests:
         raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")
+    store = session.store()
+    _answer_scores(session, store, named(store))
+
+
+def _answer_scores(session: Session, store: Store, models: list[str]) -> None:
     from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.spots import weak_spots_of
     from thermodata.store.catalogue.models import find_model, load_diagnosis
     from thermodata.store.catalogue.stale import stale_line
 
-    store = session.store()
-    results = compare(store, named(store))
+    results = compare(store, models)
     unknown = [r for r in results if not_installed(find_model(store, r.model).spec)]
     for result in unknown:
         warnings.warn(result.notes[-1], stacklevel=2)

@@ -135,7 +135,7 @@ def calibrations_command(session: Session, campaign: str | None) -> None:
     Signed sensitivity, uncertainty, noise, and what failed a check. JSON has all checks, each with the limit by which
     it passes.
     """
-    from thermodata.calibration.limits import with_limits
+    from thermodata.calibration.jump.limits import with_limits
 
     rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
     rows = [{**row, "checks": with_limits(row["checks"])} for row in rows]

@@ -13,7 +13,7 @@ from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.failing import without_failing
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.clocks.ends_of_logs import ends_of_logs
-from thermodata.diagnosis.locked.confirm import Fits, confirm
+from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.locked.copies import copies
 from thermodata.diagnosis.locked.held import as_held, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
@@ -38,8 +38,12 @@ from thermodata.store.base.counting import watched
 from thermodata.version import __version__
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from thermodata.modelling.inputs.roles import Key
     from thermodata.store import Store
     from thermodata.store.base.counting import Tell
+    from thermodata.view.dataset import Dataset, TestData
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
 RULES_VERSION = 76
@@ -117,8 +121,8 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     data opened it for. UsageError: no such candidate, a rank of another response's diagnosis, or no locked test that
     both models can predict.
     """
-    from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looked_for
-    from thermodata.store.catalogue.models import find_model, keep_answer, kept_answer, load_diagnosis
+    from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+    from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
 
     model = load(store, ref, anew=True)
     tests = model.fitted.tests(model.data)
@@ -131,44 +135,24 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     question = f"confirm {name}{whose}"
     kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
-        known = as_held(Confirmed.model_validate_json(kept))
-        now = {
-            "probability": _claims(store, model.identity, of.name).get(name),
-            "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
-        }
-        return known.model_copy(update=now), True
+        return _as_of_now(store, model, as_held(Confirmed.model_validate_json(kept))), True
     usable = [t for t in tests if of.can_predict(t)]
     ends = ends_of_logs(store, model)
     asked_of, _ = without_failing(effects(), lambda some: sound(model.fitted, index, model.data, usable, some, ends))
-    again = {one.key for one, _ in copies(model.fitted.tests(asked_of.data, "locked"), tests, of.name)}
-    closed = model.fitted.tests(asked_of.data, "locked")
-    locked = [t for t in closed if of.can_predict(t) and t.key not in again]
-    if not locked:
-        there = [f"{t.test}: {of.why_not(t) or 'a copy of an open test'}" for t in closed]
-        raise UsageError(
-            "no locked test to confirm on",
-            expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
-            got="; ".join(there) or "none: every test of the model is open",
-            hint="thermodata quality tells what was flagged in them" if there else _lock_one(model),
-        )
+    locked = _locked(model, of, asked_of.data, tests)
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
-    # what the diagnosis opened for the same, on the same data, is no new look
-    same = find_model(store, model.identity).data_version == model.data.data_version
-    claims = _claims(store, model.identity, of.name)
-    alone = [*claims] == [name]  # the answer told its errors
-    seen = looked_for(store, model.identity, name, whose, with_others=alone) if same else set()
-    fresh = [t.key for t in locked if t.key not in seen]
-    count_locked_look(store, model.identity, fresh, f"confirming {name}{whose}, by choice")
-    put_right, shape = asked_of.put_right, confirmation.where_it_acts
-    if shape is not None and not shape.holds:
+    count_locked_look(
+        store, model.identity, _not_seen(store, model, of, name, locked), f"confirming {name}{whose}, by choice"
+    )
+    put_right = asked_of.put_right
+    if confirmation.where_it_acts is not None and not confirmation.where_it_acts.holds:
         fits = Fits(model.fitted.spec, index, asked_of.data, asked_of.tests, locked, asked_of.fitted)
         if wrong := turned_locked(fits.of([chosen]), locked, 0.0):
             upright = [t for t in locked if t.key not in wrong]
             put_right = put_right.model_copy(update={"left_out": [*put_right.left_out, *sorted(wrong)]})
             confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, upright, base)
-            shape = confirmation.where_it_acts
-    samples = {s.key: s.rows for s in confirmation.shapes}
+    shape = confirmation.where_it_acts
     found = Confirmed(
         model=model.identity,
         response=of.name,
@@ -178,26 +162,72 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         locked_rmse_um_after=confirmation.after,
         locked_shape_um_before=None if shape is None else shape.before,
         locked_shape_um_after=None if shape is None else shape.after,
-        parameters=confirmation.parameters[chosen.id],
-        tests=[
-            TestConfirmed(
-                campaign=key[0],
-                test=key[1],
-                rmse_um_before=b,
-                rmse_um_after=a,
-                acts=key in confirmation.acts,
-                n=samples[key],
-            )
-            for key, b, a in confirmation.each
-        ],
+        parameters=confirmation.parameters[name],
+        tests=_each_test(confirmation),
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
-        probability=claims.get(name),
+        probability=_claims(store, model.identity, of.name).get(name),
         put_right=told(put_right),
         note=note_of_response(chosen.channels, model.data.channels),
     )
     result = held(found, None if shape is None else shape.holds)
     keep_answer(store, model.identity, question, key, result.model_dump_json())
     return result, False
+
+
+def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
+    """An answer that the store holds, with what may be known otherwise since."""
+    from thermodata.store.catalogue.looks import locked_looks
+
+    now = {
+        "probability": _claims(store, model.identity, known.response).get(known.candidate),
+        "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
+    }
+    return known.model_copy(update=now)
+
+
+def _locked(model: Loaded, response: FittedResponse, data: Dataset, open_: Sequence[TestData]) -> list[TestData]:
+    """The locked tests that can confirm. UsageError where there is none. data: with the logs put right."""
+    closed = model.fitted.tests(data, "locked")
+    again = {one.key for one, _ in copies(closed, open_, response.name)}
+    locked = [t for t in closed if response.can_predict(t) and t.key not in again]
+    if not locked:
+        there = [f"{t.test}: {response.why_not(t) or 'a copy of an open test'}" for t in closed]
+        raise UsageError(
+            "no locked test to confirm on",
+            expected="a test with role: locked, in which the model's channels were logged, and no copy of an open one",
+            got="; ".join(there) or "none: every test of the model is open",
+            hint="thermodata quality tells what was flagged in them" if there else _lock_one(model),
+        )
+    return locked
+
+
+def _not_seen(
+    store: Store, model: Loaded, response: FittedResponse, name: str, locked: Sequence[TestData]
+) -> list[Key]:
+    """Those that a confirmation looks at anew: what a diagnosis opened for the same, on the same data, is no look."""
+    from thermodata.store.catalogue.looks import looked_for
+    from thermodata.store.catalogue.models import find_model
+
+    if find_model(store, model.identity).data_version != model.data.data_version:
+        return [t.key for t in locked]
+    alone = [*_claims(store, model.identity, response.name)] == [name]  # the answer told its errors
+    seen = looked_for(store, model.identity, name, _of(model, response.name), with_others=alone)
+    return [t.key for t in locked if t.key not in seen]
+
+
+def _each_test(confirmation: Confirmation) -> list[TestConfirmed]:
+    samples = {s.key: s.rows for s in confirmation.shapes}
+    return [
+        TestConfirmed(
+            campaign=key[0],
+            test=key[1],
+            rmse_um_before=before,
+            rmse_um_after=after,
+            acts=key in confirmation.acts,
+            n=samples[key],
+        )
+        for key, before, after in confirmation.each
+    ]
 
 
 def _lock_one(model: Loaded) -> str:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.calibration.quality import ColumnInput, flag_stream
-from thermodata.calibration.quality_concise import concise
+from thermodata.calibration.quality.concise import concise
+from thermodata.calibration.quality.flags import ColumnInput, flag_stream
 from thermodata.draft.signals.guess import guess_of
 from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
@@ -89,7 +89,7 @@ def campaign_of(file: Path) -> Path | None:
 
 def meaning_of(campaign: Campaign, at: Path, file: Path) -> Meant | None:
     """The source and test that a file belongs to by `files` of the campaign file; None where it is in none."""
-    from thermodata.store.ingest.resolve import resolve
+    from thermodata.store.ingest.reading.resolve import resolve
 
     folder = at.absolute().parent
     try:

@@ -8,9 +8,9 @@ from typing import Protocol
 
 from thermodata.effect.places import match, part_alone
 from thermodata.plugin import Effect, Need
+from thermodata.schema.quantity import NOT_DRIVERS
 
 ANY = "*"
-_NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 
 
 class Described(Protocol):
@@ -114,7 +114,7 @@ def _fitting(need: Need, channels: Mapping[str, Described], variables: Mapping[s
 
 def _fits(need: Need, info: Described, variables: Mapping[str, str]) -> dict[str, str] | None:
     if need.quantity == ANY:
-        if info.quantity in _NOT_DRIVERS:
+        if info.quantity in NOT_DRIVERS:
             return None
     elif info.quantity != need.quantity:
         return None

@@ -23,10 +23,10 @@ from typing import Any, Literal, TypeAlias, cast, get_args
 
 from thermodata.effect.linear import Filter
 from thermodata.errors import PluginError
+from thermodata.schema.quantity import SECONDS_PER_UNIT
 
 Operator = Literal["+", "-", "*", "/", "**"]
 Comparator = Literal["<", "<=", ">", ">=", "==", "!="]
-SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +217,7 @@ def with_parameters(law: Law, p: Mapping[str, float], units: Mapping[str, str]) 
     """The tree with the parameters' values; times in s where they are times (in `lag` and `delay`)."""
     plain: dict[str, Node] = {name: Number(float(value)) for name, value in p.items()}
     times: dict[str, Node] = {
-        name: Number(float(value) * SECONDS.get(units.get(name, "s"), 1.0)) for name, value in p.items()
+        name: Number(float(value) * SECONDS_PER_UNIT.get(units.get(name, "s"), 1.0)) for name, value in p.items()
     }
 
     def time(one: Node) -> Node:

@@ -15,7 +15,7 @@ from thermodata.modelling.compare.portability import Portability, portability
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
 from thermodata.modelling.inputs import coarse_readings, shifted
-from thermodata.modelling.inputs.roles import find_tests, opened, resolve_roles
+from thermodata.modelling.inputs.roles import find_tests, in_full, opened, resolve_roles
 from thermodata.modelling.model_file import nested, prediction
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
 from thermodata.modelling.model_file.transfer import NAME
@@ -132,7 +132,7 @@ def _led_past(store: Store, result: FitResult) -> list[str]:
 def _unlocked(tests: Sequence[tuple[str, str]]) -> list[str]:
     if not tests:
         return []
-    names = ", ".join("/".join(key) for key in tests)
+    names = ", ".join(in_full(tests))
     return [
         f"locked in the campaign, and open in this model: {names}; counted as a look, for what it says of the model is "
         "no longer new to it (calibrate_on, verify_on)"
@@ -215,7 +215,7 @@ def _refuse_closed(without: Sequence[tuple[str, str]], model: Loaded, data: Data
     """UsageError for tests that were asked for and have no row."""
     if not without:
         return
-    names = ", ".join("/".join(key) for key in without)
+    names = ", ".join(in_full(without))
     closed = {t.key for t in data.tests if t.campaign not in model.fitted.spec.campaign_ids and t.role == "locked"}
     if any(model.fitted.roles.role(key) == "locked" or key in closed for key in without):
         raise UsageError(

@@ -132,17 +132,18 @@ def preview(
             *(n for met in units if (n := met.note(said.notes))),
             *_of_clocks(streams.values(), absolute),
         ],
-        "losses": [
-            {
-                "where": x.where,
-                "reason": x.reason,
-                "fraction": x.fraction,
-                "from": None if x.from_ns is None else when(x.from_ns, absolute),
-                "to": None if x.to_ns is None else when(x.to_ns, absolute),
-            }
-            for x in losses
-        ],
+        "losses": [_lost(x, absolute) for x in losses],
         "streams": [_shown(name, stream, signals[name], absolute) for name, stream in streams.items()],
+    }
+
+
+def _lost(loss: Loss, absolute: bool) -> dict[str, Any]:
+    return {
+        "where": loss.where,
+        "reason": loss.reason,
+        "fraction": loss.fraction,
+        "from": None if loss.from_ns is None else when(loss.from_ns, absolute),
+        "to": None if loss.to_ns is None else when(loss.to_ns, absolute),
     }
 
 

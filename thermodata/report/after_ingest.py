@@ -15,6 +15,7 @@ from thermodata.schema.lines import read_document
 from thermodata.schema.listed import listed
 from thermodata.schema.load import load_model, parse_model
 from thermodata.schema.model import Driver, Model, Place, Response
+from thermodata.schema.quantity import NOT_DRIVERS
 
 if TYPE_CHECKING:
     import duckdb
@@ -107,7 +108,7 @@ def _is_response(response: Response, channel: Mapping[str, Any]) -> bool:
 
 def _drives(driver: Driver, channel: Mapping[str, Any]) -> bool:
     if isinstance(driver, Place):
-        return channel.get("quantity") not in (*_MOVES, "label") and holds(driver.at, channel.get("at"))
+        return channel.get("quantity") not in NOT_DRIVERS and holds(driver.at, channel.get("at"))
     try:
         return channel["name"] in names_of(driver)
     except ThermodataError:  # `fit` refuses it with its line

@@ -10,8 +10,7 @@ import numpy as np
 from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.modelling.seen.residual_tests import Against
-
-BAND = 1.96  # of white noise: 95 % of its correlations are within
+from thermodata.schema.certainty import Z95
 
 
 def system_charts(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, Chart]:
@@ -67,7 +66,7 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
 
 def _memory(seen: Seen) -> Chart:
     hours = np.arange(len(seen.correlation), dtype=np.float64) * np.float64(seen.step_s / 3600.0)
-    band = BAND / math.sqrt(max(seen.count, 1))
+    band = Z95 / math.sqrt(max(seen.count, 1))
     limits = [Limit(band, "white within"), Limit(-band, "")]
     series = Series("autocorrelation", "1", seen.correlation, "residual", style="area", label="")
     panel = Panel(

@@ -13,12 +13,12 @@ from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.report.words import probability_text
+from thermodata.schema.certainty import Z95
 from thermodata.store.base.files import whole_file
 
 DPI = 110
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 PERIODS_MIN = {"1 min": 1.0, "10 min": 10.0, "1 h": 60.0, "6 h": 360.0, "1 d": 1440.0, "1 week": 10080.0}
-BAND = 1.96
 
 
 def draw(seen: Sequence[Seen], out: Path, title: str) -> None:
@@ -92,7 +92,7 @@ def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) 
 def _correlation(axes: Any, seen: Seen) -> None:
     hours = np.arange(len(seen.correlation)) * seen.step_s / 3600.0
     axes.fill_between(hours, 0.0, seen.correlation, step="mid", color="#7b8794", alpha=0.5)
-    band = BAND / math.sqrt(max(seen.count, 1))
+    band = Z95 / math.sqrt(max(seen.count, 1))
     axes.axhspan(-band, band, color="#f0b429", alpha=0.35, linewidth=0)
     axes.axhline(0.0, color="0.3", linewidth=0.6)
     told = "; ".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)

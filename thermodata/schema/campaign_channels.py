@@ -18,9 +18,7 @@ from thermodata.schema.declared import (
     Um,
     Value,
 )
-from thermodata.schema.quantity import Quantity
-
-MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
+from thermodata.schema.quantity import MEASURED, Quantity
 
 
 class Sensor(Attributed):

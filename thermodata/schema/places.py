@@ -106,7 +106,7 @@ _DIAMETER = "table.d"
 _LETTERS = {"axis": "xyz", "rotary": "abc"}
 # a tool change, a cut or the coolant makes any reading there jump, and no mass holds it
 _AT_TOOL = ("tcp", "tool", "stator", "probe")
-_AROUND = ("hall", "floor", "outside")
+AROUND = ("hall", "floor", "outside")
 # castings: heat passes through them, and none begins there
 _CASTINGS = ("headstock", "ram", "saddle", "crossbeam", "column", "bed")
 # and what others call them, with the words for it here
@@ -178,7 +178,7 @@ def is_powered(place: str | None) -> bool:
 
 def is_around(place: str | None) -> bool:
     """Whether a dotted place is not of the machine, but around it: nobody heats it, and it moves by itself."""
-    return place is not None and place.lower().partition(".")[0] in _AROUND
+    return place is not None and place.lower().partition(".")[0] in AROUND
 
 
 AIRS = {"hall": "the air of the hall", "enclosure": "the air of the working space"}

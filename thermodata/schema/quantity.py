@@ -63,6 +63,11 @@ CANONICAL_UNIT: dict[str, str] = {
     "label": "1",
 }
 
+MEASURED = ("displacement", "tilt", "angle")  # what a model explains, or shows it
+NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})  # no cause of a displacement
+HELD_QUANTITIES = frozenset({"state", "label"})  # between samples
+SECONDS_PER_UNIT = {"s": 1.0, "min": 60.0, "h": 3600.0}  # of the time constants of effects
+
 # What each is, in the words of the people who log it.
 QUANTITY_MEANING: dict[str, str] = {
     "displacement": "of the tool centre point, or of another place, along an axis; what is modelled",

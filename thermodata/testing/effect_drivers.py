@@ -37,6 +37,7 @@ def _drivers(needs: tuple[Need, ...], n: int = 720) -> Drivers:
 
 
 def shortened(drivers: Drivers, n: int) -> Drivers:
+    """The first n samples of all drivers."""
     return Drivers(
         drivers.t_s[:n],
         {r: v[:n] for r, v in drivers.values.items()},

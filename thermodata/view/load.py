@@ -20,7 +20,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.store.views.catalogue import RESPONSES
+from thermodata.schema.quantity import MEASURED
 from thermodata.view.bins import Binned, Series, bin_tests
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.view.describe import channel_infos, describe_tests
@@ -151,6 +151,6 @@ def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: f
         value = hold(series.k, series.value, series.stands, binned.first, size)
         return value, np.isfinite(value)
     value = on_grid(series.k, series.value, binned.first, size)
-    if quantity not in RESPONSES:
+    if quantity not in MEASURED:
         value = bridge(value, reach_bins(series.period_s, step_s))
     return value, np.isfinite(value)

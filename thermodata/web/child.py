@@ -16,6 +16,8 @@ from thermodata.web.tasks import TASKS
 
 
 def main() -> int:
+    """One task, read as a line of JSON; a line of JSON for each step of it, and for its result or error. Returns the
+    exit code."""
     request = json.loads(sys.stdin.readline())
     out, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -13,7 +13,6 @@ from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_moti
 from thermodata.diagnosis.question.present import (
     CONTROL,
     GENERIC,
-    SECONDS,
     TIME_UNITS,
     Present,
     is_plain,
@@ -28,11 +27,11 @@ from thermodata.modelling.versions.candidate import with_effect
 from thermodata.plugin import Effect, Float1D, Float2D, Param
 from thermodata.schema.model import EffectSpec, Model
 from thermodata.schema.places import is_around, is_beside, is_casting, is_scale
+from thermodata.schema.quantity import NOT_DRIVERS, SECONDS_PER_UNIT
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
 STATIC = "static"
-NOT_DRIVERS = frozenset({"displacement", "tilt", "label"})
 # parts of a body that make heat
 HEATED_PARTS = ("bearing", "motor")
 TABLE = "table"  # turning or not
@@ -244,7 +243,7 @@ def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
     count = {1: 10, 2: 5}.get(len(params), 3)
     axes = []
     for p in params:
-        seconds = SECONDS.get(p.unit)
+        seconds = SECONDS_PER_UNIT.get(p.unit)
         lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
         if p.reach is not None and p.upper > lower:
             # nor does what is added reach what a sample does not resolve

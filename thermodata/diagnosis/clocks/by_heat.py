@@ -20,6 +20,7 @@ from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.places import holds
 from thermodata.schema.counted import in_percent
 from thermodata.schema.diagnosis import Artefact, ClockMoved
+from thermodata.schema.places import AROUND
 from thermodata.view.dataset import ChannelInfo, TestData
 
 # share of the squared rises of the response that commands foretell at the right time at least, and beyond the other one
@@ -27,7 +28,6 @@ DECIDES = 0.15
 # of what heat moves, where logs begin and end elsewhere in some tests: clocks that were right left 0.71 to 1.6 of it
 # with a log moved by 25 min, and wrong ones 0.17, 0.37, 0.62 and 1.16 (machines made outside)
 MOST_LEFT = 2 / 3
-AROUND = ("hall", "floor", "outside")
 LEAST_OFF = 2  # tests that tell a shift in a part of them
 
 

@@ -130,7 +130,7 @@ def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
 
 def ends_of_logs(store: Store, model: Loaded) -> Ends:
     """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared."""
-    from thermodata.store.ingest.beside_each_other import odd_clocks, together
+    from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
 
     here = {(t.campaign, t.test) for t in model.data.tests}
     declared = {

@@ -23,6 +23,7 @@ def copies(locked: Sequence[TestData], opened: Sequence[TestData], response: str
 
 
 def as_artefacts(found: Sequence[tuple[TestData, TestData]], response: str) -> list[Artefact]:
+    """found: (a test, the one that it repeats)."""
     return [
         Artefact(
             kind="copy",

@@ -39,6 +39,7 @@ def turned_locked(claimed: FittedResponse, locked: Sequence[TestData], floor: fl
 
 
 def as_artefacts(found: dict[tuple[str, str], float], response: str) -> list[Artefact]:
+    """found: locked tests that are turned -> their FIT [%] turned round."""
     return [
         Artefact(
             kind="sign",

@@ -221,6 +221,8 @@ def left_over(problem: Problem) -> float:
 
 
 def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:
+    """A local maximum of a goal by steps that halve, shape (k,). x: its start, shape (k,); bounds: lower and upper
+    ones, shape (k, 2); most: how often the goal is asked at about most."""
     x = np.clip(x, bounds[:, 0], bounds[:, 1])
     best, step, asked = goal(x), 0.8, 1
     while step > 0.12 and asked < most:

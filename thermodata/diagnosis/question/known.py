@@ -102,6 +102,7 @@ class Known:
 
 
 def known(problem: Problem, noise: Noise) -> Known:
+    """The known effects and the response of each test, whitened by the noise, with their products."""
     space = whitened(problem, noise)
     both = tuple(space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks))
     products = np.stack([b.T @ b for b in both])

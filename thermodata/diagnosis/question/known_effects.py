@@ -21,18 +21,13 @@ TANGENT = 0.1
 BANK = (1 / 25, 1 / 5, 5.0, 25.0)
 
 
-def base_columns(fitted: FittedResponse, test: TestData) -> Float2D:
-    """What the fitted model can still do in this test, shape (n, k): its gains, and its time constants to first order.
+def remembered(fitted: FittedResponse) -> Base:
+    """Test -> what the fitted model can still do in it, shape (n, k): its gains, and its time constants to first order.
 
     The known effects are refitted together with each candidate: a base model held fixed leaves residuals that any
-    slow channel explains, which raises false claims to a third.
+    slow channel explains, which raises false claims to a third. Columns are kept: of a copy of a test in which some
+    channels are changed, only the terms that read these are made anew.
     """
-    return remembered(fitted)(test)
-
-
-def remembered(fitted: FittedResponse) -> Base:
-    """`base_columns`; of a copy of a test in which some channels are changed, only the terms that read these are made
-    anew."""
     kept: dict[tuple[int, tuple[str, str]], tuple[list[Float1D], list[Float2D]]] = {}
 
     def base(test: TestData) -> Float2D:
@@ -80,7 +75,7 @@ def otherwise(fitted: FittedResponse, test: TestData) -> Float2D:
 
 
 def owners(fitted: FittedResponse) -> tuple[list[int], list[int]]:
-    """The number of the term that each column of `base_columns`, and of `otherwise`, belongs to."""
+    """The number of the term that each column of a base, and of `otherwise`, belongs to."""
     base, spare = [], []
     for i, term in enumerate(fitted.terms):
         params = term.effect.params

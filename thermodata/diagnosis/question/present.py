@@ -15,12 +15,12 @@ from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect
+from thermodata.schema.quantity import SECONDS_PER_UNIT
 from thermodata.view.dataset import ChannelInfo
 
 GENERIC = "generic"
 CONTROL = "control"  # its static compensation is a difference of any two temperatures
-SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
-TIME_UNITS = tuple(SECONDS)
+TIME_UNITS = tuple(SECONDS_PER_UNIT)
 ALL_MODES = 99  # of a function that is printed: nobody asks for a further one
 
 

@@ -88,6 +88,7 @@ def loose_sensors(data: Dataset, response: str) -> list[Artefact]:
 
 
 def as_artefact(fall: Fall) -> Artefact:
+    """How it is told: from which test on the sensor stands out less, and what bears that out."""
     first, last = fall.after[0], fall.before[-1]
     told = f"{counted(len(fall.after), 'test', 'bears it out', 'bear it out')}, {len(fall.before)} before"
     told += f"; {fall.between} between {'tells' if fall.between == 1 else 'tell'} neither" if fall.between else ""

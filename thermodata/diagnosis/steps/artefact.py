@@ -50,6 +50,9 @@ NOTHING_ELSEWHERE = "no speed, feed, position or switch does that elsewhere"
 
 @dataclass(frozen=True, slots=True)
 class Step:
+    """A displacement that jumps and stays. at_s: on the test's clock [s]; size: in the response's unit; within_s: the
+    time that it takes [s]."""
+
     test: TestData
     at_s: float
     size: float
@@ -260,6 +263,7 @@ def _to_write(step: Step) -> str:
 
 
 def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
+    """How each is told. unit: of the response."""
     return [
         Artefact(
             kind="step",

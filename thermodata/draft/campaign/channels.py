@@ -58,56 +58,44 @@ def channels_of(
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
-    made, seen, beside = [], set(), list[str]()
-    streams = {one.signal.stream for one in found}
     exported = is_own_export([split_unit(one.signal.name)[0] for one in found])
     if exported:
         notes.append(f"{group.source}: an export of thermodata; {listed(OF_TEST)} say of which test: left out")
+    several = len({one.signal.stream for one in found}) > 1
+    made, seen, beside = [], set(), list[str]()
     for one in found[:_MOST_SIGNALS]:
-        signal = one.signal
-        if signal.name in seen and signal.name not in twice:
+        signal, twin = one.signal, one.signal.name in twice
+        if signal.name in seen and not twin:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
         if exported and split_unit(signal.name)[0] in OF_TEST:
             continue
         said, note = _said(one)
-        if said.quantity is None and signal.unit is None and _counts_rows(one):
-            notes.append(f"{group.source}: '{one.written}' numbers the rows of each file: left out")
-            continue
-        if (of := _unit_of(one, found)) is not None:
-            notes.append(f"{group.source}: '{one.written}' holds the unit of '{of.written}', which is taken: left out")
+        if (why := _why_left_out(one, said, found)) is not None:
+            notes.append(f"{group.source}: '{one.written}' {why}: left out")
             continue
         if _is_of_others(one):
             beside.append(one.written)
             continue
-        keys = [(s.stream, s.name) for s in one.spellings]
-        twin = signal.name in twice
-        jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
-        if jump is None and said.quantity == "displacement" and not twin:
-            jump, said = moved_too(signal, said, jumps)
-        if jump is not None and said.quantity == "voltage":
-            said = _moved_probe(said, called(signal))
-        named = f"{signal.stream}:{one.written}" if signal.name in twice else one.written
+        jump, said = _with_jump(one, said, jumps, twin)
         name = channel_name(_wished(_with_series(signal), said).replace(UNSIGNED, ""), taken)
         turned = exported and said.axis is not None and UNSIGNED not in signal.name
-        calibration = None
-        in_volts = normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one)
-        if said.quantity == "displacement" and in_volts:
-            calibration, said = calibration_of(name, signal, said, jump, jumps, calibrations)
-        elif said.quantity == "displacement" and jump is None and turned:
-            calibration = f"sign_{name}"
-        elif said.quantity == "displacement" and (said.at == "tcp" or jump is not None):
-            calibration, said = sign_of(name, signal, said, jump, calibrations)
-        own = {id(f) for f in one.files}
-        having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
-        only = tuple(t for t in group.tests if t in having) if len(having) < len(group.tests) and having else ()
-        lacking = tuple(t for t in group.tests if t not in having) if only else ()
-        stream = signal.stream if len(streams) > 1 else None
+        calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
+        only, lacking = _tests_with(one, group)
         notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
-        note = "; ".join(filter(None, notes_of)) or None
-        as_exported = turned and calibration == f"sign_{name}"
         made.append(
-            DraftChannel(name, group.source, named, stream, said, calibration, only, lacking, note, as_exported)
+            DraftChannel(
+                name,
+                group.source,
+                f"{signal.stream}:{one.written}" if twin else one.written,
+                signal.stream if several else None,
+                said,
+                calibration,
+                only,
+                lacking,
+                "; ".join(filter(None, notes_of)) or None,
+                turned and calibration == f"sign_{name}",
+            )
         )
     if beside:
         shown = with_count(beside, 4)
@@ -115,6 +103,56 @@ def channels_of(
             f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
         )
     return made, notes
+
+
+def _why_left_out(one: OneSignal, said: Guess, found: Sequence[OneSignal]) -> str | None:
+    """Why a signal is no channel, though it says something by itself; None where it is one."""
+    if said.quantity is None and one.signal.unit is None and _counts_rows(one):
+        return "numbers the rows of each file"
+    if (of := _unit_of(one, found)) is not None:
+        return f"holds the unit of '{of.written}', which is taken"
+    return None
+
+
+def _with_jump(one: OneSignal, said: Guess, jumps: Sequence[JumpTest], twin: bool) -> tuple[JumpTest | None, Guess]:
+    """(the jump test of a signal; what the signal is by it). twin: another stream has a signal of its name."""
+    signal, keys = one.signal, [(s.stream, s.name) for s in one.spellings]
+    jump = next((j for j in jumps if j.signal in keys or (not twin and any(j.is_of(*k) for k in keys))), None)
+    if jump is None and said.quantity == "displacement" and not twin:
+        jump, said = moved_too(signal, said, jumps)
+    if jump is not None and said.quantity == "voltage":
+        said = _moved_probe(said, called(signal))
+    return jump, said
+
+
+def _calibrated(
+    name: str,
+    one: OneSignal,
+    said: Guess,
+    jump: JumpTest | None,
+    turned: bool,
+    jumps: Sequence[JumpTest],
+    calibrations: list[DraftJump],
+) -> tuple[str | None, Guess]:
+    """(the calibration of a displacement; what the channel is by it). turned: an export has its sign already."""
+    if said.quantity != "displacement":
+        return None, said
+    if normal_unit(said.unit or "V") in ("V", "mV") and not reads_a_length(one):
+        return calibration_of(name, one.signal, said, jump, jumps, calibrations)
+    if jump is None and turned:
+        return f"sign_{name}", said
+    if said.at == "tcp" or jump is not None:
+        return sign_of(name, one.signal, said, jump, calibrations)
+    return None, said
+
+
+def _tests_with(one: OneSignal, group: Group) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """(tests that have a signal, those that lack it); both empty where all have it, or none."""
+    own = {id(f) for f in one.files}
+    having = {t for t, fs in group.tests.items() if any(id(f) in own for f in fs)}
+    if not having or len(having) == len(group.tests):
+        return (), ()
+    return tuple(t for t in group.tests if t in having), tuple(t for t in group.tests if t not in having)
 
 
 def _way(one: OneSignal) -> str | None:

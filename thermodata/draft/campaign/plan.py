@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from thermodata.draft.campaign.asked_once import asked_once
@@ -16,7 +16,7 @@ from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, Draf
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
 from thermodata.draft.courses.kinds import kind_of
-from thermodata.draft.courses.measuring import Named, rule_of
+from thermodata.draft.courses.measuring import rule_of
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
@@ -35,6 +35,7 @@ from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
 from thermodata.draft.times.clocks import (
     Alignment,
+    Named,
     alignments,
     mended_clocks,
     repeats_question,
@@ -51,39 +52,98 @@ from thermodata.schema.counted import counted
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     """What the folder holds, as a campaign."""
-    early = _claimed_table(folder, found)
-    beside: tuple[tuple[str, str], ...] = ()
-    if early is not None:
-        own = next(f for f in found.logs if str(f.path) == early)
-        beside = tuple(
-            (early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)
-        )
-        found = replace(found, logs=tuple(f for f in found.logs if str(f.path) != early), others=(*found.others, early))
+    found, beside = _table_apart(folder, found)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     found, legends = with_legends(folder, found)
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
-    of_probes, in_tests = with_their_probes(jumps, groups), names_in_tests(groups)
+    of_probes = with_their_probes(jumps, groups)
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
+    of_groups = _channels(groups, of_probes)
+    calibrations, keyed = of_groups.calibrations, of_groups.keyed
+    sources = asked_once(_sources(groups, keyed, table, found), groups)
+    jumps_drafted, every_source = with_their_sources(calibrations, sources)
+    named = {id(f): keyed[g.source] for g in groups for f in g.files}
+    warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
+    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    used = {j.file for j in calibrations}
+    idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
+    known = [j for of_source in of_probes.values() for j in of_source]
+    left_out = (
+        *(x for x in found.ignored if table is None or x[0] != table.file),
+        *beside,
+        *((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle),
+    )
+    read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
+    return Draft(
+        campaign,
+        tuple(every_source),
+        tuple(of_groups.channels),
+        tuple(jumps_drafted),
+        tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids),
+        table,
+        left_out,
+        found.damaged,
+        (
+            *counted_on(groups),
+            *joined,
+            *mended_clocks(groups),
+            *legends,
+            *of_groups.notes,
+            *closed_workbooks(found.others),
+            *_hardly_looked_at(found.logs),
+        ),
+        tuple(x for x in found.failed if table is None or x[0] != table.file),
+        tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
+    )
+
+
+def _table_apart(folder: Path, found: Scan) -> tuple[Scan, list[tuple[str, str]]]:
+    """(what was found, a table of tests that a reader takes for a log among the others; its sheets that are not read,
+    with why)."""
+    early = _claimed_table(folder, found)
+    if early is None:
+        return found, []
+    own = next(f for f in found.logs if str(f.path) == early)
+    unread = [(early, f"its {note}") for note in own.recording.notes if re.match(r"sheet '.*' is not read", note)]
+    logs = tuple(f for f in found.logs if str(f.path) != early)
+    return replace(found, logs=logs, others=(*found.others, early)), unread
+
+
+@dataclass(frozen=True, slots=True)
+class _Channels:
+    """Of all sources. keyed: source -> its channels, by (stream, signal) of the files."""
+
+    channels: list[DraftChannel]
+    calibrations: list[DraftJump]
+    keyed: dict[str, Named]
+    notes: list[str]
+
+
+def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest]]) -> _Channels:
+    """of_probes: source -> the jump tests of its probes."""
     taken: set[str] = set()
-    channels: list[DraftChannel] = []
-    by_signal: dict[str, dict[tuple[str, str], tuple[str, str | None, str]]] = {}
     calibrations: list[DraftJump] = []
-    notes = counted_on(groups) + joined + mended_clocks(groups) + legends
+    found = _Channels([], calibrations, {}, [])
+    in_tests = names_in_tests(groups)
     for g in groups:
-        made, left = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
-        made = with_told_speeds(made, g)
-        made = asked_whether_held(beside_each_other(made), g, groups)
-        channels += made
-        notes += left
-        by_signal[g.source] = {
-            (c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity
-        }
-    keyed = {g.source: _keyed(g, by_signal[g.source]) for g in groups}
+        made, notes = channels_of(g, of_probes[g.source], in_tests, taken, calibrations)
+        made = asked_whether_held(beside_each_other(with_told_speeds(made, g)), g, groups)
+        found.channels.extend(made)
+        found.notes.extend(notes)
+        found.keyed[g.source] = _keyed(
+            g, {(c.stream or "", c.signal): (c.said.quantity, c.said.at, c.name) for c in made if c.said.quantity}
+        )
+    return found
+
+
+def _sources(
+    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan
+) -> tuple[DraftSource, ...]:
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    sources: tuple[DraftSource, ...] = tuple(
+    return tuple(
         DraftSource(
             g.source,
             g.reader,
@@ -95,33 +155,6 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
             g.told,
         )
         for g in groups
-    )
-    sources = asked_once(sources, groups)
-    jumps_drafted, every_source = with_their_sources(calibrations, sources)
-    notes += closed_workbooks(found.others)
-    named = {id(f): keyed[g.source] for g in groups for f in g.files}
-    warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
-    versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
-    tests = tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids)
-    left_out = (*(x for x in found.ignored if table is None or x[0] != table.file), *beside)
-    used = {j.file for j in calibrations}
-    idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
-    read = {str(f.path) for f in found.logs} - set(idle)  # of a workbook some sheets may be left out
-    known = [j for of_source in of_probes.values() for j in of_source]
-    left_out += tuple((p, why_idle(p, known, calibrations, _behind(p, calibrations, found, groups))) for p in idle)
-    notes += _hardly_looked_at(found.logs)
-    return Draft(
-        campaign,
-        tuple(every_source),
-        tuple(channels),
-        tuple(jumps_drafted),
-        tests,
-        table,
-        left_out,
-        found.damaged,
-        tuple(notes),
-        tuple(x for x in found.failed if table is None or x[0] != table.file),
-        tuple(dict.fromkeys(path for path, _ in left_out if path not in read)),
     )
 
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
+from thermodata.draft.times.clocks import Named
 from thermodata.plugin import Bool1D, Float1D
 
 _LEAST = 0.02  # of the samples out of range, and in it
 _AGREES = 0.99  # of the samples
 _FEWEST = 50
 Key = tuple[str, str]
-Named = Mapping[Key, tuple[str, str | None, str]]
 
 
 def rule_of(files: Sequence[RawFile], named: Mapping[int, Named]) -> str | None:

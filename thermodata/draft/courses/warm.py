@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from thermodata.draft.courses.measuring import Named
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.times.clocks import Named
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.schema.places import is_spindle

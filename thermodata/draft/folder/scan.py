@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
@@ -48,98 +48,122 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     what somebody declared for texts that are no UTF-8."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    watch, spent = Watch(), 0.0
-    logs: dict[str, RawFile] = {}
-    ignored: list[tuple[str, str]] = []
-    failed: list[tuple[str, str]] = []
-    shapes: dict[str, RawFile] = {}
-    apart: dict[str, tuple[RawFile, list[RawFile]]] = {}
     copies, unfinished = copies_in(folder, paths), unfinished_in(paths)
     beginnings = beginnings_in(folder, [p for p in paths if p not in copies and p not in unfinished])
+    look = _Look(folder, encoding, copies, beginnings, unfinished)
     for done, path in enumerate(_spread(paths)):
         tell(done, len(paths), str(path))
-        full = folder / path
-        if (said := _is_no_log(path, copies, beginnings, unfinished)) is not None:
-            ignored.append((str(path), said))
-            continue
-        try:
-            like = shapes.get(_shape(path)) if watch.spent_s > _HEADERS_S else None
-            if like is not None and like.part is None:
-                logs[str(path)] = _as_like(like, path, full)
-                continue
-            who, why = claimant(full)
-            if who is None:
-                ignored.append((str(path), why))
-                continue
-            try:
-                whole = described_file(who, full, path, encoding)
-                found = sheet_by_sheet(who, full, whole)
-                looked = Watch()
-                if len(found) == 1:
-                    found = _by_rows(who, full, path, encoding, whole, _SAMPLES_S - spent) or found
-                spent += looked.spent_s
-            except _UNREAD as error:
-                tests = _not_as_series(who, full, path, encoding, None, _SAMPLES_S - spent)
-                if tests is None:
-                    failed.append((str(path), who.name))
-                    said = f"reader '{who.name}' {CANT_READ}: {short(error)}{_try(error)}"
-                    ignored.append((str(path), said))
-                    continue
-                whole, found = tests[0], tests
-            if whole.size < SMALL and spent < _SAMPLES_S:  # now, for its reader has just looked at it
-                own = Watch()
-                found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
-                if (once := of_one_time(whole, found)) is not None:
-                    found = [replace(once, sample=sample_of_file(full, once))]
-                spent += own.spent_s
-            elif (once := of_one_time(whole, found)) is not None:
-                found = [once]
-            ignored += [(str(path), why) for why in found[0].besides]
-            if found[0].sheet:
-                apart[str(path)] = (whole, found)
-            for made in found:
-                key = str(path) if made.part is None else f"{path}/{made.part}"
-                logs[key] = shapes[_shape(path)] = made
-            if str(path) in logs and not logs[str(path)].signals:
-                del logs[str(path)]
-                ignored.append((str(path), f"{who.name}: it holds no signal"))
-        except _UNREAD as error:
-            ignored.append((str(path), short(error)))
-    for one, whole in in_every_file(apart).items():
+        look.at(path)
+    logs = look.logs
+    for one, whole in in_every_file(look.apart).items():
         logs = {key: made for key, made in logs.items() if str(made.path) != one} | {one: whole}
     sampled = _sampled(folder, logs, tell)
-    ordered = [str(p) for p in paths]
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
-    position = {p: i for i, p in enumerate(ordered)}
-    for found_out in (ignored, failed):
-        found_out.sort(key=lambda item: position[item[0]])
+    position = {str(p): i for i, p in enumerate(paths)}
+    ignored, failed = (sorted(told, key=lambda item: position[item[0]]) for told in (look.ignored, look.failed))
+    no_lists = {str(p) for p in (*copies, *unfinished, *beginnings)}  # a log is no list of tests
     return Scan(
         with_lent_names(folder, sorted(sampled, key=lambda f: position[str(f.path)])),
         tuple(ignored),
         tuple(damaged),
-        tuple(
-            dict.fromkeys(p for p, _ in ignored if PurePosixPath(p) not in {*copies, *unfinished, *beginnings})
-        ),  # a log is no list of tests
+        tuple(dict.fromkeys(p for p, _ in ignored if p not in no_lists)),
         tuple(failed),
     )
 
 
-def _is_no_log(
-    path: PurePosixPath,
-    copies: Mapping[PurePosixPath, PurePosixPath],
-    beginnings: Mapping[PurePosixPath, PurePosixPath],
-    unfinished: Mapping[PurePosixPath, PurePosixPath],
-) -> str | None:
-    """Why a file is not even asked about: by its name, or another one that holds the same; None where it is."""
-    if not is_text(str(path)):
-        return "its name is no UTF-8: no campaign file can say it; give it another name"
-    if path in copies:
-        return f"a copy of {copies[path]}: their bytes are equal"
-    if path in beginnings:
-        return f"the beginning of {beginnings[path]}, byte by byte: an earlier state of it, and no test of its own"
-    if path in unfinished:
-        return f"by its name a half-written copy of {unfinished[path]}, which is there"
-    return None
+@dataclass(slots=True)
+class _Look:
+    """One look at each file. copies, beginnings, unfinished: file -> the other one that holds the same. logs: by file,
+    or file and part; shapes: a log of each kind of name; apart: file -> (as a whole, its sheets). spent_s: on what
+    costs more than the headers."""
+
+    folder: Path
+    encoding: str | None
+    copies: Mapping[PurePosixPath, PurePosixPath]
+    beginnings: Mapping[PurePosixPath, PurePosixPath]
+    unfinished: Mapping[PurePosixPath, PurePosixPath]
+    logs: dict[str, RawFile] = field(default_factory=dict)
+    ignored: list[tuple[str, str]] = field(default_factory=list)
+    failed: list[tuple[str, str]] = field(default_factory=list)
+    apart: dict[str, tuple[RawFile, list[RawFile]]] = field(default_factory=dict)
+    _shapes: dict[str, RawFile] = field(default_factory=dict)
+    _watch: Watch = field(default_factory=Watch)
+    _spent_s: float = 0.0
+
+    def at(self, path: PurePosixPath) -> None:
+        """Takes a file for a log, or says why it is none."""
+        if (said := self._is_no_log(path)) is not None:
+            self.ignored.append((str(path), said))
+            return
+        try:
+            like = self._shapes.get(_shape(path)) if self._watch.spent_s > _HEADERS_S else None
+            if like is not None and like.part is None:
+                self.logs[str(path)] = _as_like(like, path, self.folder / path)
+                return
+            who, why = claimant(self.folder / path)
+            if who is None:
+                self.ignored.append((str(path), why))
+            elif (read := self._parts(who, path)) is not None:
+                self._keep(who, path, read[0], self._sampled_now(path, *read))
+        except _UNREAD as error:
+            self.ignored.append((str(path), short(error)))
+
+    def _is_no_log(self, path: PurePosixPath) -> str | None:
+        """Why a file is not even asked about: by its name, or another one that holds the same; None where it is."""
+        if not is_text(str(path)):
+            return "its name is no UTF-8: no campaign file can say it; give it another name"
+        if path in self.copies:
+            return f"a copy of {self.copies[path]}: their bytes are equal"
+        if path in self.beginnings:
+            of = self.beginnings[path]
+            return f"the beginning of {of}, byte by byte: an earlier state of it, and no test of its own"
+        if path in self.unfinished:
+            return f"by its name a half-written copy of {self.unfinished[path]}, which is there"
+        return None
+
+    def _parts(self, who: Reader, path: PurePosixPath) -> tuple[RawFile, list[RawFile]] | None:
+        """(the file as a whole, the parts of it that are logs); None where its reader can't read it."""
+        full = self.folder / path
+        try:
+            whole = described_file(who, full, path, self.encoding)
+            found = sheet_by_sheet(who, full, whole)
+            watch = Watch()
+            if len(found) == 1:
+                found = _by_rows(who, full, path, self.encoding, whole, _SAMPLES_S - self._spent_s) or found
+            self._spent_s += watch.spent_s
+        except _UNREAD as error:
+            tests = _not_as_series(who, full, path, self.encoding, None, _SAMPLES_S - self._spent_s)
+            if tests is not None:
+                return tests[0], tests
+            self.failed.append((str(path), who.name))
+            self.ignored.append((str(path), f"reader '{who.name}' {CANT_READ}: {short(error)}{_try(error)}"))
+            return None
+        return whole, found
+
+    def _sampled_now(self, path: PurePosixPath, whole: RawFile, found: list[RawFile]) -> list[RawFile]:
+        """The parts, or the one log that they are; of a small file with samples now, for its reader has just
+        looked at it."""
+        full = self.folder / path
+        small = whole.size < SMALL and self._spent_s < _SAMPLES_S
+        watch = Watch()
+        if small:
+            found = [made if made.block else replace(made, sample=sample_of_file(full, made)) for made in found]
+        if (once := of_one_time(whole, found)) is not None:
+            found = [replace(once, sample=sample_of_file(full, once)) if small else once]
+        if small:
+            self._spent_s += watch.spent_s
+        return found
+
+    def _keep(self, who: Reader, path: PurePosixPath, whole: RawFile, found: list[RawFile]) -> None:
+        self.ignored += [(str(path), why) for why in found[0].besides]
+        if found[0].sheet:
+            self.apart[str(path)] = (whole, found)
+        for made in found:
+            key = str(path) if made.part is None else f"{path}/{made.part}"
+            self.logs[key] = self._shapes[_shape(path)] = made
+        if str(path) in self.logs and not self.logs[str(path)].signals:
+            del self.logs[str(path)]
+            self.ignored.append((str(path), f"{who.name}: it holds no signal"))
 
 
 def _as_like(like: RawFile, path: PurePosixPath, full: Path) -> RawFile:

@@ -7,12 +7,12 @@ import re
 from collections.abc import Collection
 from pathlib import Path
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.draft.known.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
 from thermodata.schema.campaign import Campaign, SourceSpec, Test
 from thermodata.schema.tests_from import pattern_of
-from thermodata.store.ingest.resolve import natural
+from thermodata.store.ingest.reading.resolve import natural
 
 MOST_FILES = 100_000
 
@@ -44,7 +44,7 @@ def campaign_of_logs(known: Campaign, folder: Path, channels: Collection[str]) -
             hint=f"write a campaign file: thermodata init {folder}",
         )
     kept = {c: known.channels[c] for c in known.channels if c in wanted}
-    calibrations = {n for c in kept.values() for n in _listed(c.calibration)}
+    calibrations = {n for c in kept.values() for n in as_list(c.calibration)}
     return Campaign.model_validate(
         {
             "schema": "thermodata/campaign/1",
@@ -89,13 +89,13 @@ def _clock(spec: SourceSpec, known: Campaign, wanted: Collection[str]) -> object
 
 def _fitting(name: str, spec: SourceSpec, names: list[str], campaign: str) -> list[str]:
     """The patterns of a source as the files of the folder are called: with its folders, or without."""
-    patterns = [p for p in _listed(spec.files) if "{test}" in p]
+    patterns = [p for p in as_list(spec.files) if "{test}" in p]
     if not patterns:
         raise UsageError(
             f"the files of source '{name}' do not name their test",
             where=f"campaign {campaign}",
             expected="a pattern with {test}",
-            got=", ".join(_listed(spec.files)) or "no files",
+            got=", ".join(as_list(spec.files)) or "no files",
             hint="write a campaign file for the new logs, and predict that",
         )
     bare = [p.rpartition("/")[2] for p in patterns]
@@ -116,5 +116,6 @@ def _files(folder: Path) -> list[str]:
     return sorted(names, key=natural)
 
 
-def _listed(value: str | list[str] | None) -> list[str]:
+def as_list(value: str | list[str] | None) -> list[str]:
+    """What a campaign file has of one or several; [] for nothing."""
     return [] if value is None else [value] if isinstance(value, str) else list(value)

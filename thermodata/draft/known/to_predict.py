@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from thermodata.draft.known.of_logs import as_list
 from thermodata.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
@@ -135,20 +136,16 @@ def _ingested(
 def _of_log(campaign: Campaign, log: Path) -> Campaign:
     """The test of one log, with the logs of its other sources beside it."""
     own = glob.escape(log.name)
-    tests = [t for t in campaign.tests if any(own in _listed(files) for files in t.files.values())]
+    tests = [t for t in campaign.tests if any(own in as_list(files) for files in t.files.values())]
     if not tests:
         raise UsageError(
             "the log fits no source of the model's campaign",
             where=str(log),
-            expected=", ".join(", ".join(_listed(s.files)) for s in campaign.sources.values()),
+            expected=", ".join(", ".join(as_list(s.files)) for s in campaign.sources.values()),
             got=log.name,
             hint="name it like these, or predict a folder of logs or a campaign file",
         )
     return campaign.model_copy(update={"tests": tests})
-
-
-def _listed(value: str | list[str] | None) -> list[str]:
-    return [] if value is None else [value] if isinstance(value, str) else list(value)
 
 
 def _campaign_file(folder: Path) -> Path | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from thermodata.calibration.plateaus import Step
+from thermodata.calibration.jump.plateaus import Step
 from thermodata.draft.files.raw_file import sampled_file
 from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name

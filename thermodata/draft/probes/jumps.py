@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from thermodata.calibration.plateaus import Step, find_steps
+from thermodata.calibration.jump.plateaus import Step, find_steps
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of

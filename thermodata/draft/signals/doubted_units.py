@@ -8,14 +8,14 @@ from dataclasses import replace
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.values import Values
+from thermodata.schema.places import AROUND
 
 _NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
 _NO_REST_C = 60.0  # no bearing, column or oil begins a log above that, though a motor may run there
-_AIR = ("hall", "floor", "outside")
 # spindles turn with hundreds of rpm; in krpm, or in turns a second, a test has fewer than this
 _FEW_RPM = 60.0
 _FURTHEST_UM = 3000.0  # a tool is displaced by tenths of a millimetre
-_COOL = ("bed", "column", "table", "crossbeam", "saddle", "hall", "floor", "outside")  # no heat is made there
+_COOL = ("bed", "column", "table", "crossbeam", "saddle", *AROUND)  # no heat is made there
 # what never is colder counts kelvins: of a machine at -20 degC, and what runs hottest; counts of a converter beyond
 # are asked for elsewhere
 _COLDEST_K, _HOTTEST_K = 250.0, 400.0
@@ -33,7 +33,7 @@ def doubted(found: Guess, name: str, values: Values) -> Guess:
     asked = None
     if found.quantity == "temperature" and found.unit == "degC":
         least = _coldest(values)
-        closed = _NO_HALL_C if units.may_be_fahrenheit(name) or _stands_at(found, _AIR) else _NO_REST_C
+        closed = _NO_HALL_C if units.may_be_fahrenheit(name) or _stands_at(found, AROUND) else _NO_REST_C
         asked = "degF, or degC?" if values.n > 0 and least >= closed else None
     elif found.quantity == "rotational_speed" and found.unit == "rpm" and not _stands_at(found, _SLOW):
         asked = "krpm, 1/s, or rpm?" if 0.0 < max(abs(values.low), abs(values.high)) <= _FEW_RPM else None

@@ -7,7 +7,7 @@ from statistics import median
 
 from thermodata.draft.signals.values import Values
 from thermodata.schema.listed import with_count
-from thermodata.store.ingest.other_units import APART_K, ZERO_K
+from thermodata.store.ingest.told.other_units import APART_K, ZERO_K
 
 THOUSAND = (300.0, 3000.0)  # of how much the rows differ: um and mm, W and kW
 _SHOWN = 3

@@ -53,6 +53,8 @@ class Guess:
 
 
 def quantity_of(own: str, text: str, unit: str | None, dtype: str, values: Values | None) -> Guess:
+    """What a signal measures. own: its name; text: the name with what stands over it; unit: None where the file says
+    none; values: a sample of them, where there is one."""
     bare = unit is None or normal_unit(unit) == "dimensionless"
     if dtype == "str":
         if bare and values is not None and values.numerals:

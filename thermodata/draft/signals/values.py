@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.calibration.channel import FALSE_WORDS, TRUE_WORDS
-from thermodata.calibration.quality_limit import impossible, sentinels
-from thermodata.calibration.quality_value import run_stats
+from thermodata.calibration.quality.limit import impossible, sentinels
+from thermodata.calibration.quality.value import run_stats
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.quantity import linear_conversion

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from zoneinfo import ZoneInfo
 
-from thermodata.calibration.clock import estimate_offset
+from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
@@ -17,12 +17,11 @@ from thermodata.errors import ThermodataError
 from thermodata.reader.step_back import likely_cause, said
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.schema.counted import counted
-from thermodata.store.ingest.repeated_times import MANY
-from thermodata.store.tidy.times_of_day import began, first_of
+from thermodata.store.ingest.told.repeated_times import MANY
+from thermodata.store.tidy.times_of_day import NEAR_NS, began, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
-_TOGETHER_NS = 120_000_000_000  # by how much two logs that begin and end together differ in length, as at ingest
 _ZONES = (
     "UTC",
     "Europe/Prague",
@@ -93,7 +92,7 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
             if (asked := _by_its_clock(test, files, other)) is not None:
                 return asked
             here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
-            if here is not None and there is not None and abs(there - here) > _TOGETHER_NS:
+            if here is not None and there is not None and abs(there - here) > NEAR_NS:
                 return (
                     f"when did it begin? it has no dates; '{other.source}' has, and lasts {_hours(there)} h in {test} "
                     f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "

@@ -41,22 +41,41 @@ def _side(said: set[str], sides: tuple[str, ...] = _SIDES) -> str | None:
 
 
 def _temperature(said: set[str], axis: str | None) -> Place:
+    for rule in (_of_axis, _of_workhead, _of_drive, _of_fluid, _of_body, _of_room, _of_spindle, _of_hall, _of_rest):
+        if (place := rule(said, axis)) is not None:
+            return place
+    if axis and axis in "xyz":
+        return Place(None, question=f"at: axis.{axis}.motor, .nut, .screw, .scale, .guide or .bearing?")
+    return Place(None, question="at: where on the machine?")
+
+
+def _of_axis(said: set[str], axis: str | None) -> Place | None:
     on_axis = next((p for p in _ON_AXIS if p in said), None)
-    if on_axis:
-        part = "bearing" if on_axis == "screw" and "bearing" in said else on_axis
-        if axis and axis in "xyz":
-            return Place(f"axis.{axis}.{part}", part != "guide")
-        return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
-    if "workhead" in said:
-        part = next((f".{p}" for p in ("bearing", "motor") if p in said), "")
-        asked = f"at: where on the workhead? e.g. counter_spindle{part}, as a second spindle, or rotary.c{part}"
-        return Place(None, question=asked)
+    if on_axis is None:
+        return None
+    part = "bearing" if on_axis == "screw" and "bearing" in said else on_axis
+    if axis and axis in "xyz":
+        return Place(f"axis.{axis}.{part}", part != "guide")
+    return Place(None, question=f"at: which axis's {part}? e.g. axis.z.{part}")
+
+
+def _of_workhead(said: set[str], _: str | None) -> Place | None:
+    if "workhead" not in said:
+        return None
+    part = next((f".{p}" for p in ("bearing", "motor") if p in said), "")
+    asked = f"at: where on the workhead? e.g. counter_spindle{part}, as a second spindle, or rotary.c{part}"
+    return Place(None, question=asked)
+
+
+def _of_drive(said: set[str], axis: str | None) -> Place | None:
     if "bearing" in said:
         return _bearing(said, axis)
     if "belt" in said and "motor" not in said:
         return _belt(said, axis)
-    if said & {"motor", "drive"}:
-        return _motor(said, axis)
+    return _motor(said, axis) if said & {"motor", "drive"} else None
+
+
+def _of_fluid(said: set[str], _: str | None) -> Place | None:
     if "in or out of a cooler" in said:
         return Place("chiller", question="at: chiller.supply or .return? out of the cooler, or out of the machine?")
     if "chiller" in said or ("coolant" in said and "spindle" in said):
@@ -71,6 +90,10 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place("spindle.gearbox")
     if "oil" in said:
         return Place(None, question="at: hydraulics, lubrication, or coolant, where the oil cuts?")
+    return None
+
+
+def _of_body(said: set[str], _: str | None) -> Place | None:
     beam = next((b for b in _BEAMS if b in said), None)
     if beam is not None and (beam == "column" or "spindle" not in said):
         side = _side(said) or {"upper": "top", "lower": "bottom"}.get(_side(said, ("upper", "lower")) or "")
@@ -79,8 +102,11 @@ def _temperature(said: set[str], axis: str | None) -> Place:
     found = [p for p in _PLAIN if p in said]
     if found and "spindle" not in said - ({"spindle"} if "headstock" in found else set()):
         return Place(found[0], len(found) == 1)
-    if "table" in said:
-        return Place("table", not said & {"hall"})
+    return Place("table", not said & {"hall"}) if "table" in said else None
+
+
+def _of_room(said: set[str], _: str | None) -> Place | None:
+    """Of what is around the machine, or what all of it is made of."""
     if "climate chamber" in said:
         return Place("hall")
     if "chamber" in said and "workspace" not in said:
@@ -93,8 +119,14 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         return Place(None, question="at: bed, column or crossbeam, of the frame?")
     if "workspace" in said:
         return Place("enclosure", said <= {"workspace", "enclosure", "hall", "chamber"})
-    if "spindle" in said:
-        return Place("spindle", said == {"spindle"})
+    return None
+
+
+def _of_spindle(said: set[str], _: str | None) -> Place | None:
+    return Place("spindle", said == {"spindle"}) if "spindle" in said else None
+
+
+def _of_hall(said: set[str], _: str | None) -> Place | None:
     if "window" in said or "sun" in said:
         return Place("hall.sun" if "sun" in said else "hall.window")
     if "pneumatics" in said:
@@ -103,15 +135,13 @@ def _temperature(said: set[str], axis: str | None) -> Place:
         level = {"upper": ".top", "lower": ".bottom"}.get(_side(said, ("upper", "lower")) or "", "")
         level = ".door" if "door" in said else level
         return Place("hall" + level, not said & {"probe", "fan", "enclosure"})
-    if "door" in said:
-        return Place("hall.door")
+    return Place("hall.door") if "door" in said else None
+
+
+def _of_rest(said: set[str], _: str | None) -> Place | None:
     if "probe" in said:
         return Place("probe", question="at: is 'probe' the place, or only the sensor?")
-    if "cnc" in said:
-        return Place("cnc")
-    if axis and axis in "xyz":
-        return Place(None, question=f"at: axis.{axis}.motor, .nut, .screw, .scale, .guide or .bearing?")
-    return Place(None, question="at: where on the machine?")
+    return Place("cnc") if "cnc" in said else None
 
 
 def _bearing(said: set[str], axis: str | None) -> Place:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from thermodata.export.control.body import make_body
 from thermodata.export.control.printer import Printer, Words, digits, heading
 from thermodata.export.control.program import Program
-from thermodata.export.control.statements import Variable
+from thermodata.export.control.statements import Body, Variable
 
 
 def c_files(program: Program, real: str) -> dict[str, str]:
@@ -13,14 +13,18 @@ def c_files(program: Program, real: str) -> dict[str, str]:
     single = real == "REAL"
     body = make_body(program, compensated=single)
     name, kind = program.name, "float" if single else "double"
-    held = {v.name: v.held for v in body.variables}
-    reach = {"in": "in->", "out": "m->", "kept": "m->", "temp": ""}
-    suffix, f = ("f", "f") if single else ("", "")
+    header = _header(program, body, kind)
+    source = _source(name, body, kind, single)
+    return {f"{name}.h": "\n".join(header), f"{name}.c": "\n".join(source)}
+
+
+def _words(single: bool) -> Words:
+    suffix = "f" if single else ""
 
     def number(value: float) -> str:
         return digits(value, single) + suffix
 
-    words = Words(
+    return Words(
         equal="==",
         unequal="!=",
         both=" && ",
@@ -28,8 +32,8 @@ def c_files(program: Program, real: str) -> dict[str, str]:
         no="!",
         true="1",
         false="0",
-        absolute=f"fabs{f}({{}})",
-        power=f"pow{f}({{}}, {{}})",
+        absolute=f"fabs{suffix}({{}})",
+        power=f"pow{suffix}({{}}, {{}})",
         assign="{} = {};",
         if_="if ({}) {{",
         else_="} else {",
@@ -38,12 +42,13 @@ def c_files(program: Program, real: str) -> dict[str, str]:
         comment="/* {} */",
         real=number,
     )
-    printer = Printer(words, lambda text: reach.get(held.get(text, "temp"), "") + text)
-    about = ["/*", *(f" * {line}".rstrip() for line in heading(body)), " */"]
-    temps = [v for v in body.variables if v.held == "temp"]
-    temps += [Variable("k", "int", "temp")] if any(v.kind == "ring" for v in body.variables) else []
-    header = [
-        *about,
+
+
+def _header(program: Program, body: Body, kind: str) -> list[str]:
+    """kind: of a number in C."""
+    name = program.name
+    return [
+        *("/*", *(f" * {line}".rstrip() for line in heading(body)), " */"),
         f"#ifndef {name.upper()}_H",
         f"#define {name.upper()}_H",
         "",
@@ -65,22 +70,27 @@ def c_files(program: Program, real: str) -> dict[str, str]:
         "#endif",
         "",
     ]
-    source = [
+
+
+def _source(name: str, body: Body, kind: str, single: bool) -> list[str]:
+    held = {v.name: v.held for v in body.variables}
+    reach = {"in": "in->", "out": "m->", "kept": "m->", "temp": ""}
+    printer = Printer(_words(single), lambda text: reach.get(held.get(text, "temp"), "") + text)
+    temps = [v for v in body.variables if v.held == "temp"]
+    temps += [Variable("k", "int", "temp")] if any(v.kind == "ring" for v in body.variables) else []
+    second_word_stays = (
+        "#ifdef __FAST_MATH__",
+        "#error compile without -ffast-math: it removes the second word of the states",
+        "#endif",
+        "",
+    )
+    return [
         f'#include "{name}.h"',
         "",
         "#include <math.h>",
         "#include <string.h>",
         "",
-        *(
-            [
-                "#ifdef __FAST_MATH__",
-                "#error compile without -ffast-math: it removes the second word of the states",
-                "#endif",
-                "",
-            ]
-            if single
-            else []
-        ),
+        *(second_word_stays if single else ()),
         f"void {name}_init({name} *m)",
         "{",
         "    memset(m, 0, sizeof *m);",
@@ -94,7 +104,6 @@ def c_files(program: Program, real: str) -> dict[str, str]:
         "}",
         "",
     ]
-    return {f"{name}.h": "\n".join(header), f"{name}.c": "\n".join(source)}
 
 
 def _declared(v: Variable, real: str, zero: bool = False) -> str:

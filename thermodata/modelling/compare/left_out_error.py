@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import leaves_open
-from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.modelling.inputs.roles import Key, in_full, resolve_roles
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
@@ -85,7 +85,7 @@ class LeftOut:
         return Errors(samples, squares)
 
     def _fit(self, spec: Model, train: Sequence[Key], left_out: Sequence[Key]) -> FittedModel:
-        roles = {"calibrate_on": names(train), "verify_on": names(left_out), "locked": names(self._locked)}
+        roles = {"calibrate_on": in_full(train), "verify_on": in_full(left_out), "locked": in_full(self._locked)}
         return fit_model(spec.model_copy(update={**roles, "in_sample": False}), self.data, uncertainty=False)
 
     def _with_orders(self, spec: Model) -> Model:
@@ -106,8 +106,3 @@ class LeftOut:
 def counts(response: FittedResponse, test: TestData) -> bool:
     """Whether a test says something of a fitted response."""
     return response.can_predict(test) and bool(response.mask(test).any())
-
-
-def names(keys: Sequence[Key]) -> list[str]:
-    """Tests as a model file names them, whatever its campaigns."""
-    return ["/".join(key) for key in keys]

@@ -88,14 +88,14 @@ def moved_as_well(response: FittedResponse, stages: Sequence[Stage]) -> Iterator
     for stage in stages:
         for i in stage.members:
             term = response.terms[i]
-            mine = _size(response, term, stage.tests)
+            mine = _size(term, stage.tests)
             for k, other in enumerate(response.terms):
-                size = 0.0 if k in stage.members else _size(response, other, stage.tests)
+                size = 0.0 if k in stage.members else _size(other, stage.tests)
                 if mine > 0 and size > MOVED * mine:
-                    yield _row(response, term, other, size / mine, stage)
+                    yield _row(term, other, size / mine, stage)
 
 
-def _row(response: FittedResponse, term: FittedTerm, other: FittedTerm, ratio: float, stage: Stage) -> Check:
+def _row(term: FittedTerm, other: FittedTerm, ratio: float, stage: Stage) -> Check:
     drivers = ", ".join(other.binding.values()) or other.id
     names = ", ".join(t.test for t in stage.tests)
     then = "it is held as found there: name tests in which only its own driver moves"
@@ -113,7 +113,7 @@ def _row(response: FittedResponse, term: FittedTerm, other: FittedTerm, ratio: f
     )
 
 
-def _size(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> float:
+def _size(term: FittedTerm, tests: Sequence[TestData]) -> float:
     """rms of a term's contribution about its mean in each test."""
     squares = [np.var(term.contribution(t)[t.in_window]) for t in tests if term.bound.covers(t) and term.can_predict(t)]
     return float(np.sqrt(np.mean(squares))) if squares else 0.0

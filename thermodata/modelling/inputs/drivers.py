@@ -62,7 +62,7 @@ def names_of(text: str) -> tuple[str, ...]:
     """The channels that a driver expression reads, in alphabetical order."""
     if text.isidentifier():
         return (text,)
-    from thermodata.calibration.expression import parse
+    from thermodata.calibration.expression.parser import parse
 
     return tuple(sorted(parse(text).names))
 
@@ -85,7 +85,7 @@ def is_known(test: TestData, text: str) -> bool:
     shifted = shifted_in(test, text)
     if not shifted or text.isidentifier():
         return True
-    from thermodata.calibration.expression import parse
+    from thermodata.calibration.expression.parser import parse
 
     tree = parse(text)
     if tree.logical:
@@ -111,7 +111,7 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
     if text.isidentifier():
         raw = np.asarray(test.values[text], dtype=np.float64)
     else:
-        from thermodata.calibration.expression import parse
+        from thermodata.calibration.expression.parser import parse
 
         tree = parse(text)
         values = tree.evaluate({name: test.values[name] for name in names}, {name: _unit(test, name) for name in names})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from thermodata.errors import SpecError, unknown_name
@@ -26,6 +26,11 @@ class Roles:
             if key in keys:
                 return name
         return "none"
+
+
+def in_full(keys: Iterable[Key]) -> list[str]:
+    """Tests as a model file names them, whatever its campaigns."""
+    return ["/".join(key) for key in keys]
 
 
 def resolve_roles(spec: Model, data: Dataset) -> Roles:

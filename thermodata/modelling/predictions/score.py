@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.modelling.inputs.phases import phases
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.plugin import Bool1D, Float1D
+from thermodata.plugin import Float1D
 from thermodata.schema.result import Score
 from thermodata.view.dataset import Dataset, TestData
 
@@ -44,6 +44,7 @@ def role_of(fitted: FittedModel, test: TestData) -> str:
 
 
 def score_test(response: FittedResponse, test: TestData, model_id: str, role: str) -> Iterator[Score]:
+    """Errors of the free run over the whole test and over each of its phases, in the response's unit."""
     measured, residual, mask = response.measured(test), response.residual(test), response.mask(test)
     whole = {ALL: np.ones(len(mask), bool)}
     for phase, inside in (whole | phases(test, response.bound.channel_of(test))).items():
@@ -86,10 +87,3 @@ def fit_percent(measured: Float1D, residual: Float1D) -> float | None:
 def peak_sum(values: Float1D) -> float:
     """|max| + |min|, the peak to peak of [straka2021] and [horejs2022]."""
     return abs(float(values.max())) + abs(float(values.min())) if len(values) else 0.0
-
-
-def share_removed(measured: Float1D, residual: Float1D, mask: Bool1D) -> float | None:
-    """Share of the displacement's peak to peak that the model removes; below 0 where it adds."""
-    if not mask.any() or np.ptp(measured[mask]) == 0:
-        return None
-    return 1.0 - float(np.ptp(residual[mask]) / np.ptp(measured[mask]))

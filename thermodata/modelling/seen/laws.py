@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from thermodata.calibration import nodes
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression import nodes
+from thermodata.calibration.expression.parser import parse
 from thermodata.effect import law
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST, names_of

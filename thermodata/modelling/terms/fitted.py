@@ -17,6 +17,8 @@ from thermodata.view.dataset import Dataset, TestData
 
 @dataclass(frozen=True)
 class FittedModel:
+    """A model file on data: frozen, and what all is predicted from."""
+
     spec: Model
     roles: Roles
     responses: tuple[FittedResponse, ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
 from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param

@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, bounds_of
-from thermodata.plugin import Float1D, Float2D, Param
+from thermodata.plugin import Float1D, Float2D
 from thermodata.view.dataset import TestData
 
 STEP = 1e-3  # of log(value), or of the range
@@ -51,7 +51,7 @@ def sensitivity(response: FittedResponse, tests: Sequence[TestData]) -> Sensitiv
             if param.name in term.bound.spec.fixed or param.name in values.silent:
                 continue
             own = bool(term.bound.spec.shared) and param.name not in term.bound.spec.shared
-            moved, step = _moved(values.params[param.name], param, bounds_of(term, param))
+            moved, step = _moved(values.params[param.name], bounds_of(term, param))
             change = (design.columns(s, {**values.params, param.name: moved}) - base) @ gains / step
             name = (term.id, f"{param.name}{tag if own else ''}")
             found[name] = found.get(name, 0.0) + change
@@ -62,7 +62,7 @@ def sensitivity(response: FittedResponse, tests: Sequence[TestData]) -> Sensitiv
     return Sensitivity(columns, tuple(found), residual, tuple(design.parts))
 
 
-def _moved(value: float, param: Param, bounds: tuple[float, float]) -> tuple[float, float]:
+def _moved(value: float, bounds: tuple[float, float]) -> tuple[float, float]:
     """(another value, how far it is in the units of the search)."""
     low, high = bounds
     if low > 0:

@@ -13,7 +13,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import ArxFunction
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.inputs.overlap import overlaps
-from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys
+from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys, in_full
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.model_file.transfer import DIRECT, NAME, FreeFunction
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
@@ -106,9 +106,9 @@ def _on_what_is_left(spec: Model, roles: Roles, data: Dataset) -> Model:
 
     return spec.model_copy(
         update={
-            "calibrate_on": ["/".join(k) for k in roles.calibrate],
-            "verify_on": ["/".join(k) for k in roles.verify],
-            "locked": ["/".join(k) for k in roles.locked],
+            "calibrate_on": in_full(roles.calibrate),
+            "verify_on": in_full(roles.verify),
+            "locked": in_full(roles.locked),
             "weights": {},  # they count in a fit only
             "effects": [left(e) for e in spec.effects],
         }
@@ -124,7 +124,7 @@ def _response(
         told = {n.removeprefix(start): p.value for n, p in result.parameters.items() if n.startswith(start)}
         terms.append(_term(term, told))
     bound = replace(bound, terms=tuple(t.bound for t in terms))
-    checks = tuple(_own(c, bound.name, bool(prefix)) for c in result.checks if _is_of(c, bound.name, bool(prefix)))
+    checks = tuple(_own(c, bool(prefix)) for c in result.checks if _is_of(c, bound.name, bool(prefix)))
     wanted = None if spec.phases is None else tuple(spec.phases)
     return FittedResponse(bound, tuple(terms), wanted, frozenset(roles.calibrate), checks, fitted_on=fitted_on)
 
@@ -139,7 +139,7 @@ def _is_of(check: Check, response: str, several: bool) -> bool:
     return not several or check.name.partition(":")[2].partition("/")[0] == response
 
 
-def _own(check: Check, response: str, several: bool) -> Check:
+def _own(check: Check, several: bool) -> Check:
     """With the name that it has where the model has one response."""
     kind, _, rest = check.name.partition(":")
     subject = rest.partition("/")[2]

@@ -47,6 +47,8 @@ def make_result(
     before: list[Score] | None = None,
     locked: bool = False,
 ) -> FitResult:
+    """The answer of a fit. identity: the model's id; before: the scores of its parent; locked: whether locked tests are
+    scored, too."""
     names = [r.name for r in fitted.responses]
     lacking: dict[str, list[str]] = {}  # a test may lack something for each of several responses
     for why in fitted.skipped:

@@ -23,13 +23,13 @@ from thermodata.modelling.terms.fitted_response import FittedTerm
 from thermodata.plugin import Param
 from thermodata.schema.counted import counted as in_words
 from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.quantity import SECONDS_PER_UNIT
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset
 
 LEAST_TESTS = 3  # open tests; what holds in one of two may be chance
 FALL = 0.2  # share of the error on left-out tests that it takes off at least: of all samples, and of the typical test
 BETTER = 0.6  # of the left-out tests get better at least
-SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +157,7 @@ def time_constant(spec: EffectSpec) -> Param | None:
     if spec.effect in (TRANSFER, PREDICTION, NESTED):
         return None
     effect = find_effect(spec.effect)
-    times = [p for p in effect.params if p.unit in SECONDS]
+    times = [p for p in effect.params if p.unit in SECONDS_PER_UNIT]
     return times[0] if effect.needs and len(times) == 1 else None
 
 
@@ -175,7 +175,7 @@ def second_of(spec: EffectSpec, fitted: FittedTerm, ids: Sequence[str], span_s: 
         for name, value in fitted.params.items()
         if name != param.name and name not in groups[0].silent and all(g.params[name] == value for g in groups)
     }
-    shortest, longest = (s / SECONDS[param.unit] for s in span_s)
+    shortest, longest = (s / SECONDS_PER_UNIT[param.unit] for s in span_s)
     bounds = {**spec.bounds, param.name: (min(param.lower, shortest), max(param.upper, longest))}
     number = next(k for k in range(2, len(ids) + 3) if f"{fitted.id}_lag{k}" not in ids)
     start = {name: value for name, value in spec.start.items() if name != param.name}  # that of the first lag

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-from thermodata.modelling.inputs.roles import Key, resolve_roles
+from thermodata.modelling.inputs.roles import in_full, resolve_roles
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.schema.diagnosis import ClockMoved, PutRight
 from thermodata.schema.model import Model
@@ -30,11 +30,7 @@ def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, 
         return spec, notes
     verify = [key for key in roles.verify if key not in wrong]
     notes += [f"{MADE_WITHOUT} {key[1]}: {wrong[key]}" for key in gone]
-    return spec.model_copy(update={"calibrate_on": _names(kept), "verify_on": _names(verify)}), notes
-
-
-def _names(keys: Iterable[Key]) -> list[str]:
-    return ["/".join(key) for key in keys]
+    return spec.model_copy(update={"calibrate_on": in_full(kept), "verify_on": in_full(verify)}), notes
 
 
 def _of_one(campaign: str, test: str, clocks: Sequence[ClockMoved]) -> str:

@@ -13,8 +13,8 @@ from thermodata.calibration.result import CalibrationResult
 from thermodata.schema.campaign import Campaign, Measuring
 from thermodata.schema.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
-from thermodata.store.ingest.beyond_the_end import phases_of
-from thermodata.store.ingest.inventory import Row
+from thermodata.store.ingest.known.inventory import Row
+from thermodata.store.ingest.told.beyond_the_end import phases_of
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_to_json
 from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan
@@ -160,6 +160,8 @@ def raw_rows(plan: TestPlan, now: datetime) -> list[Row]:
 
 
 def raw_row(campaign: str, test: str, source: str, raw: RawStream, part: str, now: datetime) -> Row:
+    """A row of the table `file`. test: '' for a jump test; source: then the name of its calibration; part: test or
+    calibration."""
     return {
         "campaign": campaign,
         "test": test,
@@ -180,6 +182,7 @@ def raw_row(campaign: str, test: str, source: str, raw: RawStream, part: str, no
 
 
 def calibration_row(campaign: str, result: CalibrationResult) -> Row:
+    """A row of the table `calibration`; what is no finite number is NULL."""
     row = result.row(campaign)
     return {
         k: _json(v)

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
-from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, same
-from thermodata.store.ingest.looks_of_gone import count_on, keep_looks
-from thermodata.store.ingest.mark_stale import is_fitted, mark_stale
-from thermodata.store.ingest.state import states, version_of
+from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
+from thermodata.store.ingest.known.looks_of_gone import count_on, keep_looks
+from thermodata.store.ingest.known.mark_stale import is_fitted, mark_stale
+from thermodata.store.ingest.known.state import states, version_of
 
 if TYPE_CHECKING:
     import duckdb

@@ -18,14 +18,14 @@ from thermodata.schema.campaign import Campaign
 from thermodata.schema.places import is_around, is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
-from thermodata.store.ingest.beyond_the_end import beyond_the_end
-from thermodata.store.ingest.empty_channels import empty_channels
-from thermodata.store.ingest.inventory import BY_TEST, Inventory, Row, meta_of
-from thermodata.store.ingest.left_alone import LeftAlone, TestNote, columns_of, estimated
-from thermodata.store.ingest.losses import Losses, loss_row
-from thermodata.store.ingest.other_heads import head_of, other_heads
-from thermodata.store.ingest.other_units import other_units
+from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, meta_of
+from thermodata.store.ingest.known.left_alone import LeftAlone, TestNote, columns_of, estimated
 from thermodata.store.ingest.tidy_rows import count, duration_s, step_s, tidy_rows
+from thermodata.store.ingest.told.beyond_the_end import beyond_the_end
+from thermodata.store.ingest.told.empty_channels import empty_channels
+from thermodata.store.ingest.told.losses import Losses, loss_row
+from thermodata.store.ingest.told.other_heads import head_of, other_heads
+from thermodata.store.ingest.told.other_units import other_units
 from thermodata.store.tidy.between import Verdict, verdicts
 from thermodata.store.tidy.clock_lent import dated_sources, lent
 from thermodata.store.tidy.clock_offsets import clocks_of

@@ -13,10 +13,10 @@ from thermodata.store.base.files import TEMPORARY
 from thermodata.store.catalogue.create import LAYERS
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.commit import drop_results
-from thermodata.store.ingest.inventory import BY_TEST, read_inventory
-from thermodata.store.ingest.looks_of_gone import keep_looks, looked_at
-from thermodata.store.ingest.mark_stale import mark_stale
-from thermodata.store.ingest.state import states
+from thermodata.store.ingest.known.inventory import BY_TEST, read_inventory
+from thermodata.store.ingest.known.looks_of_gone import keep_looks, looked_at
+from thermodata.store.ingest.known.mark_stale import mark_stale
+from thermodata.store.ingest.known.state import states
 
 if TYPE_CHECKING:
     import duckdb

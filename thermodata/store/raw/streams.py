@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from thermodata.errors import FormatError, PluginError, ThermodataError
@@ -71,35 +71,10 @@ def read_raw(
     A stream without rows leaves no file. Losses are kept with the file's first stream. check: called before any
     file appears under its name; raises where the source file is no longer what was hashed.
     """
-    key = raw_key(sha256, reader, source)
-    writers: dict[str, StreamWriter] = {}
-    losses: list[Loss] = []
+    reading = _Reading(store, path, source_path, sha256, reader, source, raw_key(sha256, reader, source))
     try:
         try:
-            recording = described(reader, path, source)
-            by_stream: dict[str, list[Signal]] = {}
-            for signal in recording.signals:
-                by_stream.setdefault(signal.stream, []).append(signal)
-            units = units_met(recording.signals)
-            for item in guarded(reader, path, source, recording):
-                if isinstance(item, Loss):
-                    losses.append(item)
-                    continue
-                if item.stream not in writers:
-                    if item.stream not in by_stream:
-                        raise PluginError(
-                            f"reader '{reader.name}' yields a stream that it did not describe",
-                            where=source_path,
-                            expected=", ".join(by_stream),
-                            got=item.stream,
-                        )
-                    target = store / "raw" / f"{key}-{safe_name(item.stream, 40) or 'main'}.parquet"
-                    writers[item.stream] = StreamWriter(
-                        target, by_stream[item.stream], unordered=bool(getattr(reader, "unordered", False))
-                    )
-                writers[item.stream].add(item)
-                for met in units:
-                    met.add(item)
+            recording, late = reading.read()
         except (ThermodataError, MemoryError, KeyboardInterrupt):
             raise
         except Exception as error:
@@ -107,65 +82,99 @@ def read_raw(
                 "the file cannot be read", where=source_path, got=f"{type(error).__name__}: {error}"
             ) from error
         check()
-        late = [note for met in units if (note := met.note(recording.notes)) is not None]
-        late += pass_notes(
-            reader, path, source, recording, [(w.first_ns, w.last_ns) for w in writers.values() if w.rows]
-        )
+        spans = [(w.first_ns, w.last_ns) for w in reading.writers.values() if w.rows]
+        late += pass_notes(reader, path, source, recording, spans)
         recording = dataclasses.replace(recording, notes=(*recording.notes, *late))
-        streams = [
-            _finish(store, writer, stream, key, path, source_path, sha256, reader, recording, losses)
-            for stream, writer in writers.items()
-            if writer.rows
-        ]
+        streams = [reading.finish(w, name, recording) for name, w in reading.writers.items() if w.rows]
     finally:
-        for writer in writers.values():
+        for writer in reading.writers.values():
             writer.discard()
     if not streams:
         raise FormatError(
             "the file holds no data",
             where=source_path,
             expected="at least one row",
-            got="; ".join(x.reason for x in losses) or "none",
+            got="; ".join(x.reason for x in reading.losses) or "none",
         )
-    streams[0] = dataclasses.replace(streams[0], losses=tuple(losses))
+    streams[0] = dataclasses.replace(streams[0], losses=tuple(reading.losses))
     return [m.as_kept() for m in streams]
 
 
-def _finish(
-    store: Path,
-    writer: StreamWriter,
-    stream: str,
-    key: str,
-    path: Path,
-    source_path: str,
-    sha256: str,
-    reader: Reader,
-    recording: Recording,
-    losses: list[Loss],
-) -> RawStream:
-    writer.finish({"source_path": source_path, "sha256": sha256, "reader": reader.name, "stream": stream})
-    return RawStream(
-        key,
-        writer.target.relative_to(store).as_posix(),
-        stream,
-        source_path,
-        sha256,
-        path.stat().st_size,
-        writer.rows,
-        writer.first_ns,
-        writer.last_ns,
-        writer.step_ns,
-        recording.clock,
-        recording.start_ns,
-        False if losses else recording.complete,
-        reader.name,
-        version_of(reader),
-        tuple(writer.signals),
-        writer.columns,
-        tuple(sorted(writer.flagged)),
-        (*recording.notes, *([newest_first.NOTE] if writer.newest_first else [])),
-        ordered=writer.ordered,
-        newest_first=writer.newest_first,
-        unordered=writer.unordered and not writer.ordered,
-        of_day_ns=recording.of_day_ns,
-    )
+@dataclasses.dataclass(slots=True)
+class _Reading:
+    """A source file on its way into the store: a writer for each of its streams that has come so far."""
+
+    store: Path
+    path: Path
+    source_path: str
+    sha256: str
+    reader: Reader
+    source: Source
+    key: str
+    writers: dict[str, StreamWriter] = dataclasses.field(default_factory=dict)
+    losses: list[Loss] = dataclasses.field(default_factory=list)
+
+    def read(self) -> tuple[Recording, list[str]]:
+        """(what the file says of itself, notes on units that it says row by row)."""
+        recording = described(self.reader, self.path, self.source)
+        by_stream: dict[str, list[Signal]] = {}
+        for signal in recording.signals:
+            by_stream.setdefault(signal.stream, []).append(signal)
+        units = units_met(recording.signals)
+        for item in guarded(self.reader, self.path, self.source, recording):
+            if isinstance(item, Loss):
+                self.losses.append(item)
+                continue
+            if item.stream not in self.writers:
+                self.writers[item.stream] = self._writer(item.stream, by_stream)
+            self.writers[item.stream].add(item)
+            for met in units:
+                met.add(item)
+        return recording, [note for met in units if (note := met.note(recording.notes)) is not None]
+
+    def _writer(self, stream: str, described: Mapping[str, list[Signal]]) -> StreamWriter:
+        if stream not in described:
+            raise PluginError(
+                f"reader '{self.reader.name}' yields a stream that it did not describe",
+                where=self.source_path,
+                expected=", ".join(described),
+                got=stream,
+            )
+        target = self.store / "raw" / f"{self.key}-{safe_name(stream, 40) or 'main'}.parquet"
+        return StreamWriter(target, described[stream], unordered=bool(getattr(self.reader, "unordered", False)))
+
+    def finish(self, writer: StreamWriter, stream: str, recording: Recording) -> RawStream:
+        """The file of a stream appears under its name."""
+        writer.finish(
+            {
+                "source_path": self.source_path,
+                "sha256": self.sha256,
+                "reader": self.reader.name,
+                "stream": stream,
+            }
+        )
+        return RawStream(
+            self.key,
+            writer.target.relative_to(self.store).as_posix(),
+            stream,
+            self.source_path,
+            self.sha256,
+            self.path.stat().st_size,
+            writer.rows,
+            writer.first_ns,
+            writer.last_ns,
+            writer.step_ns,
+            recording.clock,
+            recording.start_ns,
+            False if self.losses else recording.complete,
+            self.reader.name,
+            version_of(self.reader),
+            tuple(writer.signals),
+            writer.columns,
+            tuple(sorted(writer.flagged)),
+            (*recording.notes, *([newest_first.NOTE] if writer.newest_first else [])),
+            ordered=writer.ordered,
+            newest_first=writer.newest_first,
+            unordered=writer.unordered and not writer.ordered,
+            of_day_ns=recording.of_day_ns,
+        )

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thermodata.calibration.quality_between import offsets_between_tests
-from thermodata.calibration.quality_dead import dead_throughout
-from thermodata.calibration.quality_foreign import foreign_part
-from thermodata.calibration.quality_levels import POINTS, Course, Levels
-from thermodata.calibration.quality_range import Limits, ends_of_ranges
-from thermodata.calibration.quality_still import Reading, read_elsewhere
-from thermodata.calibration.quality_value import RunStats, refreshed, run_stats
+from thermodata.calibration.between_tests.dead import dead_throughout
+from thermodata.calibration.between_tests.failing import offsets_between_tests
+from thermodata.calibration.between_tests.foreign import foreign_part
+from thermodata.calibration.between_tests.levels import POINTS, Course, Levels
+from thermodata.calibration.quality.range import Limits, ends_of_ranges
+from thermodata.calibration.quality.still import Reading, read_elsewhere
+from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.places import is_at_tool

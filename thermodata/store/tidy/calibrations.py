@@ -27,7 +27,7 @@ def evaluate(
     can't be read or found, or whose probe stands at its end of range, is a problem, and the channels that use it are
     left without values.
     """
-    from thermodata.calibration.jump import evaluate_jump
+    from thermodata.calibration.jump.evaluate import evaluate_jump
     from thermodata.calibration.platinum import evaluate_platinum
     from thermodata.calibration.static import evaluate_linear, evaluate_scale
 

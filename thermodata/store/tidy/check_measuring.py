@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thermodata.calibration.expression import parse
+from thermodata.calibration.expression.parser import parse
 from thermodata.calibration.measuring import long_form
 from thermodata.errors import UsageError, unknown_name
 from thermodata.schema.campaign import Campaign, Channel, Test

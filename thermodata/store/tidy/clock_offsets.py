@@ -23,7 +23,7 @@ from thermodata.store.tidy.series import TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, bases, first_ns, is_relative
 
 if TYPE_CHECKING:
-    from thermodata.calibration.clock import ClockEstimate
+    from thermodata.calibration.clock.estimate import ClockEstimate
 
 
 def clocks_of(
@@ -179,7 +179,7 @@ def _estimate(
 def _by_events(
     source: SourcePlan, there: SourcePlan, clocks: Mapping[str, Clock], reasons: list[str]
 ) -> ClockEstimate | None:
-    from thermodata.calibration.clock_events import offset_from_events
+    from thermodata.calibration.clock.events import offset_from_events
 
     events = source.spec.clock.events
     if not events:
@@ -213,7 +213,7 @@ def moment_ns(moment: str | float, source: SourcePlan, clock: Clock, where: str)
 
 
 def _by_channels(series: TestSeries, source: SourcePlan, reasons: list[str]) -> ClockEstimate | None:
-    from thermodata.calibration.clock import estimate_offset
+    from thermodata.calibration.clock.estimate import estimate_offset
 
     best = None
     for pair in source.spec.clock.by:

@@ -15,7 +15,7 @@ from thermodata.store.tidy.plan import Bound
 
 @lru_cache(maxsize=512)
 def _parsed(text: str) -> Any:
-    from thermodata.calibration.expression import parse
+    from thermodata.calibration.expression.parser import parse
 
     return parse(text)
 

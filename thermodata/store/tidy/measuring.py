@@ -9,14 +9,12 @@ from math import ceil
 
 import numpy as np
 
-from thermodata.calibration.measuring import long_form, measuring_mask, measuring_names
+from thermodata.calibration.measuring import BREAK, long_form, measuring_mask, measuring_names
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
 from thermodata.schema.quantity import canonical
 from thermodata.store.tidy.chunk import Chunk, Column
 from thermodata.store.tidy.plan import TestPlan
-
-_BREAK = 10.0  # a pause of so many periods ends a stretch, as in calibration.measuring
 
 
 def lasts(measuring: str | Measuring | None) -> bool:
@@ -79,7 +77,7 @@ class Stretches:
 def find_stretches(parts: Iterable[tuple[int, Int1D, Bool1D]], period_ns: float, spec: Measuring) -> Stretches:
     """parts: (first row, times, mask) of the chunks of a stream in order; a pause in the log ends a stretch too."""
     stretches: list[tuple[int, int, int, int]] = []  # first row, past-the-last, first time, last time
-    longest = _BREAK * max(period_ns, 1.0)
+    longest = BREAK * max(period_ns, 1.0)
     for start, t, mask in parts:
         goes_on = (
             bool(stretches)

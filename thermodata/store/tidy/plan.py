@@ -10,7 +10,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.match import NoSignalError
 from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.campaign_channels import MEASURED
+from thermodata.schema.quantity import MEASURED
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.in_parts import Found, InPart, find_in_parts
@@ -234,7 +234,7 @@ def _listed(columns: int | str | list[int | str]) -> list[int | str]:
 
 def operands(expression: str) -> list[str]:
     """The channels of an expression in the order of their first appearance."""
-    from thermodata.calibration.expression import parse
+    from thermodata.calibration.expression.parser import parse
 
     words, names = re.findall(r"[^\W\d]\w*(?:\.[^\W\d]\w*)*", expression), parse(expression).names
     return list(dict.fromkeys(word for word in words if word in names))

@@ -9,13 +9,13 @@ from typing import TypeVar
 
 import numpy as np
 
-from thermodata.calibration.quality import ANALOG, QualityEvent
-from thermodata.calibration.quality_concise import concise
+from thermodata.calibration.quality.concise import concise
+from thermodata.calibration.quality.flags import ANALOG, QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.campaign import Measuring
-from thermodata.schema.campaign_channels import MEASURED
 from thermodata.schema.flag import Flag
+from thermodata.schema.quantity import MEASURED
 from thermodata.store.tidy import windows
 from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated

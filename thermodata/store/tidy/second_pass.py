@@ -11,8 +11,8 @@ from thermodata.reader.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.source_clock import recorded, start_ns
+from thermodata.store.tidy.times_of_day import NEAR_NS
 
-_TOGETHER_NS = 120 * 10**9  # by how much logs that begin or end together differ
 _JOINED_NS = 600 * 10**9  # the pause between two parts of a recording
 
 
@@ -83,7 +83,7 @@ def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
         if other is source or hour is None or not _is_known(other):
             continue
         there = (min(recorded(r)[0] for r in other.raws), max(recorded(r)[1] for r in other.raws))
-        if abs(there[0] - begin) <= _TOGETHER_NS and abs(there[1] - end - hour.shift_ns) <= _TOGETHER_NS:
+        if abs(there[0] - begin) <= NEAR_NS and abs(there[1] - end - hour.shift_ns) <= NEAR_NS:
             plan.problems.append(
                 f"test '{plan.test.id}': '{source.name}' begins with '{other.name}' and ends in the hour that {zone} "
                 f"repeats, by as much earlier: its last rows, {hour.written(end, second=False)}, may be of the second "
@@ -113,7 +113,7 @@ def _overlap(own: tuple[int, int], other: tuple[int, int]) -> bool:
 
 
 def _go_together(own: tuple[int, int], other: tuple[int, int]) -> bool:
-    return any(abs(a - b) <= _TOGETHER_NS for a, b in zip(own, other, strict=True))
+    return any(abs(a - b) <= NEAR_NS for a, b in zip(own, other, strict=True))
 
 
 def _joins(own: tuple[int, int], sibling: tuple[int, int]) -> bool:

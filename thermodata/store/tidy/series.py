@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
+from thermodata.schema.quantity import HELD_QUANTITIES
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.chunk import Chunk
 from thermodata.store.tidy.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
@@ -18,7 +19,6 @@ from thermodata.store.tidy.source_clock import Clock, Span, build, last_ns
 from thermodata.store.tidy.timeline import Timeline, given_timeline
 
 Member = tuple[str, str]
-_HELD = frozenset({"state", "label"})
 _SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length
 
 
@@ -166,7 +166,7 @@ class TestSeries:
             held = values[index]
             held[before] = None
             return held, flags[index]
-        if bound.channel.quantity in _HELD or bound.is_held:
+        if bound.channel.quantity in HELD_QUANTITIES or bound.is_held:
             return np.where(before, np.nan, values[index]), flags[index]
         follows = np.minimum(index + 1, len(t) - 1)
         exact = t[index] == t_ns

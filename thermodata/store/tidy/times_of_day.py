@@ -8,7 +8,7 @@ from datetime import UTC, datetime, timedelta
 from thermodata.reader.zone import utc_offset_ns
 
 DAY_NS, _HOUR_NS = 86_400 * 10**9, 3_600 * 10**9
-NEAR_NS = 120 * 10**9  # by which logs that are taken to begin together differ
+NEAR_NS = 120 * 10**9  # by how much logs that begin or end together differ
 
 
 def began(of_day_ns: int, first_ns: int, timezone: str | None) -> str | None:

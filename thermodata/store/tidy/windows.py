@@ -13,9 +13,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.calibration.quality import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
-from thermodata.calibration.quality_range import Limits
-from thermodata.calibration.quality_value import RunStats
+from thermodata.calibration.quality.flags import MOST_EVENTS, ColumnInput, QualityEvent, flag_stream
+from thermodata.calibration.quality.range import Limits
+from thermodata.calibration.quality.value import RunStats
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
 from thermodata.store.tidy.chunk import Column

@@ -50,6 +50,9 @@ class TidyFile:
 
 @dataclass(slots=True)
 class TidyResult:
+    """The tidy files of one stream of a test, and what was found while they were made. flags: name -> samples;
+    problems: why channels could not be made."""
+
     files: list[TidyFile] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
     flags: Counter[str] = field(default_factory=Counter)

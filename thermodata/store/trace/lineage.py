@@ -10,7 +10,7 @@ from thermodata.errors import unknown_name
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.store import Store
-from thermodata.store.ingest.file_versions import SUPERSEDED
+from thermodata.store.ingest.known.file_versions import SUPERSEDED
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import settled
 from thermodata.store.tidy import derive

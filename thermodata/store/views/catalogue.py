@@ -9,15 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.schema.quantity import CANONICAL_UNIT, HELD_QUANTITIES
 from thermodata.store.base.connection import literal
 
 if TYPE_CHECKING:
     import duckdb
 
 # what a model explains; every other quantity can drive one
-RESPONSES = ("displacement", "tilt", "angle")
-HELD_QUANTITIES = ("state", "label")
 SCHEDULE = "schedule"
 
 

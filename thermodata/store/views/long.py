@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from thermodata.schema.flag import INVALID
+from thermodata.schema.quantity import MEASURED
 from thermodata.store.base.connection import literal, quoted
-from thermodata.store.views.catalogue import RESPONSES, Catalogue, Column, Group
+from thermodata.store.views.catalogue import Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse
 from thermodata.store.views.identifiers import identified
 from thermodata.store.views.wide import wide_name
@@ -31,7 +32,7 @@ VIEWS: dict[str, Callable[[Column], bool]] = {
     "sample": lambda column: True,
     "displacement": lambda column: column.quantity == "displacement",
     "temperature": lambda column: column.quantity == "temperature",
-    "driver": lambda column: column.quantity not in RESPONSES,
+    "driver": lambda column: column.quantity not in MEASURED,
 }
 # where a channel is a branch of its own: rows of a file from which reading costs more than opening, and how many files
 # may be opened for all channels together (15 us each)

@@ -15,12 +15,12 @@ from scipy.signal import lfilter
 
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Float2D, Int1D
+from thermodata.schema.quantity import NOT_DRIVERS
 from thermodata.view.dataset import Dataset, TestData
 
 STEP_S = 300.0
 TAUS_S = (0.0, 600.0, 1800.0, 5400.0, 16200.0)
 DELAYS_S = tuple(600.0 * k for k in range(19))  # 0 to 3 h
-NOT_DRIVERS = ("displacement", "tilt", "label")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +51,8 @@ class Question:
 
 
 def ask(fitted: FittedResponse, data: Dataset, tests: list[TestData]) -> Question:
+    """What the rivals are given: the residual of a fitted response and all channels, in means over `STEP_S`, of the
+    samples that count."""
     names = tuple(n for n, c in data.channels.items() if c.quantity not in NOT_DRIVERS)
     per = max(1, round(STEP_S / data.step_s))
     left: list[Float1D] = []

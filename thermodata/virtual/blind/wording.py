@@ -60,6 +60,7 @@ def without(found: Sequence[Row]) -> list[Row]:
 
 
 def goals(found: Sequence[Row]) -> list[Row]:
+    """Each question with what was measured of it beside its goal, as a page prints them."""
     return [
         {
             "question": r["question"],

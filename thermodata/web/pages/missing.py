@@ -106,7 +106,7 @@ def show(request: Request) -> Response:
         looks=_looks(store, model),
         locked=_locked(store, model),
         unbound=_unbound(store, model),
-        added=_added(found, model, models),
+        added=_added(found, model),
         among=among,
         pair=pair,
         add_command=lambda c: command(desk.store_path, "add", model.model, c.id),
@@ -165,6 +165,6 @@ def _unbound(store: Store, model: ModelRow) -> list[Any]:
     return unbound({n: e for n, e in effects().items() if e.family != "artefact"}, channels)
 
 
-def _added(found: Diagnosis | None, model: ModelRow, models: list[ModelRow]) -> set[str]:
+def _added(found: Diagnosis | None, model: ModelRow) -> set[str]:
     """Candidates that the model has already."""
     return {c.id for c in (found.candidates if found else []) if c.effect in model.effects and c.claimed}

@@ -11,14 +11,13 @@ from thermodata.chart.colour import EFFECTS, effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, Strip, Style
 from thermodata.plugin import Float1D
 from thermodata.schema.counted import counted
-from thermodata.schema.quantity import difference_unit
+from thermodata.schema.quantity import MEASURED, difference_unit
 from thermodata.view.events import About
 from thermodata.view.predictions import Prediction
 from thermodata.view.window import Channel, Window
 
 _HOUR = 3600.0
 _MOST_ROWS = 16
-_RESPONSES = ("displacement", "tilt", "angle")
 _BODIES = {"spindle": "spindle and headstock", "headstock": "spindle and headstock", "ram": "spindle and headstock"}
 
 
@@ -55,7 +54,7 @@ def test_chart(
 
 def drawn_as_curve(channel: Channel) -> bool:
     """Whether it has a panel with an axis; what the machine did is a strip."""
-    return channel.quantity in _RESPONSES or channel.quantity.startswith("temperature")
+    return channel.quantity in MEASURED or channel.quantity.startswith("temperature")
 
 
 def _of_model(predicted: Sequence[Prediction], order: Sequence[str], units: Mapping[str, str]) -> list[Panel]:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
-import numpy as np
-
-from thermodata.effect.lag import lag, step_of
-from thermodata.effect.law import Law
-from thermodata.plugin import Drivers, Float1D, Float2D, Need
+from thermodata.plugin import Drivers, Float1D, Need
 
 from .shared import (
     REFERENCE_FEED_M_MIN,
     REFERENCE_SPEED_RPM,
     REFERENCE_TURNING_RPM,
+    GrowsWithPosition,
     Lagged,
     exponent,
     gain,
@@ -103,7 +100,7 @@ class Guideway(Lagged):
     gains = (gain("um/K", 0.2, 20, "displacement at rest a kelvin of the guideway"),)
 
 
-class ScrewGrowth:
+class ScrewGrowth(GrowsWithPosition):
     """A screw without a linear scale grows with the position that it holds; its fixed end adds a constant share.
 
         d = alpha x F_tau{dT} + k0 F_tau{dT}
@@ -126,14 +123,6 @@ class ScrewGrowth:
     )
     params = (tau(20, 1, 240),)
     gains = (gain("um/m/K", 1, 14, "expansion", "alpha"), gain("um/K", 0, 14, "part of the fixed end", "fixed_end"))
-
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        warmth = lag(drivers.values["temperature"], p["tau"] * 60, step_of(drivers))
-        return np.column_stack([warmth * drivers.values["position"] / 1000.0, warmth])
-
-    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
-        """The same as a formula; see `thermodata.effect.law`."""
-        return ("lag(temperature, tau) * position / 1000", "lag(temperature, tau)")
 
 
 class TableBearing(Lagged):

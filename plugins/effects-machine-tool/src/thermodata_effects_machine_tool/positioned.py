@@ -5,18 +5,14 @@ Diagnosis does not ask for these by itself: over few positions they look like th
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
-import numpy as np
+from thermodata.plugin import Drivers, Float1D, Need
 
-from thermodata.effect.lag import lag, step_of
-from thermodata.effect.law import Law
-from thermodata.plugin import Drivers, Float1D, Float2D, Need
-
-from .shared import Lagged, gain, tau
+from .shared import GrowsWithPosition, Lagged, gain, tau
 
 
-class ScaleGrowth:
+class ScaleGrowth(GrowsWithPosition):
     """The linear scale of an axis grows, and the axis goes where the scale says.
 
         d = alpha x F_tau{dT} + k0 F_tau{dT}
@@ -36,14 +32,6 @@ class ScaleGrowth:
     needs = (Need("temperature", "temperature", ("axis.{a}.scale",)), Need("position", "position", ("axis.{a}",)))
     params = (tau(60, 1, 720),)
     gains = (gain("um/m/K", 0, 11, "expansion", "alpha"), gain("um/K", 0, 11, "part of the fixed point", "fixed_end"))
-
-    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        warmth = lag(drivers.values["temperature"], p["tau"] * 60, step_of(drivers))
-        return np.column_stack([warmth * drivers.values["position"] / 1000.0, warmth])
-
-    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
-        """The same as a formula; see `thermodata.effect.law`."""
-        return ("lag(temperature, tau) * position / 1000", "lag(temperature, tau)")
 
 
 class Overhang(Lagged):

@@ -75,3 +75,21 @@ class Lagged:
         known = {*roles, *(q.name for q in self.params)}
         drives = [*self.driven, *(n.role for n in self.needs)]
         return (f"lag({next(d for d in drives if symbols(tree(d)) <= known)}, tau)",)
+
+
+class GrowsWithPosition:
+    """What grows with the position that it holds [mm], from a point that is fixed.
+
+        d = alpha x F_tau{dT} + k0 F_tau{dT}
+
+    An effect states name, family, meaning, source, needs (`temperature`, `position`), params (`tau`) and both gains.
+    """
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        """Shape (n, 2): the lagged temperature times the position [m], and alone, for gains of 1."""
+        warmth = lag(drivers.values["temperature"], p["tau"] * 60, step_of(drivers))
+        return np.column_stack([warmth * drivers.values["position"] / 1000.0, warmth])
+
+    def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
+        """The same as a formula; see `thermodata.effect.law`."""
+        return ("lag(temperature, tau) * position / 1000", "lag(temperature, tau)")

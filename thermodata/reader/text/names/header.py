@@ -118,6 +118,7 @@ def _told(cell: str) -> tuple[str, str]:
 
 
 def unique(names: Sequence[str]) -> list[str]:
+    """The names, those that repeat numbered (#2, #3, ...), and a column without one called by its place."""
     out: list[str] = []
     taken: set[str] = set()
     for i, name in enumerate(names):

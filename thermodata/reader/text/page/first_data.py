@@ -29,6 +29,7 @@ def width_of(body: Sequence[Sequence[Cell]]) -> int:
 
 
 def first_data(body: Sequence[Sequence[Cell]], width: int, where: str) -> int:
+    """The index of the first row of data. width: cells of such a row. FormatError where there is none."""
     stamped, dates = _stamped(body, width), _dates(body, width)
     # a word in the first cell is a label where rows hold none there
     firsts = [r[0] for r in second_half(body) if len(r) >= width - 1]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -30,11 +30,10 @@ from thermodata.reader.text.preamble.begin import (
     first_times,
     unused_start,
 )
-from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 from thermodata.reader.text.rows.grid import TIME
 from thermodata.reader.text.rows.quality_columns import qualities, said_of_codes, shared, worded
 from thermodata.reader.text.tables.columns import ask_for_thousands, dtype_of_counts, find_decimal, kind_of
-from thermodata.reader.text.tables.head_lines import records, top_of
+from thermodata.reader.text.tables.head_lines import HeadLines, part
 from thermodata.reader.text.tables.long_rows import refuse_long
 from thermodata.reader.text.tables.row_series import with_series
 from thermodata.reader.text.tables.sampled_cells import sampled_cells, still_going
@@ -103,94 +102,45 @@ def find_table(
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
     refuse_foreign(head, where)
     said = source.table or {}
-    delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
-    top = top_of(head)
-    delimiter = delimiter or delimiters.find_delimiter(top)
-    if delimiter is None:
-        raise FormatError(
-            "no columns found",
-            where=where,
-            expected="lines with as many cells between ';', tabs, commas, '|' or blanks",
-            got=repr(head[0][:60]),
-            hint=by_width(where) if fixed_width(head) else "declare table: {delimiter: ...}",
-        )
-    blanks = delimiter == delimiters.BLANKS
-    if blanks:
-        delimiter, head = "\t", [delimiters.parted(line) for line in head]
-        first = replace(
-            first,
-            head=tuple(map(delimiters.parted, first.head)),
-            rest=tuple(map(delimiters.parted, first.rest)),
-        )
-        top = top_of(head)
-    quoted = any('"' in line for line in (*head, *first.rest))
-
-    def cells(line: str) -> list[str]:
-        found = delimiters.fields(line, delimiter, quoted)
-        if line.isascii():  # as `clean` begins, which nearly all cells are left alone by
-            return [c if c and c[0] > '"' < c[-1] else clean(c) for c in found]
-        return [clean(c) for c in found]
-
-    rows = [cells(line) for line in (records(top) if quoted else top)]
-    if head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
-        rows[0] = [""]
-    looked = first
+    whole = part(head, first, said, where)
+    lines, rows = whole, whole.rows()
     if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
-        head, top, rows, looked = head[:end], top[:end], rows[:end], replace(first, rest=())
-    layout = find(rows, said, where, delimiters.shown(delimiter, blanks) if strict else None)
-    width = len(layout.names)
-    # lines of a header were joined, rows are not
-    top_rows = map(cells, top[layout.first :]) if quoted else rows[layout.first :]
-    later = map(cells, (*head[max(len(top), layout.first) : layout.first + _TYPED_ROWS], *looked.rest))
-    body = [r for r in (*top_rows, *later) if len(r) == width]
+        lines, rows = whole.up_to(end), rows[:end]
+    layout = find(rows, said, where, delimiters.shown(whole.delimiter, whole.blanks) if strict else None)
+    body = _body(lines, rows, layout)
     if said.get("series") is None:  # else it is declared how its rows lie
         refuse_long(layout.names, body, where)
-    groups = tuple(_timed(g, layout, body, head, cells, looked, stream, where) for g in layout.groups)
-    groups, zone, open_zone = zones_said(groups, layout.names, map(cells, head[: layout.first]), source.timezone)
+    groups = tuple(_timed(g, layout, body, lines, stream, where) for g in layout.groups)
+    preamble = lines.head[: layout.first]
+    groups, zone, open_zone = zones_said(groups, layout.names, map(lines.cells, preamble), source.timezone)
     cells_of = sampled_cells(layout, groups, body)
     own_cells = {layout.names[i]: cells_of[layout.names[i]] for g in groups for i in g.group.columns}
-    measured = {name for name, unit in zip(layout.names, layout.units, strict=True) if unit}
+    units = dict(zip(layout.names, layout.units, strict=True))
+    measured = {name for name, unit in units.items() if unit}
     quality, of_rows, codes = qualities(own_cells, lambda zero, name: declared_zero(said, zero, name, where), measured)
     forced = {*(source.options.get("text") or ()), *worded(cells_of, quality), *worded(cells_of, of_rows)}
-    times = {
-        i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
-        for g in groups
-        for i in g.group.time
-    }
-    kinds = [
-        times[i] if i in times else "str" if name in forced else kind_of(cells_of[name], name, layout.units[i])
-        for i, name in enumerate(layout.names)
-    ]
-    if not any(kind is not None for i, kind in enumerate(kinds) if i not in times):
-        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
-    words = [n for i, n in enumerate(layout.names) if kinds[i] == "str" and i not in times and n not in forced]
-    if all(kind in (None, "str") for i, kind in enumerate(kinds) if i not in times):
-        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
-    units_noted = [unit_note(cells_of[name], name) for name in words]
-    named = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
-    if (declared := said.get("decimal")) == UNKNOWN:
-        raise unanswered("decimal", "'.' or ','", where)
-    told = told_thousands(list(named.values())) if declared is None else None
-    decimal = declared or (told.decimal if told else find_decimal(list(named.values()), delimiter, where))
-    if declared is None and told is None:
-        ask_for_thousands(named, decimal, where)
-    bare = {n: kinds[i] for i, n in enumerate(layout.names) if i not in times and layout.units[i] is None}
+    kinds = _kinds(layout, groups, cells_of, forced)
+    times = {layout.names[i] for i in layout.time}
+    values = {n: kind for n, kind in zip(layout.names, kinds, strict=True) if n not in times}
+    words = [n for n, kind in values.items() if kind == "str" and n not in forced]
+    _refuse_without_values(values, layout, words, cells_of, where)
+    numbers = {n: cells_of[n] for n, kind in zip(layout.names, kinds, strict=True) if kind == "float64"}
+    decimal = _decimal(said.get("decimal"), numbers, whole.delimiter, where)
+    bare = {n: kind for n, kind in values.items() if units[n] is None}
     told_unit = unit_column(bare, cells_of) if len(groups) == 1 else None
     if told_unit and told_unit.others:  # what is converted is whole no more
         kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
-    header = header_lines(head, layout.first, cells)
-    above = ([line.replace("\t", " ")] if blanks else cells(line) for line in head[: layout.first])
+    above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
     begin, doubt = _begin(groups, above, body, declared_start(said), where)
-    midnights = [STANDS for g in groups if stands(body, g.group.time, g.formats)]
-    found = [
-        first.note,
+    notes = [
+        whole.sample.note,
         *layout.notes,
         *_notes(layout, kinds, groups),
-        *midnights,
+        *(STANDS for g in groups if stands(body, g.group.time, g.formats)),
         *(unpadded_note(r[i] for r in body) for g in groups if g.formats for i in g.group.time),
-        told.note if told else None,
-        *units_noted,
+        decimal.note,
+        *(unit_note(cells_of[name], name) for name in words),
         *shared({**quality, **of_rows}),
         *said_of_codes(own_cells, codes, quality, of_rows),
         standing_note,
@@ -200,18 +150,18 @@ def find_table(
     ]
     return Table(
         name=where,
-        sample=first,
-        delimiter=delimiter,
-        quoted=quoted,
+        sample=whole.sample,
+        delimiter=whole.delimiter,
+        quoted=whole.quoted,
         layout=layout,
         groups=groups,
         kinds=tuple(kinds),
-        decimal=decimal,
-        decimal_declared=declared is not None or told is not None,
-        header=header,
+        decimal=decimal.mark,
+        decimal_declared=decimal.is_told,
+        header=header_lines(lines.head, layout.first, lines.cells),
         quality=quality,
-        notes=tuple(dict.fromkeys(note for note in found if note)),
-        blanks=blanks,
+        notes=tuple(dict.fromkeys(note for note in notes if note)),
+        blanks=whole.blanks,
         begin=begin,
         zone=zone,
         unit=told_unit,
@@ -221,22 +171,76 @@ def find_table(
     )
 
 
-def _timed(
-    group: Group,
+def _body(lines: HeadLines, rows: Sequence[list[str]], layout: Layout) -> list[list[str]]:
+    """The sampled rows of the table, those with a cell for each column. rows: of the top."""
+    first, top = layout.first, len(lines.top)
+    # lines of a header were joined, rows are not
+    top_rows = map(lines.cells, lines.top[first:]) if lines.quoted else rows[first:]
+    later = map(lines.cells, (*lines.head[max(top, first) : first + _TYPED_ROWS], *lines.sample.rest))
+    return [r for r in (*top_rows, *later) if len(r) == len(layout.names)]
+
+
+def _kinds(
+    layout: Layout, groups: Sequence[TimedGroup], cells_of: Mapping[str, list[str]], texts: Collection[str]
+) -> list[str | None]:
+    """The dtype of each column, None for one without values. texts: columns that are text whatever their cells."""
+    times = {
+        i: TIME if g.formats else "float64" if g.group.epoch is None else dtype_of_counts(cells_of[layout.names[i]])
+        for g in groups
+        for i in g.group.time
+    }
+    return [
+        times[i] if i in times else "str" if name in texts else kind_of(cells_of[name], name, layout.units[i])
+        for i, name in enumerate(layout.names)
+    ]
+
+
+def _refuse_without_values(
+    kinds: Mapping[str, str | None],
     layout: Layout,
-    body: Sequence[list[str]],
-    head: Sequence[str],
-    cells: Callable[[str], list[str]],
-    first: Sample,
-    stream: str,
+    words: Sequence[str],
+    cells_of: Mapping[str, list[str]],
     where: str,
+) -> None:
+    """kinds: of the columns beside the time; words: those of them that are text by their cells alone."""
+    if not any(kind is not None for kind in kinds.values()):
+        raise FormatError("no column beside the time", where=where, expected="values", got=", ".join(layout.names))
+    if all(kind in (None, "str") for kind in kinds.values()):
+        refuse_units_in_cells([c for name in words for c in cells_of[name]], where)
+
+
+@dataclass(frozen=True, slots=True)
+class _Decimal:
+    """is_told: declared, or told by thousands, as the note says."""
+
+    mark: str | None
+    is_told: bool
+    note: str | None = None
+
+
+def _decimal(declared: str | None, numbers: Mapping[str, list[str]], delimiter: str, where: str) -> _Decimal:
+    """numbers: the cells of the columns of numbers."""
+    if declared == UNKNOWN:
+        raise unanswered("decimal", "'.' or ','", where)
+    if declared is not None:
+        return _Decimal(declared, is_told=True)
+    columns = list(numbers.values())
+    if (told := told_thousands(columns)) is not None:
+        return _Decimal(told.decimal, is_told=True, note=told.note)
+    mark = find_decimal(columns, delimiter, where)
+    ask_for_thousands(numbers, mark, where)
+    return _Decimal(mark, is_told=False)
+
+
+def _timed(
+    group: Group, layout: Layout, body: Sequence[list[str]], lines: HeadLines, stream: str, where: str
 ) -> TimedGroup:
     name = stream if group.stream == STREAM else group.stream
     if not group.dated:
         return TimedGroup(name, group, (), stated_zone(layout.names[i] for i in group.time))
 
     def more(k: int) -> list[str]:
-        rows = still_going(map(cells, (*head[layout.first :], *first.rest)), group, layout)
+        rows = still_going(lines.below(layout.first), group, layout)
         return [r[group.time[k]] for r in rows if len(r) > group.time[k]]
 
     columns = [[r[i] for r in still_going(body[:_TYPED_ROWS], group, layout)] for i in group.time]

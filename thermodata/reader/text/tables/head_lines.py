@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from thermodata.errors import FormatError
+from thermodata.reader.text.cells import delimiter as delimiters
+from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.text.file.lines import Sample
+from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
 
 _HEAD_LINES = 500  # in which the layout shows
 _HEADER_LINES, _CELL_LINES = 60, 16  # in which cells over several lines are headers, and of how many lines
@@ -27,3 +35,67 @@ def top_of(head: Sequence[str]) -> Sequence[str]:
     """The lines up to the 500th that is not empty."""
     full = [k for k, line in enumerate(head) if line and not line.isspace()][:_HEAD_LINES]
     return head[: full[-1] + 1] if full else head
+
+
+@dataclass(frozen=True, slots=True)
+class HeadLines:
+    """The first lines, and what parts their cells. top: those in which the layout shows; sample: all that was
+    sampled of the file. blanks: whether runs of blanks part cells: there are tabs in their place. quoted: whether cells
+    may stand in quotes."""
+
+    head: Sequence[str]
+    top: Sequence[str]
+    sample: Sample
+    delimiter: str
+    blanks: bool
+    quoted: bool
+
+    def cells(self, line: str) -> list[str]:
+        """The cells of a line, without blanks and quotes around them."""
+        found = delimiters.fields(line, self.delimiter, self.quoted)
+        if line.isascii():  # as `clean` begins, which nearly all cells are left alone by
+            return [c if c and c[0] > '"' < c[-1] else clean(c) for c in found]
+        return [clean(c) for c in found]
+
+    def rows(self) -> list[list[str]]:
+        """The cells of the top, a header of several lines in the last of them. A line that names the delimiter of a
+        worksheet is empty."""
+        rows = [self.cells(line) for line in (records(self.top) if self.quoted else self.top)]
+        if self.head[0].lower().startswith("sep=") and len(rows[0]) <= 2:
+            rows[0] = [""]
+        return rows
+
+    def below(self, first: int) -> Iterator[list[str]]:
+        """The cells of all sampled lines from one on."""
+        return map(self.cells, (*self.head[first:], *self.sample.rest))
+
+    def up_to(self, end: int) -> HeadLines:
+        """The lines before one, and nothing of what was sampled behind it."""
+        return replace(self, head=self.head[:end], top=self.top[:end], sample=replace(self.sample, rest=()))
+
+
+def part(head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str) -> HeadLines:
+    """first: all that was sampled of the file; said: what is declared of the table. FormatError where nothing parts
+    cells."""
+    top = top_of(head)
+    delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
+    delimiter = delimiter or delimiters.find_delimiter(top)
+    if delimiter is None:
+        raise FormatError(
+            "no columns found",
+            where=where,
+            expected="lines with as many cells between ';', tabs, commas, '|' or blanks",
+            got=repr(head[0][:60]),
+            hint=by_width(where) if fixed_width(head) else "declare table: {delimiter: ...}",
+        )
+    blanks = delimiter == delimiters.BLANKS
+    if blanks:
+        delimiter, head = "\t", [delimiters.parted(line) for line in head]
+        first = replace(
+            first,
+            head=tuple(map(delimiters.parted, first.head)),
+            rest=tuple(map(delimiters.parted, first.rest)),
+        )
+        top = top_of(head)
+    quoted = any('"' in line for line in (*head, *first.rest))
+    return HeadLines(head, top, first, delimiter, blanks, quoted)

@@ -50,16 +50,7 @@ class Header:
 
 def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
     """Curves and start; FormatError for a header that cannot be used."""
-    blocks: list[tuple[str, dict[str, str]]] = []
-    first = None
-    for number, line in enumerate(lines):
-        if match := _BLOCK.match(line):
-            if match[1].upper() == "DATA":
-                first = number + 1
-                break
-            blocks.append((match[1].upper(), {}))
-        elif blocks and (match := _KEY.match(line)):
-            blocks[-1][1][match[1].strip().upper()] = match[2].strip().strip('"')
+    blocks, first = _blocks(lines)
     found = [keys for name, keys in blocks if name == "CURVE"]
     if first is None or not found:
         raise FormatError(
@@ -70,11 +61,8 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
         )
     data = [line.rstrip() for line in lines[first : first + 500] if line.strip() and not line.startswith("%")]
     width = Counter(line.count(";") + 1 for line in data).most_common(1)[0][0] if data else len(found)
-    cells = (
-        width - 1
-        if data and sum(line.endswith(";") for line in data) > 0.9 * len(data) and width > len(found)
-        else width
-    )
+    ends_blank = data and sum(line.endswith(";") for line in data) > 0.9 * len(data) and width > len(found)
+    cells = width - 1 if ends_blank else width
     index = cells - len(found)
     if index not in (0, 1):
         raise FormatError(
@@ -83,44 +71,59 @@ def read_header(lines: Sequence[str], where: str, source: Source) -> Header:
             expected=f"{len(found)} columns, or one more for an index",
             got=str(cells),
         )
-    curves, taken = [], dict[str, int]()
-    for k, keys in enumerate(found):
-        cycle = _number(keys.get("CYCLETIME"), where)
-        if not cycle or not 1e-3 <= cycle <= 1e12:
-            raise FormatError(
-                "a curve without a cycle time",
-                where=f"{where} curve {k + 1}",
-                expected="%CYCLETIME= in us",
-                got=keys.get("CYCLETIME", "nothing"),
-            )
-        kind = " ".join(filter(None, (keys.get("CHANNELTYPE"), keys.get("AXISTYPE"))))
-        name = keys.get("NAME") or kind or f"curve {k + 1}"
-        taken[name] = taken.get(name, 0) + 1
-        name += f"#{taken[name]}" if taken[name] > 1 else ""
-        count = _number(keys.get("COUNT"), where)
-        if count is not None and not 0 <= count < 1e15:
-            raise FormatError(
-                "a curve with an impossible count",
-                where=f"{where} curve {k + 1}",
-                expected="%COUNT= of values",
-                got=keys["COUNT"][:40],
-            )
-        curves.append(
-            Curve(
-                k + index,
-                name,
-                f"scope_{cycle:g}us",
-                keys.get("DIMENSION") or None,
-                None if count is None else int(count),
-                round(cycle * 1000),
-                _scaling(keys, where),
-                keys,
-            )
-        )
+    taken: dict[str, int] = {}
+    curves = tuple(_curve(keys, k, index, taken, where) for k, keys in enumerate(found))
     shared = next((keys for name, keys in blocks if name == "GLOBAL"), {})
     decimal = "," if any("," in line for line in data) else "."
     step = _step([line.split(";")[0] for line in data], decimal) if index else None
-    return Header(tuple(curves), _start(shared, source), first, width, decimal, step)
+    return Header(curves, _start(shared, source), first, width, decimal, step)
+
+
+def _blocks(lines: Sequence[str]) -> tuple[list[tuple[str, dict[str, str]]], int | None]:
+    """(each block of the header: its name and keys; the line behind the head of the data, None where there is none)."""
+    blocks: list[tuple[str, dict[str, str]]] = []
+    for number, line in enumerate(lines):
+        if match := _BLOCK.match(line):
+            if match[1].upper() == "DATA":
+                return blocks, number + 1
+            blocks.append((match[1].upper(), {}))
+        elif blocks and (match := _KEY.match(line)):
+            blocks[-1][1][match[1].strip().upper()] = match[2].strip().strip('"')
+    return blocks, None
+
+
+def _curve(keys: dict[str, str], k: int, index: int, taken: dict[str, int], where: str) -> Curve:
+    """The k-th curve. index: columns before the first one; taken: how many curves have each name so far."""
+    cycle = _number(keys.get("CYCLETIME"), where)
+    if not cycle or not 1e-3 <= cycle <= 1e12:
+        raise FormatError(
+            "a curve without a cycle time",
+            where=f"{where} curve {k + 1}",
+            expected="%CYCLETIME= in us",
+            got=keys.get("CYCLETIME", "nothing"),
+        )
+    kind = " ".join(filter(None, (keys.get("CHANNELTYPE"), keys.get("AXISTYPE"))))
+    name = keys.get("NAME") or kind or f"curve {k + 1}"
+    taken[name] = taken.get(name, 0) + 1
+    name += f"#{taken[name]}" if taken[name] > 1 else ""
+    count = _number(keys.get("COUNT"), where)
+    if count is not None and not 0 <= count < 1e15:
+        raise FormatError(
+            "a curve with an impossible count",
+            where=f"{where} curve {k + 1}",
+            expected="%COUNT= of values",
+            got=keys["COUNT"][:40],
+        )
+    return Curve(
+        k + index,
+        name,
+        f"scope_{cycle:g}us",
+        keys.get("DIMENSION") or None,
+        None if count is None else int(count),
+        round(cycle * 1000),
+        _scaling(keys, where),
+        keys,
+    )
 
 
 def _step(cells: Sequence[str], decimal: str) -> float | None:

@@ -103,68 +103,72 @@ def find_layout(
 ) -> Layout | None:
     """The layout by a header row among the first ten lines, or None. declared: the format of the times; later: further
     lines, by which columns that differ are known. FormatError: no order of day and month."""
-    for row, line in enumerate(lines[:10]):
+    for row in range(len(lines[:10])):
         for delimiter in (",", ";", "\t"):
-            raw = [clean(c) for c in fields(line, delimiter)]
-            names = [bare(c) for c in raw]
-            times = tuple(names.index(n) for n in _TIMES if n in names)
-            value = next((names.index(n) for n in _values(names) if n in names), None)
-            status = _status(names)
-            influx = {"_time", "_value"} <= set(raw)
-            pairs = value_pairs(names, [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS]])
-            if pairs:
-                value = pairs[0][1]
-            if value is None or not times:
-                continue
-            if influx:
-                times, status = (raw.index("_time"),), None
-            tag = pairs[0][0] if pairs else next((names.index(n) for n in NAME_WORDS if n in names), None)
-            if not influx and tag is None and ("sourcetimestamp" not in names or status is None):
-                continue
-            body = [fields(text, delimiter) for text in lines[row + 1 : row + _ROWS] if not text.startswith("#")]
-            body = [cells for cells in body if len(cells) == len(names)]
-            form = _form([text for cells in body if (text := _time(cells, times))], where, declared)
-            if form is None:
-                continue
-            zero: bool | None = True
-            if status is not None:
-                sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
-                zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
-            taken = {*times, value, status, tag, *(k for pair in pairs for k in pair)}
-            units = [k for k, c in enumerate(raw) if k not in taken and holds_units(c, (clean(r[k]) for r in body))]
-            series = Series((), {})
-            if influx:
-                series = series_of_influx(raw, [fields(x, delimiter) for x in (*lines[row + 1 :], *later)])
-            elif tag is not None:
-                split = (fields(x, delimiter) for x in (*lines[row + 1 :], *later))
-                rows = [cells for cells in split if len(cells) == len(names)]
-                used = {
-                    *times,
-                    value,
-                    *(k for pair in pairs[1:] for k in pair),
-                    *(k for k, n in enumerate(names) if k in units or n == _TYPE or tells_quality(n) is not None),
-                }
-                t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
-                series = series_of(names, rows, t_ns, tag, used)
-            found = Layout(
-                delimiter,
-                row,
-                clean_line(line),
-                len(names),
-                times,
-                series.tags,
-                series.known,
-                value,
-                status,
-                form,
-                zero,
-                next(iter(units), None),
-                influx,
-                tuple(raw[k] for k in series.unread),
-            )
-            statuses = [k for k, n in enumerate(names) if tells_quality(n) is not None]
-            return replace(found, more=_more(found, pairs, units, statuses))
+            found = _headed_by(row, delimiter, lines, where, declared, later)
+            if found is not None:
+                return found
     return None
+
+
+def _headed_by(
+    row: int, delimiter: str, lines: Sequence[str], where: str, declared: str | None, later: Sequence[str]
+) -> Layout | None:
+    """The layout where this row is its header; None where it is none."""
+    raw = [clean(c) for c in fields(lines[row], delimiter)]
+    names = [bare(c) for c in raw]
+    influx = {"_time", "_value"} <= set(raw)
+    below = lines[row + 1 : row + _ROWS]
+    pairs = value_pairs(names, [fields(text, delimiter) for text in below])
+    times = tuple(names.index(n) for n in _TIMES if n in names)
+    value = pairs[0][1] if pairs else next((names.index(n) for n in _values(names) if n in names), None)
+    if value is None or not times:
+        return None
+    status = _status(names)
+    if influx:
+        times, status = (raw.index("_time"),), None
+    tag = pairs[0][0] if pairs else next((names.index(n) for n in NAME_WORDS if n in names), None)
+    if not influx and tag is None and ("sourcetimestamp" not in names or status is None):
+        return None
+    body = [fields(text, delimiter) for text in below if not text.startswith("#")]
+    body = [cells for cells in body if len(cells) == len(names)]
+    form = _form([text for cells in body if (text := _time(cells, times))], where, declared)
+    if form is None:
+        return None
+    zero: bool | None = True
+    if status is not None:
+        sampled = [c for c in (fields(text, delimiter) for text in later) if len(c) == len(names)]
+        zero = zero_is_good((cells[status] for cells in (*body, *sampled)), names[status])
+    taken = {*times, value, status, tag, *(k for pair in pairs for k in pair)}
+    units = [k for k, c in enumerate(raw) if k not in taken and holds_units(c, (clean(r[k]) for r in body))]
+    statuses = [k for k, n in enumerate(names) if tells_quality(n) is not None]
+    series = Series((), {})
+    split = (fields(x, delimiter) for x in (*lines[row + 1 :], *later))
+    if influx:
+        series = series_of_influx(raw, list(split))
+    elif tag is not None:
+        rows = [cells for cells in split if len(cells) == len(names)]
+        of_type = [k for k, n in enumerate(names) if n == _TYPE]
+        used = {*times, value, *(k for pair in pairs[1:] for k in pair), *units, *of_type, *statuses}
+        t_ns = timestamp.parse([_time(cells, times) for cells in rows], form)
+        series = series_of(names, rows, t_ns, tag, used)
+    found = Layout(
+        delimiter,
+        row,
+        clean_line(lines[row]),
+        len(names),
+        times,
+        series.tags,
+        series.known,
+        value,
+        status,
+        form,
+        zero,
+        next(iter(units), None),
+        influx,
+        tuple(raw[k] for k in series.unread),
+    )
+    return replace(found, more=_more(found, pairs, units, statuses))
 
 
 def _more(

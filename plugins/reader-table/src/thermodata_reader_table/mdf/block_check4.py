@@ -82,10 +82,10 @@ def check(path: Path) -> Checked:
                 "the file ends inside its header", where=path.name, expected="64 bytes", got=str(len(head))
             )
         finished = head[:8].strip() == b"MDF" and struct.unpack("<H", head[60:62])[0] == 0
-        return Checked(_walk(file, path.name, size, finished), finished)
+        return Checked(_walk(file, path.name, size), finished)
 
 
-def _walk(file: BinaryIO, where: str, size: int, finished: bool) -> str | None:
+def _walk(file: BinaryIO, where: str, size: int) -> str | None:
     cut: str | None = None
     groups: dict[int, tuple[int, int]] = {}  # first channel of a group -> bytes of its record
     seen: dict[int, bytes] = {}

@@ -1,0 +1,1 @@
+"""Expressions over channels: their tree, their parser, and their evaluation with units."""

@@ -1,0 +1,263 @@
+"""Expressions over channels, as `derive`, `measuring` and model drivers use them; parsed here, never eval().
+
+    either     := both ("or" both)*
+    both       := negation ("and" negation)*
+    negation   := "not" negation | comparison
+    comparison := sum (("<" | "<=" | ">" | ">=" | "==" | "!=") sum)*
+    sum        := product (("+" | "-") product)*
+    product    := factor (("*" | "/") factor)*
+    factor     := ("-" | "+") factor | number [unit] | name | "abs" "(" either ")" | "(" either ")"
+
+A unit stands right after its number and has no blank inside ("100 mm", "10 m/min", "6000 1/min"; "N m" is the
+one exception). What could be a unit is one: write "100 / mm_count", or "2 * s", where a channel is meant.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, cast
+
+import numpy as np
+
+from thermodata.calibration.expression import nodes
+from thermodata.calibration.expression.evaluation import Evaluation, Logic, Number, logic, number
+from thermodata.calibration.expression.nodes import Node
+from thermodata.errors import UsageError
+from thermodata.plugin import Array, Bool1D, Float1D
+from thermodata.schema.quantity import is_unit, linear_conversion, normal_unit
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<op><=|>=|==|!=|[<>=+\-*/()]))"
+)
+_UNIT = re.compile(r"[ \t]*(?P<unit>N[ ]m\b|1/[^\W\d]\w*|[°%]?(?:[^\W\d][\w°²³⁻¹^·]*(?:-\d)?)?(?:/[^\W\d][\w²³^]*)*)")
+_WORDS = frozenset({"and", "or", "not", "abs"})
+_COMPARATORS = frozenset({"<", "<=", ">", ">=", "==", "!="})
+_LONGEST, _DEEPEST = 2000, 60
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """A parsed expression. names: the channels that it reads. logical: whether it gives true or false."""
+
+    text: str
+    tree: Node
+    names: frozenset[str]
+
+    @property
+    def logical(self) -> bool:
+        return isinstance(self.tree, nodes.Comparison | nodes.Every | nodes.AnyOf | nodes.Not)
+
+    def evaluate(self, values: Mapping[str, Array], units: Mapping[str, str] | None = None) -> Array:
+        """Bool (a missing value is never true) or float64, in the unit that `unit` tells; in the shape of the values.
+
+        units: channel -> unit. Without them, expressions with units in literals are refused (UsageError).
+        """
+        result = Evaluation(values, units or {}, self.text).of(self.tree)
+        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
+        if isinstance(result, Logic):
+            return np.broadcast_to(np.asarray(result.yes, dtype=bool), shape).copy()
+        return np.broadcast_to(np.asarray(result.value, dtype=np.float64), shape).copy()
+
+    def evaluate_bool(self, values: Mapping[str, Array], units: Mapping[str, str] | None = None) -> Bool1D:
+        """As `evaluate`; a number counts as true where it is known and not 0."""
+        result = logic(Evaluation(values, units or {}, self.text).of(self.tree))
+        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
+        return np.broadcast_to(np.asarray(result.yes, dtype=bool), shape).copy()
+
+    def evaluate_in(self, values: Mapping[str, Array], units: Mapping[str, str], target_unit: str) -> Float1D:
+        """Float64 in `target_unit`: (dY_high - dY_low) / 100 mm, from um, in urad. UsageError where it can't be."""
+        result = number(Evaluation(values, units, self.text).of(self.tree))
+        shape = np.broadcast_shapes(*(np.shape(values[n]) for n in self.names))
+        factor, offset = 1.0, 0.0
+        if not result.bare and result.unit is not None:
+            factor, offset = self._conversion(result, target_unit)
+        value = np.asarray(result.value, dtype=np.float64) * factor + offset
+        return np.broadcast_to(value, shape).copy()
+
+    def unit(self, units: Mapping[str, str]) -> str | None:
+        """The unit that `evaluate` gives with these units of the channels; "" for none, None for unknown."""
+        result = number(Evaluation({n: np.zeros(1) for n in self.names}, units, self.text).of(self.tree))
+        return result.unit
+
+    def _conversion(self, result: Number, target: str) -> tuple[float, float]:
+        unit = result.unit or "1"
+        if (normal_unit(unit) == "degC") != (normal_unit(target) == "degC"):
+            raise UsageError(
+                f"the expression gives {unit}, the channel is in {target}",
+                where=f"expression '{self.text}'",
+                expected=target,
+                got=unit,
+                hint="a difference of two temperatures is of quantity temperature_difference (K)",
+            )
+        try:
+            return linear_conversion(unit, target)
+        except UsageError as error:
+            raise UsageError(
+                f"the expression gives {unit}, the channel is in {target}",
+                where=f"expression '{self.text}'",
+                expected=target,
+                got=unit,
+                hint="correct the expression or the channel's quantity",
+            ) from error
+
+
+@lru_cache(maxsize=1024)
+def parse(text: str) -> Expression:
+    """Parses `text`; UsageError with the place of what is wrong."""
+    if not isinstance(text, str) or not text.strip():
+        raise UsageError("an empty expression", expected="for example 'T_nut_Z - T_amb'", got=repr(text))
+    if len(text) > _LONGEST:
+        raise UsageError("an expression too long", expected=f"at most {_LONGEST} characters", got=str(len(text)))
+    parser = _Parser(text)
+    tree = parser.either()
+    parser.end()
+    return Expression(text, tree, frozenset(parser.names))
+
+
+class _Parser:
+    def __init__(self, text: str) -> None:
+        self.text, self.at, self.depth, self.size = text, 0, 0, 0
+        self.names: set[str] = set()
+        self.kind, self.token = "", ""
+        self._next()
+
+    def _fail(self, what: str, expected: str, at: int | None = None, hint: str | None = None) -> UsageError:
+        place = self.at - len(self.token) if at is None else at
+        return UsageError(
+            what,
+            where=f"expression '{self.text}', column {place + 1}",
+            expected=expected,
+            got=repr(self.token) if self.token else "the end",
+            hint=hint,
+        )
+
+    def _next(self) -> None:
+        match = _TOKEN.match(self.text, self.at)
+        if match is None:
+            rest = self.text[self.at :].strip()
+            self.kind, self.token, at = "end", rest[:1], self.at
+            self.at = len(self.text)
+            if rest:
+                hint = {"&": "write 'and'", "|": "write 'or'", "!": "write 'not'"}.get(rest[0])
+                raise self._fail(f"unexpected character '{rest[0]}'", "a channel, a number or an operator", at, hint)
+            return
+        self.at = match.end()
+        self.kind, self.token = str(match.lastgroup), str(match[str(match.lastgroup)])
+
+    def _take(self, *tokens: str) -> str | None:
+        if self.kind in ("op", "name") and self.token in tokens:
+            token = self.token
+            self._next()
+            return token
+        return None
+
+    def end(self) -> None:
+        if self.kind != "end":
+            hint = "write '==' to compare" if self.token == "=" else None
+            raise self._fail(f"unexpected '{self.token}'", "an operator or the end", hint=hint)
+
+    def either(self) -> Node:
+        parts = [self._both()]
+        while self._take("or"):
+            parts.append(self._both())
+        return parts[0] if len(parts) == 1 else nodes.AnyOf(tuple(parts))
+
+    def _both(self) -> Node:
+        parts = [self._negation()]
+        while self._take("and"):
+            parts.append(self._negation())
+        return parts[0] if len(parts) == 1 else nodes.Every(tuple(parts))
+
+    def _negation(self) -> Node:
+        if self._take("not"):
+            return nodes.Not(self._nested(self._negation))
+        return self._comparison()
+
+    def _comparison(self) -> Node:
+        operands, operators = [self._sum()], []
+        while operator := self._take(*_COMPARATORS):
+            operators.append(cast(nodes.Comparator, operator))
+            operands.append(self._sum())
+        return nodes.Comparison(tuple(operands), tuple(operators)) if operators else operands[0]
+
+    def _sum(self) -> Node:
+        return self._chain(self._product, "+", "-")
+
+    def _product(self) -> Node:
+        return self._chain(self._factor, "*", "/")
+
+    def _chain(self, part: Callable[[], Node], *operators: str) -> Node:
+        left = part()
+        while operator := self._take(*operators):
+            self.size += 1
+            if self.size > 5 * _DEEPEST:  # a left-leaning chain is as deep as it is long
+                raise self._fail("an expression with too many operations", f"at most {5 * _DEEPEST}")
+            left = nodes.Arithmetic(cast(nodes.Operator, operator), left, part())
+        return left
+
+    def _nested(self, part: Callable[[], Node]) -> Node:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise self._fail("an expression nested too deep", f"at most {_DEEPEST} levels")
+        node = part()
+        self.depth -= 1
+        return node
+
+    def _factor(self) -> Node:
+        if sign := self._take("-", "+"):
+            node = self._nested(self._factor)
+            return nodes.Negative(node) if sign == "-" else node
+        if self.kind == "number":
+            return self._number()
+        if self._take("("):
+            return self._closed(self._nested(self.either))
+        if self.kind == "name" and self.token not in _WORDS - {"abs"}:
+            return self._name()
+        raise self._fail(
+            f"unexpected '{self.token}'" if self.token else "the expression ends too early",
+            "a channel, a number or '('",
+        )
+
+    def _closed(self, node: Node) -> Node:
+        if not self._take(")"):
+            raise self._fail("a parenthesis is not closed", "')'")
+        return node
+
+    def _name(self) -> Node:
+        name, at = self.token, self.at - len(self.token)
+        self._next()
+        if self._take("("):
+            if name != "abs":
+                self.token = name
+                raise self._fail(f"no function '{name}'", "abs", at)
+            return nodes.Absolute(self._closed(self._nested(self.either)))
+        if name == "abs":
+            raise self._fail("'abs' without its argument", "abs(...)", at)
+        self.names.add(name)
+        return nodes.Name(name)
+
+    def _number(self) -> Node:
+        value = float(self.token)
+        match: Any = _UNIT.match(self.text, self.at)
+        words = match["unit"]
+        while words and not is_unit(words):  # "100 mm/x": mm is the unit, x a channel
+            words = words.rpartition("/")[0] if "/" in words else (words[:-2] if words[-2:-1] == "-" else "")
+        if words and words.split("/")[0] not in _WORDS:
+            self.at = match.start("unit") + len(words)
+            self._next()
+            return nodes.Constant(value, words)
+        self._next()
+        if self.kind == "name" and self.token not in _WORDS:
+            raise self._fail(
+                f"'{self.token}' after a number is not a unit",
+                "an operator or a unit",
+                hint=f"write '{value:g} * {self.token}'",
+            )
+        return nodes.Constant(value, "")
+
+
+__all__ = ["Expression", "parse"]

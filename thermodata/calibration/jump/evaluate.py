@@ -1,0 +1,252 @@
+"""The jump test: the axis moves a probe by known steps, and the voltage answers; a signed sensitivity comes out.
+
+The moves are commanded in machine coordinates, so the gain maps volts to displacement of the tool centre point
+along the machine's + axis, whichever way the probe looks. It is the weighted regression of the commanded
+position on the plateau's voltage (the position carries the larger error), with a linear drift in time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from thermodata.calibration.facing import facing_axis, geometric_sign
+from thermodata.calibration.jump import checks
+from thermodata.calibration.jump.fit import JumpFit, answer, fit_plateaus
+from thermodata.calibration.jump.plateaus import Match, Plateau, Step, find_steps, match_moves, plateaus
+from thermodata.calibration.quality.limit import impossible, sentinels
+from thermodata.calibration.quality.value import run_stats
+from thermodata.calibration.result import CalibrationResult
+from thermodata.errors import CalibrationError, RailError
+from thermodata.plugin import Array, Bool1D, Float1D, Int1D
+from thermodata.schema.campaign import JumpCalibration
+from thermodata.schema.counted import counted
+
+_LEAST_SAMPLES = 20
+_LEAST_ON_RAIL = 0.05  # of a jump test's samples
+
+
+_AS_LARGE = 0.7  # of the smallest commanded move: a step that may be one of them
+
+
+def evaluate_jump(
+    name: str,
+    spec: JumpCalibration,
+    t_ns: Int1D,
+    volts: Array,
+    others: Mapping[str, Array] | None = None,
+    *,
+    unit: str = "V",
+) -> CalibrationResult:
+    """Evaluates a jump test.
+
+    t_ns: shape (n,), of the recording; volts: shape (n,), the probe's scaled signal in `unit`; others: the other
+    probes' signals, shape (n,) each, for cross-talk. spec.moves: successive relative moves in machine coordinates
+    [um]. The recording may begin and end with anything else. Offset: displacement 0 at the first plateau.
+
+    Raises RailError: the probe stands at its end of range and the moves aren't found; CalibrationError: they aren't
+    found otherwise, can be read with either sign, or the sign contradicts `facing` with `increases_with`. Weaknesses
+    that don't forbid use are rows of `checks`.
+    """
+    where = f"calibrations.{name}"
+    axis = facing_axis(name, spec.facing, spec.axis)
+    moves = _checked_moves(name, spec)
+    probes = dict(others or {})
+    t_s, v, probes = _clean(name, np.asarray(t_ns), np.asarray(volts), probes)
+    steps, match = _matched(t_s, v, moves, spec.dwell)
+    if match is None:
+        raise _on_rail(name, spec, v, unit) or _not_found(name, spec, moves, steps, t_s, probes)
+    if match.rivals:
+        raise CalibrationError(
+            f"jump test '{name}': the moves can be read with either sign",
+            where=where,
+            expected=f"one place for the moves {moves} um among {len(steps)} steps",
+            got=f"{1 / match.volts_per_um:+.4g} and {1 / match.rivals[0]:+.4g} um/{unit}",
+            hint="cut the recording to the commanded moves, or move by unequal steps, e.g. [100 um, 50 um, -150 um]",
+        )
+    dwells = plateaus(t_s, v, match, steps, spec.dwell)
+    if any(p.n < 3 or not np.isfinite(p.mean) for p in dwells):
+        raise CalibrationError(
+            f"jump test '{name}': a plateau with under 3 samples",
+            where=where,
+            expected="at least 3 samples a plateau",
+            got=f"{min(p.n for p in dwells)}",
+            hint="dwell longer or sample faster",
+        )
+    levels = np.concatenate([[0.0], np.cumsum(moves)])
+    fit = fit_plateaus(dwells, levels, spec.move_uncertainty)
+    _agrees_with_facing(name, spec, fit.gain, unit)
+    crosstalk = {k: _crosstalk(t_s, x, match, steps, levels, spec, fit) for k, x in probes.items()}
+    return CalibrationResult(
+        name=name,
+        kind="jump",
+        axis=axis,
+        gain=fit.gain,
+        gain_unit=f"um/{unit}",
+        offset=fit.offset,
+        sign="+" if fit.gain > 0 else "-",
+        uncertainty_pct=fit.uncertainty_pct,
+        noise_um=fit.noise_um,
+        nonlinearity_pct=fit.nonlinearity_pct,
+        drift_um=fit.drift_um,
+        crosstalk=crosstalk,
+        checks=checks.rows(spec, moves, fit, crosstalk, dwells, unit),
+        detail={
+            "unit_in": unit,
+            "unit_out": "um",
+            "moves_um": moves,
+            "steps_found": len(steps),
+            "steps_beside": _beside(steps, match),
+            "drift_um_per_h": None if fit.drift_um_per_s is None else fit.drift_um_per_s * 3600.0,
+            "plateaus": [_row(p, level, rest) for p, level, rest in zip(dwells, levels, fit.residual_um, strict=True)],
+        },
+    )
+
+
+def _matched(t_s: Float1D, v: Float1D, moves: list[float], dwell_s: float) -> tuple[list[Step], Match | None]:
+    """(steps, those that are the moves); a staircase that goes much faster than declared is looked for too."""
+    steps, _ = find_steps(t_s, v, dwell_s)
+    match = match_moves(steps, moves, dwell_s)
+    if match is None and len(moves) > 1:
+        finer, _ = find_steps(t_s, v, dwell_s / 3)
+        match = match_moves(finer, moves, dwell_s / 3)
+        steps = steps if match is None else finer
+    return steps, match
+
+
+def _beside(steps: list[Step], match: Match) -> int:
+    """How many steps as large as a commanded move no move accounts for."""
+    least = _AS_LARGE * min(abs(s.size) for s in match.steps)
+    moved = {s.t_s for s in match.steps}
+    return sum(abs(s.size) >= least and s.t_s not in moved for s in steps)
+
+
+def _checked_moves(name: str, spec: JumpCalibration) -> list[float]:
+    moves = [float(m) for m in spec.moves] if isinstance(spec.moves, list) else []
+    wrong = not moves or any(m == 0 or not np.isfinite(m) for m in moves)
+    if wrong or not spec.dwell > 0 or spec.move_uncertainty < 0:
+        raise CalibrationError(
+            f"jump test '{name}': not a jump test",
+            where=f"calibrations.{name}",
+            expected="moves other than 0, a dwell above 0 s, a move_uncertainty of 0 um or more",
+            got=f"moves {moves}, dwell {spec.dwell} s, move_uncertainty {spec.move_uncertainty} um",
+        )
+    return moves
+
+
+def _clean(
+    name: str, t_ns: Int1D, volts: Array, probes: dict[str, Array]
+) -> tuple[Float1D, Float1D, dict[str, Float1D]]:
+    """Times [s] that strictly increase and volts that are readings; the other probes at the same samples."""
+    for label, x in [("the probe", volts), *probes.items()]:
+        if x.shape != t_ns.shape or t_ns.ndim != 1:
+            raise CalibrationError(
+                f"jump test '{name}': {label} has another length than the time",
+                expected=str(t_ns.shape),
+                got=str(x.shape),
+            )
+    v = volts.astype(np.float64, copy=False)
+    keep = _is_reading(v)
+    if keep.any():
+        newest = np.maximum.accumulate(np.where(keep, t_ns, t_ns.min()))
+        keep[1:] &= t_ns[1:] > newest[:-1]
+    if keep.sum() < _LEAST_SAMPLES:
+        raise CalibrationError(
+            f"jump test '{name}': hardly any data",
+            where=f"calibrations.{name}",
+            expected=f"at least {_LEAST_SAMPLES} samples",
+            got=str(int(keep.sum())),
+            hint="is this the right file and signal?",
+        )
+    t = t_ns[keep]
+    return ((t - t[0]) / 1e9, v[keep], {k: np.asarray(x, dtype=np.float64)[keep] for k, x in probes.items()})
+
+
+def _is_reading(x: Float1D) -> Bool1D:
+    """Where x, shape (n,), is no logger's mark for "over range" or "no value": a step to one hides all moves."""
+    return np.isfinite(x) & ~impossible(x, "displacement") & ~sentinels(x, run_stats(x))
+
+
+def _on_rail(name: str, spec: JumpCalibration, v: Float1D, unit: str) -> RailError | None:
+    """The error of a probe that stands at the end of its range: its largest or smallest reading, again and again, where
+    the others have noise on them."""
+    found: list[tuple[float, float]] = []
+    for end in sorted({float(v.min()), float(v.max())}):
+        there = v == end
+        share = float(there.mean())
+        elsewhere = v[~there]
+        repeats = float(np.mean(np.diff(elsewhere) == 0)) if elsewhere.size > 1 else 0.0
+        if share >= _LEAST_ON_RAIL and float(np.mean(there[1:] & there[:-1])) >= 0.5 * share and repeats < 0.3:
+            found.append((end, share))
+    if not found:
+        return None
+    said = " and ".join(f"{end:.4g} {unit} in {100 * share:.0f} % of the record" for end, share in found)
+    return RailError(
+        f"jump test '{name}': the probe '{spec.signal}' stands at its end of range, where it does not show the moves",
+        where=f"calibrations.{name}",
+        expected="a probe that stays within its range through all moves",
+        got=said,
+        hint="set the probe nearer to the middle of its range, or move by less, and repeat the jump test",
+    )
+
+
+def _not_found(
+    name: str, spec: JumpCalibration, moves: list[float], steps: list[Step], t_s: Float1D, probes: Mapping[str, Float1D]
+) -> CalibrationError:
+    answering = []
+    for other, x in probes.items():
+        fine = _is_reading(x)
+        if (
+            fine.sum() >= _LEAST_SAMPLES
+            and match_moves(find_steps(t_s[fine], x[fine], spec.dwell)[0], moves, spec.dwell) is not None
+        ):
+            answering.append(other)
+    seen = ", ".join(f"{s.size:+.3g} at {s.t_s:.1f} s" for s in steps[:12]) or "no step at all"
+    hint = f"check moves and dwell ({spec.dwell:g} s) against the recording"
+    if answering:
+        hint = f"{', '.join(repr(a) for a in answering)} shows these moves: are the cables swapped?"
+    return CalibrationError(
+        f"jump test '{name}': the commanded moves are not found in '{spec.signal}'",
+        where=f"calibrations.{name}",
+        expected=f"{counted(len(moves), 'step')} in proportion to {moves} um",
+        got=seen,
+        hint=hint,
+    )
+
+
+def _agrees_with_facing(name: str, spec: JumpCalibration, gain: float, unit: str) -> None:
+    if spec.facing is None or spec.increases_with is None:
+        return
+    sign = geometric_sign(spec.facing, spec.increases_with)
+    if sign * gain < 0:
+        raise CalibrationError(
+            f"jump test '{name}': the measured sign contradicts the way the probe looks",
+            where=f"calibrations.{name}",
+            expected=f"{sign * abs(gain):+.6g} um/{unit} (facing {spec.facing}, increases with {spec.increases_with})",
+            got=f"{gain:+.6g} um/{unit} measured",
+            hint="check facing and increases_with, the signs of the moves (machine coordinates), and the cables",
+        )
+
+
+def _crosstalk(
+    t_s: Float1D, x: Float1D, match: Match, steps: list[Step], levels: Float1D, spec: JumpCalibration, fit: JumpFit
+) -> float:
+    """The other probe's answer to the move, of this one's [%], signed; NaN where it has no data."""
+    fine = _is_reading(x)
+    if fine.sum() < _LEAST_SAMPLES:
+        return float("nan")
+    dwells = plateaus(t_s[fine], x[fine], match, steps, spec.dwell)
+    return 100.0 * answer(dwells, levels) * fit.gain
+
+
+def _row(p: Plateau, level: float, rest: float) -> dict[str, float | int]:
+    return {
+        "from_s": p.from_s,
+        "to_s": p.to_s,
+        "commanded_um": float(level),
+        "volts": p.mean,
+        "noise_volts": p.noise,
+        "residual_um": float(rest),
+        "n": p.n,
+    }

@@ -1,0 +1,79 @@
+"""What a fit depends on of a test: one digest of it all, and one of each kind of thing, which says what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from functools import lru_cache
+
+from thermodata.store.base.files import key_of
+from thermodata.store.catalogue.models import GONE
+from thermodata.store.ingest.known.inventory import Row, comparable
+
+Rows = Mapping[str, Mapping[str, Sequence[Row]]]
+State = Mapping[str, str]
+"""`VERSION` and each of what may differ, in words -> a digest of it."""
+
+VERSION = "version"
+_ELSE = "how it is read"
+
+# what a fit reads: words about a test or a channel don't make it stale
+_DESCRIBING = ("test", "machine", "channel")
+_WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
+# in words -> the table, its columns, and of files the layer; None: all that a fit reads
+_NAMED = {
+    "role": ("test", ("role",), None),
+    "calibration": ("channel", ("channel", "calibration"), None),
+    "data": ("file", ("key",), "raw"),
+    "units or signals": ("channel", ("channel", "signal", "quantity", "unit", "raw_unit"), None),
+}
+_DESCRIPTION = "description"  # said where none of these differs
+
+
+@lru_cache(maxsize=64)
+def _read_by_a_fit(columns: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(sorted(c for c in columns if c not in _WORDS))
+
+
+def _read_by_fits(rows: Rows, test: str) -> list[str]:
+    """What fits read of a test's rows, in no order of these."""
+    return sorted(
+        repr([(k, row[k]) for k in _read_by_a_fit(tuple(row))])
+        for table in _DESCRIBING
+        for row in rows[table].get(test, [])
+    )
+
+
+def version_of(rows: Rows, test: str) -> str:
+    """A digest of everything about a test that a fit depends on."""
+    parts = _read_by_fits(rows, test)
+    parts += sorted({r["key"] for r in rows["file"].get(test, []) if r["layer"] == "tidy"})
+    return key_of(*sorted(parts))
+
+
+def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[str, State | None]:
+    """Test -> its state; None where it is not there. calibrations: of the campaign."""
+    calibrated = key_of(*comparable(calibrations))
+
+    def of(test: str) -> State | None:
+        if not rows["test"].get(test):
+            return None
+        named = {
+            word: key_of(
+                *sorted(
+                    repr([r[c] for c in columns]) for r in rows[table].get(test, []) if layer in (None, r.get("layer"))
+                )
+            )
+            for word, (table, columns, layer) in _NAMED.items()
+        }
+        named["calibration"] += calibrated
+        return {VERSION: version_of(rows, test), **named, _DESCRIPTION: key_of(*_read_by_fits(rows, test))}
+
+    return {test: of(test) for test in tests}
+
+
+def what_differs(then: State, now: State | None) -> list[str]:
+    """In words: gone, role, calibration, data, units or signals, description, or else how it is read."""
+    if now is None:
+        return [GONE]
+    found = [word for word in _NAMED if then.get(word) != now.get(word)]
+    return found or [_DESCRIPTION if then.get(_DESCRIPTION) != now.get(_DESCRIPTION) else _ELSE]

@@ -1,0 +1,1 @@
+"""Which files a campaign names, and their way into the raw layer."""

@@ -1,0 +1,1 @@
+"""What an ingest says of a campaign: losses, and what is worth knowing."""
