@@ -792,7 +792,7 @@ MUTANTS = [
     diagnosis("heat_balance.py", "LEAST_SHARE = 0.3", "LEAST_SHARE = 0.2", "a weak temperature moves a clock"),
     diagnosis("heat_balance.py", "BEATS = 4.0", "BEATS = 1.0", "a slow body moves a clock"),
     diagnosis("heat_balance.py", "step_s > UNMOVED_S", "False", "one coarse sample moves a clock"),
-    diagnosis("commanded.py", "hole & told", "hole", "a warm room excuses every slip that nobody saw"),
+    diagnosis("commanded.py", "old & told", "old", "a warm room excuses every slip that nobody saw"),
     diagnosis("heat_balance.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),
     diagnosis("heat_balance.py", "TWO_HOURS_S, ABOUT_S = 7200.0", "TWO_HOURS_S, ABOUT_S = 0.0", "two hours pass"),
     diagnosis(

@@ -10,8 +10,9 @@ that goes from one place to another: its screw grows by where it stands times ho
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from thermodata.modelling.inputs.drivers import start_value
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
+
+_T = TypeVar("_T")
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
@@ -196,14 +199,12 @@ def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
 def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course | None]:
     """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
     temperature: it changes where that is sudden, and does nothing while nobody logs it."""
-    held = [_held(b, name) for b in blocks]
+    held = [_kept(_held, b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
-    span = {p: float(np.ptp(every**p)) for p in POWERS}
-    return [
-        _course(b, v, hole & told, span, told) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)
-    ]
+    span = tuple(float(np.ptp(every**p)) for p in POWERS)
+    return [_kept(_course, b, name, span, told) if len(own) else None for b, (own, _) in zip(blocks, held, strict=True)]
 
 
 def _warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
@@ -251,6 +252,15 @@ def _step_s(t_s: Float1D) -> float:
     return float(np.median(np.diff(t_s)))
 
 
+def _kept(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
+    """What is made of a test at the samples of a block, which is the same in each problem that has these."""
+    key = make.__name__, block.t_s.tobytes(), what
+    if key not in block.test.kept:
+        block.test.kept[key] = make(block, *what)
+    found: _T = block.test.kept[key]
+    return found
+
+
 def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
     test = block.test
@@ -262,14 +272,19 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
 
 
-def _course(block: Block, value: Float1D, old: Bool1D, span: Mapping[int, float], told: bool) -> _Course:
+def _course(block: Block, name: str, span: tuple[float, ...], told: bool) -> _Course:
+    """span: of all tests, by `POWERS`."""
+    value, old = _kept(_held, block, name)
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
     # a motor that cools once its axis rests is no other body; and a body expands by its temperature, not by the square
     moved = change if told else {1: suddenly(value, block.t_s, BESIDE + 2), 2: np.zeros(len(value))}
-    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * span[p]) for p in POWERS}
+    rows = {
+        p: np.flatnonzero(np.abs(np.nan_to_num(moved[p])) > MOVED * own) for p, own in zip(POWERS, span, strict=True)
+    }
     change[EITHER_WAY] = np.abs(change[1])
     rows[EITHER_WAY] = rows[1] if told else np.empty(0, np.int64)
     # a hole begins after the last logged sample and ends before the next one
+    old = old & told
     hole = old.copy()
     hole[1:] |= old[:-1]
     hole[:-1] |= old[1:]
