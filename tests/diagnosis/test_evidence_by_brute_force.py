@@ -424,11 +424,14 @@ def test_what_is_kept_of_a_noise_changes_nothing(room: int, monkeypatch: pytest.
         assert np.array_equal(getattr(first, name), getattr(again, name))
 
 
+@pytest.mark.parametrize("near", [1, 2 * ROWS * 240, 1 << 30])
 @pytest.mark.parametrize(("room", "at_once"), [(0, 1), (0, 1 << 30), (20_000, 30), (1 << 30, 1 << 30)])
 def test_several_candidates_at_once_are_weighed_as_each_by_itself(
-    room: int, at_once: int, monkeypatch: pytest.MonkeyPatch
+    room: int, at_once: int, near: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Whitened in all tests at once, in some, or in each by itself."""
     monkeypatch.setattr(discrepancy, "KEPT_BYTES", room)
+    monkeypatch.setattr(discrepancy, "NEAR", near)
     monkeypatch.setattr(weighing, "AT_ONCE", at_once)
     base, some = known(replace(small(), kept={}), NOISE), [made(small()) for _ in range(4)]
     some = [replace(one, whole=(i + 1.0) * one.whole) for i, one in enumerate(some)]

@@ -69,7 +69,8 @@ def _solver() -> Callable[..., Float1D]:
     """Imported where it is used: once."""
     from scipy.linalg.blas import dtbsv
 
-    return dtbsv
+    found: Callable[..., Float1D] = dtbsv
+    return found
 
 
 def lags(u: Float1D, taus_s: Sequence[float], step_s: float) -> Float1D:

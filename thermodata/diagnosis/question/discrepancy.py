@@ -14,7 +14,7 @@ of all tests once ([rue2005], ch. 2): between two tests nothing is left of the s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +35,7 @@ START_TAU_S = 7200.0
 
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
+NEAR = 1 << 17  # values that are whitened at once
 WIDE = 400  # columns from which on it costs less to take samples one by one
 SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
@@ -62,6 +63,10 @@ class Chain:
     def logdet(self) -> float:
         """Of the covariance: B has the determinant 1."""
         return 2 * float(np.log(self.factor[0]).sum())
+
+    def part(self, rows: slice) -> Chain:
+        """Of whole tests among all."""
+        return Chain(self.carried[rows.start : rows.stop - 1], self.factor[:, rows])
 
     def halved(self, columns: Float2D) -> Float2D:
         """L^-1 times columns, shape (rows, k)."""
@@ -138,11 +143,14 @@ class Whitened:
     def of_each(self, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
         """The same of each of several askers, whitened at once. An asker lives as long as this."""
         lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
-        made: dict[int, Float2D] = {}
-        if lacking:
-            ends = np.cumsum([columns.shape[1] for _, columns in lacking])[:-1]
-            together = self.of(np.hstack([columns for _, columns in lacking]))
-            made = {id(who): white for (who, _), white in zip(lacking, np.hsplit(together, ends), strict=True)}
+        made = {id(who): np.empty(columns.shape) for who, columns in lacking}
+        ends = np.cumsum([columns.shape[1] for _, columns in lacking])
+        for first, last in self._few(int(ends[-1]) if lacking else 0):
+            rows = slice(self.parts[first].start, self.parts[last].stop)
+            white = self._chain.part(rows).halved(np.hstack([columns[rows] for _, columns in lacking]))
+            together = self.projected(white, first)
+            for (who, _), own in zip(lacking, np.hsplit(together, ends[:-1]), strict=True):
+                made[id(who)][rows] = own
         for who, _ in lacking:
             white = made[id(who)]
             if white.nbytes <= self._room:
@@ -154,12 +162,26 @@ class Whitened:
         """The sum of values of all tests, shape (rows, ...), in each of them, shape (tests, ...)."""
         return np.asarray(np.add.reduceat(values, [rows.start for rows in self.parts], axis=0))
 
-    def projected(self, white: Float2D) -> Float2D:
-        """Columns in units of the noise, shape (rows, k), less what an offset explains, in their place."""
-        for rows, free in zip(self.parts, self._offsets, strict=True):
-            own = white[rows]
+    def projected(self, white: Float2D, first: int = 0) -> Float2D:
+        """Columns in units of the noise, shape (rows, k), of a test and as many that follow as there are rows, less
+        what an offset explains, in their place."""
+        begin = 0
+        for free in self._offsets[first:]:
+            own = white[begin : begin + len(free)]
+            if not len(own):
+                break
             own -= free @ (free.T @ own)
+            begin += len(free)
         return white
+
+    def _few(self, columns: int) -> Iterator[tuple[int, int]]:
+        """The first and the last of tests that follow each other, of which so many columns stay near the processor."""
+        first = 0
+        for last in range(len(self.parts) if columns else 0):
+            begin = self.parts[first].start
+            if last + 1 == len(self.parts) or (self.parts[last + 1].stop - begin) * columns > NEAR:
+                yield first, last
+                first = last + 1
 
 
 def whitened(problem: Problem, noise: Noise) -> Whitened:

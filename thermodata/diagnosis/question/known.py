@@ -66,7 +66,7 @@ class Known:
 
     def others(self, test: int) -> Int1D:
         """All tests but one."""
-        return self.every[self.every != test]
+        return np.flatnonzero(self.every != test)
 
     @property
     def white(self) -> Float2D:
