@@ -84,14 +84,16 @@ class Design:
         self._kept = self._columns_kept()
 
     def _columns_kept(self) -> dict[Hashable, tuple[Effect, Float2D]]:
-        """Kept with the tests: a further fit to the same samples looks at most of the same points. With their effects,
-        for an id is one's own as long as one lives."""
+        """Kept with the tests until others are fitted: a further fit to the same samples looks at many of the same
+        points. With their effects, for an id is one's own as long as one lives."""
         if not self.tests:
             return {}
         weights = (self.bound.name, *self.bound.weights.items()) if self.bound.weights else ()
-        key = "columns", tuple(map(id, self.tests)), b"".join(m.tobytes() for m in self.masks), weights
-        _, kept = self.tests[0].kept.setdefault(key, (self.tests, {}))
-        found: dict[Hashable, tuple[Effect, Float2D]] = kept
+        key = tuple(map(id, self.tests)), b"".join(m.tobytes() for m in self.masks), weights
+        kept = self.tests[0].kept
+        if key not in kept.get("columns", {}):
+            kept["columns"] = {key: (self.tests, {})}
+        found: dict[Hashable, tuple[Effect, Float2D]] = kept["columns"][key][1]
         return found
 
     def _slots(self) -> list[Slot]:
