@@ -64,8 +64,8 @@ def candidate(
 
 def columns_of(candidate: CandidateEffect, contribution: Sequence[Float1D]) -> Columns:
     """One gain, one point: what the candidate does, a test each."""
-    blocks = tuple(np.asarray(c, dtype=np.float64)[:, None, None] for c in contribution)
-    return Columns(candidate, [{}], blocks, np.ones((1, 1)), np.ones(1), np.zeros((1, 1)))
+    whole = np.concatenate([np.asarray(c, dtype=np.float64) for c in contribution])[:, None, None]
+    return Columns(candidate, [{}], whole, np.ones((1, 1)), np.ones(1), np.zeros((1, 1)))
 
 
 def scored(

@@ -29,7 +29,7 @@ from thermodata.diagnosis.weigh.evidence import (
     Columns,
     columns,
     each_left_out,
-    each_moments,
+    each_of_all,
     moments,
     of_each_series,
     others_of_each,
@@ -121,7 +121,7 @@ def by_hand(one: Problem, tests: Sequence[int], base: Known, cols: Columns) -> F
     alone = log_density(one, tests, base)
     found = np.zeros((len(cols.points), 5))
     for p in range(len(cols.points)):
-        c = np.vstack([cols.blocks[i][:, p] for i in tests])
+        c = np.vstack([cols.whole[one.parts[i], p] for i in tests])
         for s, size in enumerate([0.03, 0.1, 0.3, 1.0, 3.0]):
             deviation = size * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])  # faster and slower: half of it
             found[p, s] = log_density(one, tests, base, (c * deviation**2) @ c.T) - alone
@@ -158,7 +158,7 @@ def test_locked_tests_are_made_more_probable_by_the_difference_of_two_conditiona
 def test_a_candidate_is_weighed_by_the_difference_of_two_densities(tests: tuple[int, ...]) -> None:
     one = small()
     base, cols = known(one, NOISE), made(small())
-    found = weigh(base, cols, moments(base, cols), np.array(tests))
+    found = weigh(base, cols, moments(base, cols).of(np.array(tests)), np.array(tests))
     expected = by_hand(one, tests, base, cols)
     np.testing.assert_allclose(found.log_bf, expected, atol=1e-6)
     assert found.total == pytest.approx(logsumexp(expected), abs=1e-6)
@@ -169,14 +169,13 @@ def test_each_of_many_series_is_weighed_as_one_at_a_time() -> None:
     one = small()
     base, cols = known(one, NOISE), made(small())
     rng = np.random.default_rng(0)
-    series = [np.column_stack([y, base.space.of(i, rng.normal(size=(len(y), 3)))]) for i, y in enumerate(base.response)]
+    series = np.column_stack([base.response, base.space.of(rng.normal(size=(one.rows, 3)))])
     found = of_each_series(base, cols, series)
     for k in range(4):
-        alone = [s[:, k] for s in series]
-        cross = np.stack([x.T @ y for x, y in zip(base.white, alone, strict=True)])
-        both = tuple(np.column_stack(pair) for pair in zip(base.white, alone, strict=True))
-        other = replace(base, both=both, cross=cross)
-        assert found[k] == pytest.approx(weigh(other, cols, moments(other, cols), other.every).total, abs=1e-8)
+        cross = np.stack([base.white[rows].T @ series[rows, k] for rows in one.parts])
+        other = replace(base, both=np.column_stack([base.white, series[:, k]]), cross=cross)
+        (products,) = each_of_all(other, [cols])
+        assert found[k] == pytest.approx(weigh(other, cols, products, other.every).total, abs=1e-8)
     assert found[0] > found[1:].max() + 10.0
 
 
@@ -212,7 +211,7 @@ def test_leaving_a_test_out_by_moments_equals_refitting_without_it() -> None:
         others = [j for j in range(4) if j != i]
         log_bf = by_hand(one, others, base, cols)
         point, size = np.unravel_index(log_bf.argmax(), log_bf.shape)
-        c = [b[:, point] for b in cols.blocks]
+        c = [cols.whole[rows, point] for rows in one.parts]
         width = np.array([0.03, 0.1, 0.3, 1.0, 3.0])[size] * np.array([1.0, 1.0, 0.5, 0.5, 0.5, 0.5])
         x, y = stacked(one, [i])
         alone = posterior(one, others, base, np.zeros((len(others) * ROWS, 0)), np.zeros(0))
@@ -245,9 +244,8 @@ def test_the_shape_is_what_the_known_effects_cannot_do() -> None:
     one, found = small(), ranked()
     base = known(one, NOISE)
     assert np.linalg.norm(found.shape) == pytest.approx(1.0)
-    x = np.vstack(base.white)
-    own = np.concatenate([b[:, found.weighed.best[0]] @ found.weighed.coefficients for b in found.columns.blocks])
-    white = np.concatenate([base.space.of(i, p[:, None])[:, 0] for i, p in enumerate(np.split(own, 4))])
+    x, own = base.white, found.columns.does(found.weighed)
+    white = base.space.of(own[:, None])[:, 0]
     theta = np.linalg.solve(x.T @ x + np.diag(base.precision), x.T @ white)
     left = white - x @ theta
     np.testing.assert_allclose(found.shape, left / np.linalg.norm(left), atol=1e-9)
@@ -294,22 +292,22 @@ def test_the_spread_of_the_gain_is_weighed_by_its_marginal_likelihood(
     one, own = contributions(factors)
     acts = np.array([i not in rests for i in range(len(factors))])
     expected = min(spread_by_hand(one, own, EVERY), spread_by_hand(one, own, acts))
-    assert spread_of_gain(known(one, NOISE), own, acts) == pytest.approx(expected, abs=1e-4)
+    assert spread_of_gain(known(one, NOISE), np.concatenate(own), acts) == pytest.approx(expected, abs=1e-4)
 
 
 def test_a_cause_has_one_gain_and_a_proxy_several() -> None:
     alike, own = contributions((1.0, 1.0, 1.0, 1.0))
     apart, _ = contributions((0.1, 1.0, 2.5, 0.2))
-    assert spread_of_gain(known(alike, NOISE), own, EVERY) < 0.3
-    assert spread_of_gain(known(apart, NOISE), own, EVERY) > 0.6
+    assert spread_of_gain(known(alike, NOISE), np.concatenate(own), EVERY) < 0.3
+    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), EVERY) > 0.6
 
 
 def test_where_it_rests_its_gain_is_not_asked() -> None:
     """A bearing that follows the air for a night, and what the air leaves over."""
     apart, own = contributions((1.0, 1.0, 1.0, 9.0))
     acts = np.array([True, True, True, False])
-    assert spread_of_gain(known(apart, NOISE), own, EVERY) > 0.6
-    assert spread_of_gain(known(apart, NOISE), own, acts) < 0.3
+    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), EVERY) > 0.6
+    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), acts) < 0.3
 
 
 @pytest.mark.parametrize(("second", "expected"), [(0.9e-3, True), (1.1e-3, False)])
@@ -317,15 +315,15 @@ def test_what_acts_in_one_test_only_may_have_any_gain(second: float, expected: b
     """From a millionth of the largest energy on, a test counts."""
     one, own = contributions((1.0, 1.0, 1.0, 1.0))
     base = known(one, NOISE)
-    energy = [float(np.linalg.norm(base.space.of(i, c[:, None]))) for i, c in enumerate(own)]
+    energy = np.sqrt(base.space.each(base.space.of(np.concatenate(own)[:, None])[:, 0] ** 2))
     parts = [own[0] / energy[0], second * own[1] / energy[1], 0 * own[2], 0 * own[3]]
-    assert (spread_of_gain(base, parts, EVERY) == 1.0) is expected
+    assert (spread_of_gain(base, np.concatenate(parts), EVERY) == 1.0) is expected
 
 
 # ---- chance
 
 
-def drawn(one: Problem, base: Known, noise: Noise, count: int, seed: int) -> list[Float2D]:
+def drawn(one: Problem, base: Known, noise: Noise, count: int, seed: int) -> Float2D:
     """Responses of the model itself, sample by sample: its gains as fitted, other time constants and noise drawn."""
     rng = np.random.default_rng(seed)
     mean = base.mean(base.every)
@@ -335,8 +333,8 @@ def drawn(one: Problem, base: Known, noise: Noise, count: int, seed: int) -> lis
     for i in range(len(one.blocks)):
         x, _ = stacked(one, [i])
         y = x @ theta + rng.multivariate_normal(np.zeros(len(x)), noise_of(one, [i], noise), count).T
-        series.append(base.space.of(i, y + rng.normal(0, 30.0, count)))
-    return series
+        series.append(y + rng.normal(0, 30.0, count))
+    return base.space.of(np.vstack(series))
 
 
 def test_p_values_are_uniform_on_responses_in_which_nothing_is_missing() -> None:
@@ -350,15 +348,15 @@ def test_p_values_are_uniform_on_responses_in_which_nothing_is_missing() -> None
     best = np.max([of_each_series(base, c, series) - c.candidate.log_prior for c in pool], axis=0)
     p = [p_value(float(b), chance) for b in best]
     assert kstest(p, "uniform").statistic < 0.13
-    louder = [2.0 * s for s in series]
-    wrong = np.max([of_each_series(base, c, louder) - c.candidate.log_prior for c in pool], axis=0)
+    wrong = np.max([of_each_series(base, c, 2.0 * series) - c.candidate.log_prior for c in pool], axis=0)
     assert kstest([p_value(float(b), chance) for b in wrong], "uniform").statistic > 0.2, "the test can fail"
 
 
 def test_a_cause_is_beyond_all_chance() -> None:
     one = small()
     base, cols = known(one, NOISE), made(small())
-    evidence = weigh(base, cols, moments(base, cols), base.every).total - cols.candidate.log_prior
+    (products,) = each_of_all(base, [cols])
+    evidence = weigh(base, cols, products, base.every).total - cols.candidate.log_prior
     assert p_value(evidence, best_of_chance(base, [cols])) == pytest.approx(1 / 200)
     np.testing.assert_array_equal(best_of_chance(base, [cols], 3), best_of_chance(base, [cols], 3))
     assert not np.array_equal(best_of_chance(base, [cols], 3), best_of_chance(base, [cols], 4))
@@ -388,12 +386,9 @@ def test_chance_draws_how_the_known_effects_act_otherwise_and_not_their_gains(sh
     one = small(cause=0.0)
     large = replace(one, blocks=tuple(replace(b, slack=1e6 * b.slack, base=1e6 * b.base) for b in one.blocks))
     base = known(large, replace(NOISE, share=share))
-    fitted = [x @ base.mean(base.every) for x in base.white]
-    away = max(
-        float(np.abs(s - f[:, None]).max())
-        for s, f in zip(_responses(base, np.random.default_rng(0)), fitted, strict=True)
-    )
-    assert (away > 1e4) is moves
+    fitted = base.white @ base.mean(base.every)
+    away = np.abs(_responses(base, np.random.default_rng(0)) - fitted[:, None]).max()
+    assert bool(away > 1e4) is moves
 
 
 @pytest.mark.parametrize("at_s", [[], [10], [4, 21]])
@@ -420,30 +415,34 @@ def test_what_is_kept_of_a_noise_changes_nothing(room: int, monkeypatch: pytest.
     one = replace(small(), kept={})
     base, cols = known(one, NOISE), made(small())
     first, again = moments(base, cols), moments(base, cols)
-    white = [base.space.of(i, b.reshape(len(b), -1)) for i, b in enumerate(cols.blocks)]
+    white = base.space.of(cols.whole.reshape(one.rows, -1))
     assert bool(base.space.kept) is bool(room)
-    for i, w in enumerate(white):
-        assert np.allclose(first.known[i].reshape(w.shape[1], -1), w.T @ base.white[i], atol=1e-12)
+    for i, rows in enumerate(one.parts):
+        expected = white[rows].T @ base.white[rows]
+        assert np.allclose(first.known[i].reshape(expected.shape), expected, atol=1e-12)
     for name in ("own", "known", "response"):
         assert np.array_equal(getattr(first, name), getattr(again, name))
 
 
+@pytest.mark.parametrize("near", [1, 2 * ROWS * 240, 1 << 30])
 @pytest.mark.parametrize(("room", "at_once"), [(0, 1), (0, 1 << 30), (20_000, 30), (1 << 30, 1 << 30)])
 def test_several_candidates_at_once_are_weighed_as_each_by_itself(
-    room: int, at_once: int, monkeypatch: pytest.MonkeyPatch
+    room: int, at_once: int, near: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Whitened in all tests at once, in some, or in each by itself."""
     monkeypatch.setattr(discrepancy, "KEPT_BYTES", room)
+    monkeypatch.setattr(discrepancy, "NEAR", near)
     monkeypatch.setattr(weighing, "AT_ONCE", at_once)
     base, some = known(replace(small(), kept={}), NOISE), [made(small()) for _ in range(4)]
-    some = [replace(one, blocks=tuple((i + 1.0) * b for b in one.blocks)) for i, one in enumerate(some)]
+    some = [replace(one, whole=(i + 1.0) * one.whole) for i, one in enumerate(some)]
     moments(base, some[1])
     for _ in range(2):
-        for one, found in zip(some, each_moments(base, some), strict=True):
-            alone = moments(known(replace(small(), kept={}), NOISE), one)
+        for one, found in zip(some, each_of_all(base, some), strict=True):
+            alone = moments(known(replace(small(), kept={}), NOISE), one).of(base.every)
             for name in ("own", "known", "response"):
                 expected = getattr(alone, name)
                 np.testing.assert_allclose(getattr(found, name), expected, rtol=0, atol=1e-12 * np.abs(expected).max())
-    assert list(each_moments(base, [])) == []
+    assert list(each_of_all(base, [])) == []
 
 
 def test_the_columns_of_three_noises_are_kept_and_no_more() -> None:
@@ -461,7 +460,7 @@ def test_all_tests_left_out_at_once_say_what_each_left_out_says() -> None:
     found = each_left_out(base, cols, products)
     assert len(found) == len(base.every)
     for i, one in enumerate(found):
-        by_itself = weigh(base, cols, products, np.delete(base.every, i))
+        by_itself = weigh(base, cols, products.of(base.others(i)), base.others(i))
         np.testing.assert_allclose(one.log_bf, by_itself.log_bf, rtol=1e-10, atol=1e-10)
         np.testing.assert_allclose(one.mean, by_itself.mean, rtol=1e-9, atol=1e-12)
 

@@ -160,8 +160,7 @@ class Worlds:
                 selecting.likeliest(self._beside(problem, [s]), start) for s in some
             ],
             "known": lambda problem, noise: self._known(problem),
-            "moments": lambda known, columns: None,
-            "score": lambda problem, known, one, *of: self._scored(problem, one),
+            "score": lambda known, one, *of: self._scored(known.problem, one),
         }
         for name_, made in by_hand.items():
             everywhere(monkeypatch, name_, made)
@@ -579,7 +578,8 @@ def test_an_effect_among_what_is_known_may_grow_and_move_its_time_constant_at_a_
     point = best.weighed.best[0]
     assert point == 0, "the driver acts at once"
     more = extended(one, made, best.weighed)
-    for old, new, full in zip(one.blocks, more.blocks, made.blocks, strict=True):
+    for old, new, rows in zip(one.blocks, more.blocks, one.parts, strict=True):
+        full = made.whole[rows]
         own = full[:, point, :1] * best.weighed.coefficients[:1]
         np.testing.assert_allclose(new.base, np.hstack([old.base, own]))
         otherwise = full[:, point, 1:] * best.weighed.coefficients[0]

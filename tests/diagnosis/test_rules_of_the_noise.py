@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import block_diag
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.question.discrepancy import WIDE, Noise, Whitened, ascend, bounds_of, chain_of, left_over
@@ -149,12 +150,14 @@ def test_the_noise_beside_each_part_is_that_of_a_problem_with_this_part_alone(n:
 )
 @pytest.mark.parametrize("many", [3, WIDE - 1, WIDE])
 def test_a_chain_is_the_factor_of_the_covariance(noise: Noise, many: int) -> None:
-    """At uneven times, two of them equal; of few columns, and of so many that samples are taken one by one."""
+    """Of two tests, which share no slow noise, at uneven times, two of them equal; of few columns, and of so many that
+    samples are taken one by one."""
     rng = np.random.default_rng(3)
-    t_s = np.cumsum(rng.uniform(10.0, 900.0, 80))
-    t_s[41] = t_s[40]
-    covariance = noise.slow**2 * np.exp(-np.abs(t_s[:, None] - t_s[None]) / noise.tau_s) + noise.white**2 * np.eye(80)
-    chain, columns = chain_of(t_s, noise), rng.normal(size=(80, many))
+    tests = [np.cumsum(rng.uniform(10.0, 900.0, rows)) for rows in (50, 30)]
+    tests[0][41] = tests[0][40]
+    slow = [noise.slow**2 * np.exp(-np.abs(t[:, None] - t[None]) / noise.tau_s) for t in tests]
+    covariance = block_diag(*slow) + noise.white**2 * np.eye(80)
+    chain, columns = chain_of(tests, noise), rng.normal(size=(80, many))
     np.testing.assert_allclose(
         chain.halved(columns), np.linalg.solve(np.linalg.cholesky(covariance), columns), rtol=1e-6
     )
@@ -166,14 +169,13 @@ def test_whitened_noise_is_white_and_offsets_are_gone() -> None:
     noise = Noise(0.3, 1.0, 7200.0, 0.5)
     one = of_noise(0.3, 1.0, tests=6)
     space = Whitened(one, noise)
-    white = np.concatenate([space.of(i, b.residual[:, None])[:, 0] for i, b in enumerate(one.blocks)])
+    residual = np.concatenate([b.residual for b in one.blocks])[:, None]
+    white = space.of(residual)[:, 0]
     assert white.std() == pytest.approx(1.0, abs=0.1)
     assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.1
     assert space.rows == 6 * 149
-    np.testing.assert_allclose(space.of(0, np.full((150, 1), 50.0)), 0.0, atol=1e-9)
-    np.testing.assert_allclose(
-        space.projected(0, space.of(0, one.blocks[0].residual[:, None])), space.of(0, one.blocks[0].residual[:, None])
-    )
+    np.testing.assert_allclose(space.of(np.repeat(np.arange(6.0), 150)[:, None]), 0.0, atol=1e-9)
+    np.testing.assert_allclose(space.projected(space.of(residual)), space.of(residual))
 
 
 # ---- a warm start
@@ -266,7 +268,7 @@ def test_a_coefficient_of_1_is_as_large_as_the_response_and_half_of_it_acts_othe
     assert found.width.tolist() == [1.0, 0.5, 0.5]
     assert found.gains == 1
     for p in range(len(found.points)):
-        assert np.sqrt(np.mean(np.vstack([b[:, p, :1] for b in found.blocks]) ** 2)) == pytest.approx(2.0)
+        assert np.sqrt(np.mean(found.whole[:, p, :1] ** 2)) == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("times", [0.02, 0.5, 3.0])

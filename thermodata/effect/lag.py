@@ -9,7 +9,8 @@ A zero-order hold in its place shifts the answer by half a step, which a fit the
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 
@@ -53,15 +54,23 @@ def lag(u: Float1D, tau_s: float, step_s: float, start: float = 0.0) -> Float1D:
 def _banded(u: Float1D, a: float, new: float, old: float, start: float) -> Float1D:
     """The same by forward substitution: x[k+1] - a x[k] = new u[k+1] + old u[k]. As quick as a filter on a test of a
     day; and a filter's first use takes the third of a second that scipy.signal is imported in."""
-    from scipy.linalg.blas import dtbsv
-
     x = np.empty(len(u))
     x[0] = start
     later = np.multiply(u[:-1], old, out=x[1:])
     later += new * u[1:]
     band = np.empty((2, len(u)), order="F")
-    band[1] = -a  # of the diagonal, which is 1, nothing is read
-    return np.asarray(dtbsv(1, band, x, lower=1, diag=1, overwrite_x=1), dtype=np.float64)
+    band.fill(-a)  # of the diagonal, which is 1, nothing is read
+    solved: Float1D = _solver()(1, band, x, 1, 0, 1, 0, 1, 1)  # one by one from 0 on; lower, diagonal 1, in its place
+    return solved
+
+
+@cache
+def _solver() -> Callable[..., Float1D]:
+    """Imported where it is used: once."""
+    from scipy.linalg.blas import dtbsv
+
+    found: Callable[..., Float1D] = dtbsv
+    return found
 
 
 def lags(u: Float1D, taus_s: Sequence[float], step_s: float) -> Float1D:

@@ -5,8 +5,9 @@ Plain frozen values: what makes them (from a store) is `view.load`, what uses th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.view.recorded import Recorded
@@ -48,7 +49,8 @@ class TestData:
     NaN where there are none. valid: channel -> shape (n,). in_window: shape (n,), False in the history.
     conditions: numbers in canonical units or text, machine attributes included. phases: name -> (from_s, to_s).
     start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day. recorded: channel -> where
-    its samples stand in raw files.
+    its samples stand in raw files. kept: what is made of this test alone and asked again, by who made it; a changed
+    copy begins anew.
     """
 
     __test__ = False
@@ -68,6 +70,7 @@ class TestData:
     machine: str = ""
     channels: Mapping[str, ChannelInfo] = field(default_factory=dict)
     recorded: Mapping[str, Recorded] = field(default_factory=dict)
+    kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def key(self) -> tuple[str, str]:

@@ -22,7 +22,7 @@ from thermodata.diagnosis.claims.probability import sharpness_asked
 from thermodata.diagnosis.claims.rules import STRONG, WORTH_SHARE, WORTH_SIZE
 from thermodata.diagnosis.question.known import Known
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
-from thermodata.diagnosis.weigh.evidence import Columns, beyond_known, moments
+from thermodata.diagnosis.weigh.evidence import Columns, beyond_known, each_of_all
 from thermodata.diagnosis.weigh.scored import ACTS
 from thermodata.plugin import Int1D
 
@@ -76,12 +76,13 @@ def has_a_name(candidate: CandidateEffect) -> bool:
 
 
 def _limit(known: Known, one: Columns, spread: float, owners: Int1D) -> Limit | None:
-    products = moments(known, one)
+    (products,) = each_of_all(known, [one])
     left, _ = beyond_known(known, products, known.every)
     gains = one.gains
-    own = np.einsum("pcc->pc", products.own.sum(axis=0))[:, :gains].mean(axis=1)
+    own = np.einsum("pcc->pc", products.own)[:, :gains].mean(axis=1)
     beyond = np.clip(np.einsum("pcc->pc", left)[:, :gains].mean(axis=1), 0.0, None)
-    sizes = np.array([np.sqrt(np.mean(b[:, :, :gains] ** 2, axis=(0, 2))) for b in one.blocks])  # (tests, points)
+    squares = [np.mean(one.whole[rows, :, :gains] ** 2, axis=(0, 2)) for rows in known.space.parts]
+    sizes = np.sqrt(squares)  # (tests, points)
     moved = (own > 0) & (sizes.max(axis=0) > 0)
     if not moved.any():
         return None
@@ -109,13 +110,13 @@ def _limit(known: Known, one: Columns, spread: float, owners: Int1D) -> Limit | 
 
 def _most_like(known: Known, one: Columns, point: int, owners: Int1D) -> int | None:
     """The known effect that alone can do most of it, or what was selected."""
-    white = [known.space.of(i, b[:, point, :1])[:, 0] for i, b in enumerate(one.blocks)]
-    energy = sum(float(w @ w) for w in white)
+    white = known.space.of(one.whole[:, point, :1])[:, 0]
+    energy, cross_of_all = float(white @ white), known.white.T @ white
     best: tuple[float, int] | None = None
     for number in sorted({int(o) for o in owners}):
         mine = np.flatnonzero(owners == number)
-        gram = sum(x[:, mine].T @ x[:, mine] for x in known.white) + np.diag(known.precision[mine])
-        cross = np.sum([x[:, mine].T @ w for x, w in zip(known.white, white, strict=True)], axis=0)
+        gram = known.gram[:, mine][:, :, mine].sum(axis=0) + np.diag(known.precision[mine])
+        cross = cross_of_all[mine]
         does = float(cross @ np.linalg.solve(gram, cross)) / max(energy, 1e-300)
         if best is None or does > best[0]:
             best = does, number

@@ -166,9 +166,7 @@ class Refinement:
 
     def _likeness(self, scored: Scored, term: int) -> float:
         """Cosine, without sign, of what the candidate and a known effect do."""
-        own = np.concatenate(
-            [c[:, scored.weighed.best[0]] @ scored.weighed.coefficients for c in scored.columns.blocks]
-        )
+        own = scored.columns.does(scored.weighed)
         theirs = np.concatenate([self._does(b, term) for b in self.problem.blocks])
         size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
         return abs(float(own @ theirs)) / size if size > 0 else 0.0
@@ -190,12 +188,12 @@ class Refinement:
             return None
         if acting_size(scored) >= SMALL * self._size(term):
             return None
-        alike, point = [], scored.weighed.best[0]
-        for block, columns in zip(self.problem.blocks, scored.columns.blocks, strict=True):
+        alike, does = [], scored.columns.does(scored.weighed)
+        for block, rows in zip(self.problem.blocks, self.problem.parts, strict=True):
             other = from_other_zero(self.fitted, term, channels[0], block.test)
             if other is None:
                 return None
-            alike.append((columns[:, point] @ scored.weighed.coefficients, block.compress(other[:, None])[:, 0]))
+            alike.append((does[rows], block.compress(other[:, None])[:, 0]))
         own, theirs = (np.concatenate(side) for side in zip(*alike, strict=True))
         if not _takes_away(own, theirs) or self._moves_by_itself(term, [own for own, _ in alike]):
             return None

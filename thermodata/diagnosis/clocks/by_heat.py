@@ -245,8 +245,8 @@ def compared(
     declared: as in `Logs`."""
     every = [*tests, *locked]
     failed = {n for t in tests for n, c in t.channels.items() if c.faulty is not None}
-    pairs = _pairs(tests, channels, step_s, failed)
-    both = _pairs(every, channels, step_s, failed) if locked else pairs
+    both = _pairs(every, channels, step_s, failed)
+    pairs = tuple(own for pair in both if (own := pair.of(tests)) is not None)
     return Logs(tests, channels, response, step_s, pairs, both, tuple(in_order(every)), declared or {})
 
 

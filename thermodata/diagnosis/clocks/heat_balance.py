@@ -111,6 +111,15 @@ class Pair:
     cross: FloatND
     energy: FloatND
 
+    def of(self, tests: Sequence[TestData]) -> Pair | None:
+        """The same of some of its tests; None where they are too few."""
+        keys = {t.key for t in tests}
+        asked = [i for i, t in enumerate(self.tests) if t.key in keys]
+        if len(asked) < LEAST_TESTS:
+            return None
+        own = tuple(self.tests[i] for i in asked)
+        return replace(self, tests=own, gram=self.gram[asked], cross=self.cross[asked], energy=self.energy[asked])
+
     def in_all(self) -> Disagreement | None:
         """In tests left out. None where nothing tells."""
         shares = self._shares()

@@ -8,18 +8,17 @@ beside a model: [kennedy2001]. Offsets have a flat prior, so all products are ta
 (restricted likelihood [patterson1971]).
 
 The slow noise is a chain: B with 1 on and -exp(-dt / tau) below its diagonal makes white noise of it, so that B cov B'
-has three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening passes a test's
-rows once ([rue2005], ch. 2).
+has three diagonals only, its Cholesky factor C two, and B^-1 C is the factor of cov itself. Whitening passes the rows
+of all tests once ([rue2005], ch. 2): between two tests nothing is left of the slow noise.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.blas import dgemm
 from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
 
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
@@ -36,6 +35,7 @@ START_TAU_S = 7200.0
 
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
+NEAR = 1 << 17  # values that are whitened at once
 WIDE = 400  # columns from which on it costs less to take samples one by one
 SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
@@ -53,8 +53,8 @@ class Noise:
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """Factor L = B^-1 C of the covariance of a test. carried: what is left of the slow noise from one sample to the
-    next, shape (m - 1,). factor: C, its diagonal and the one below, shape (2, m)."""
+    """Factor L = B^-1 C of the covariance of all tests, one after the other. carried: what is left of the slow noise
+    from one sample to the next, shape (rows - 1,). factor: C, its diagonal and the one below, shape (2, rows)."""
 
     carried: Float1D
     factor: Float2D
@@ -64,8 +64,12 @@ class Chain:
         """Of the covariance: B has the determinant 1."""
         return 2 * float(np.log(self.factor[0]).sum())
 
+    def part(self, rows: slice) -> Chain:
+        """Of whole tests among all."""
+        return Chain(self.carried[rows.start : rows.stop - 1], self.factor[:, rows])
+
     def halved(self, columns: Float2D) -> Float2D:
-        """L^-1 times columns, shape (m, k)."""
+        """L^-1 times columns, shape (rows, k)."""
         if not columns.size:
             return columns
         if columns.shape[1] >= WIDE:
@@ -88,9 +92,11 @@ class Chain:
         return found
 
 
-def chain_of(t_s: Float1D, noise: Noise) -> Chain:
-    """t_s: of a test's samples, rising, shape (m,)."""
+def chain_of(tests: Sequence[Float1D], noise: Noise) -> Chain:
+    """tests: times of the samples of each, rising, shape (m,)."""
+    t_s = np.concatenate(tests)
     apart = np.diff(t_s) / noise.tau_s
+    apart[np.cumsum([len(t) for t in tests])[:-1] - 1] = np.inf
     carried = np.exp(-apart)
     band = np.zeros((2, len(t_s)))  # B cov B': the diagonal, and the one below
     band[0] = noise.white**2
@@ -108,57 +114,74 @@ def _sound(solution: Float2D, info: int) -> Float2D:
 
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
-    covariance, offsets included. kept: what was whitened already and is asked again beside other effects, by who asks
-    and test, `KEPT_BYTES` at most. products: of these with each other, by who asks them."""
+    covariance, offsets included. parts: the samples of each test among all. kept: what was whitened already and is
+    asked again beside other effects, by who asks, `KEPT_BYTES` at most. products: of these with each other, by who asks
+    them."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
-        self.kept: dict[tuple[int, int], tuple[object, Float2D]] = {}
+        self.parts = problem.parts
+        self.kept: dict[int, tuple[object, Float2D]] = {}
         self.products: dict[int, tuple[object, NDArray[np.float64]]] = {}
         self._room = KEPT_BYTES
-        self._chains: list[Chain] = []
+        self._chain = chain_of([b.t_s for b in problem.blocks], noise)
         self._offsets: list[Float2D] = []
-        self.rows, self.logdet = 0, 0.0
-        for block in problem.blocks:
-            chain = chain_of(block.t_s, noise)
-            members = free_of(block)
-            q, sizes = _orthogonal(chain.halved(members))
-            self._chains.append(chain)
+        self.rows, self.logdet = 0, self._chain.logdet
+        members = [free_of(b) for b in problem.blocks]
+        most = max(m.shape[1] for m in members)
+        white = self._chain.halved(np.vstack([np.pad(m, ((0, 0), (0, most - m.shape[1]))) for m in members]))
+        for rows, free in zip(self.parts, members, strict=True):
+            q, sizes = _orthogonal(white[rows, : free.shape[1]])
             self._offsets.append(q)
-            self.logdet += chain.logdet + 2 * float(np.log(sizes).sum())
-            self.rows += len(block.t_s) - members.shape[1]
+            self.logdet += 2 * float(np.log(sizes).sum())
+            self.rows += len(free) - free.shape[1]
 
-    def of(self, test: int, columns: Float2D) -> Float2D:
-        """Columns of a test, shape (m, k), in units of the noise, without what an offset explains."""
-        white, free = self._chains[test].halved(columns), self._offsets[test]
-        if not white.size:
-            return white
-        # in its place: it is a copy already
-        share = free.T @ white
-        if white.flags.f_contiguous:
-            return np.asarray(dgemm(-1.0, free, share, 1.0, white, overwrite_c=1), dtype=np.float64)
-        return np.asarray(dgemm(-1.0, share, free, 1.0, white.T, 1, 1, 1).T, dtype=np.float64)
+    def of(self, columns: Float2D) -> Float2D:
+        """Columns of all tests, shape (rows, k), in units of the noise, without what an offset explains."""
+        return self.projected(self._chain.halved(columns)) if columns.size else columns
 
-    def of_each(self, test: int, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
+    def of_each(self, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
         """The same of each of several askers, whitened at once. An asker lives as long as this."""
-        lacking = [(who, columns) for who, columns in asked if (id(who), test) not in self.kept]
-        made: dict[int, Float2D] = {}
-        if lacking:
-            ends = np.cumsum([columns.shape[1] for _, columns in lacking])[:-1]
-            together = self.of(test, np.hstack([columns for _, columns in lacking]))
-            made = {id(who): white for (who, _), white in zip(lacking, np.hsplit(together, ends), strict=True)}
+        lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
+        made = {id(who): np.empty(columns.shape) for who, columns in lacking}
+        ends = np.cumsum([columns.shape[1] for _, columns in lacking])
+        for first, last in self._few(int(ends[-1]) if lacking else 0):
+            rows = slice(self.parts[first].start, self.parts[last].stop)
+            white = self._chain.part(rows).halved(np.hstack([columns[rows] for _, columns in lacking]))
+            together = self.projected(white, first)
+            for (who, _), own in zip(lacking, np.hsplit(together, ends[:-1]), strict=True):
+                made[id(who)][rows] = own
         for who, _ in lacking:
             white = made[id(who)]
             if white.nbytes <= self._room:
                 self._room -= white.nbytes
-                self.kept[id(who), test] = who, white
-        return [made[id(who)] if id(who) in made else self.kept[id(who), test][1] for who, _ in asked]
+                self.kept[id(who)] = who, white
+        return [made[id(who)] if id(who) in made else self.kept[id(who)][1] for who, _ in asked]
 
-    def projected(self, test: int, white: Float2D) -> Float2D:
-        """Columns in units of the noise, shape (m, k), without what an offset explains."""
-        free = self._offsets[test]
-        result: Float2D = white - free @ (free.T @ white)
-        return result
+    def each(self, values: Float1D | Float2D) -> NDArray[np.float64]:
+        """The sum of values of all tests, shape (rows, ...), in each of them, shape (tests, ...)."""
+        return np.asarray(np.add.reduceat(values, [rows.start for rows in self.parts], axis=0))
+
+    def projected(self, white: Float2D, first: int = 0) -> Float2D:
+        """Columns in units of the noise, shape (rows, k), of a test and as many that follow as there are rows, less
+        what an offset explains, in their place."""
+        begin = 0
+        for free in self._offsets[first:]:
+            own = white[begin : begin + len(free)]
+            if not len(own):
+                break
+            own -= free @ (free.T @ own)
+            begin += len(free)
+        return white
+
+    def _few(self, columns: int) -> Iterator[tuple[int, int]]:
+        """The first and the last of tests that follow each other, of which so many columns stay near the processor."""
+        first = 0
+        for last in range(len(self.parts) if columns else 0):
+            begin = self.parts[first].start
+            if last + 1 == len(self.parts) or (self.parts[last + 1].stop - begin) * columns > NEAR:
+                yield first, last
+                first = last + 1
 
 
 def whitened(problem: Problem, noise: Noise) -> Whitened:

@@ -32,13 +32,13 @@ FREE = 1.0  # or of what would make it as large as the response: an effect that 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """The known effects under a noise, test by test. both: columns and, last, the response, (m, k + 1). gram: shape
-    (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior. Factors and
-    means are asked beside each candidate, and kept, by tests."""
+    """The known effects under a noise. both: columns and, last, the response, whitened, of all tests, (rows, k + 1).
+    gram: shape (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior.
+    Factors and means are asked beside each candidate, and kept, by tests."""
 
     problem: Problem
     space: Whitened
-    both: tuple[Float2D, ...]
+    both: Float2D
     gram: FloatND
     cross: Float2D
     energy: Float1D
@@ -62,16 +62,20 @@ class Known:
 
     @property
     def every(self) -> Int1D:
-        return np.arange(len(self.both))
+        return np.arange(len(self.gram))
+
+    def others(self, test: int) -> Int1D:
+        """All tests but one."""
+        return np.flatnonzero(self.every != test)
 
     @property
-    def white(self) -> tuple[Float2D, ...]:
-        """The columns alone, (m, k)."""
-        return tuple(b[:, :-1] for b in self.both)
+    def white(self) -> Float2D:
+        """The columns alone, (rows, k)."""
+        return self.both[:, :-1]
 
     @property
-    def response(self) -> tuple[Float1D, ...]:
-        return tuple(b[:, -1] for b in self.both)
+    def response(self) -> Float1D:
+        return self.both[:, -1]
 
     @property
     def left_out(self) -> float:
@@ -81,10 +85,9 @@ class Known:
     @property
     def squares_left_out(self) -> Float1D:
         """Mean square of the error of each test that is left out, shape (tests,)."""
-        squares = []
-        for i, block in enumerate(self.problem.blocks):
-            theta = self.mean(np.delete(self.every, i))
-            squares.append(np.mean((block.response - np.hstack([block.base, block.slack]) @ theta) ** 2))
+        squares, held = [], self.problem.known
+        for i, (block, rows) in enumerate(zip(self.problem.blocks, self.space.parts, strict=True)):
+            squares.append(np.mean((block.response - held[rows] @ self.mean(self.others(i))) ** 2))
         return np.array(squares)
 
     def log_probability(self, tests: Int1D) -> float:
@@ -104,8 +107,8 @@ class Known:
 def known(problem: Problem, noise: Noise) -> Known:
     """The known effects and the response of each test, whitened by the noise, with their products."""
     space = whitened(problem, noise)
-    both = tuple(space.of(i, np.column_stack([b.base, b.slack, b.response])) for i, b in enumerate(problem.blocks))
-    products = np.stack([b.T @ b for b in both])
+    both = space.of(np.column_stack([problem.known, np.concatenate(problem.response_blocks)]))
+    products = np.stack([both[rows].T @ both[rows] for rows in space.parts])
     return Known(
         problem,
         space,

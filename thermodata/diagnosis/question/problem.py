@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -86,6 +87,24 @@ class Problem:
     @property
     def rows(self) -> int:
         return sum(len(b.t_s) for b in self.blocks)
+
+    @property
+    def parts(self) -> list[slice]:
+        """The samples of each test among those of all, one test after the other."""
+        ends = np.cumsum([0, *(len(b.t_s) for b in self.blocks)]).tolist()
+        return [slice(a, b) for a, b in pairwise(ends)]
+
+    @property
+    def known(self) -> Float2D:
+        """What the model can still do in all tests, shape (rows, k + s): base and slack together."""
+        return np.hstack([np.vstack([b.base for b in self.blocks]), np.vstack([b.slack for b in self.blocks])])
+
+    def with_known(self, base: Float2D, slack: Float2D) -> Problem:
+        """The same with further columns of all tests, shapes (rows, k) and (rows, s), among what the model can do."""
+        base = np.hstack([np.vstack([b.base for b in self.blocks]), base])
+        slack = np.hstack([np.vstack([b.slack for b in self.blocks]), slack])
+        parts = zip(self.blocks, self.parts, strict=True)
+        return replace(self, blocks=tuple(replace(b, base=base[rows], slack=slack[rows]) for b, rows in parts))
 
     @property
     def in_parts(self) -> bool:

@@ -10,8 +10,9 @@ that goes from one place to another: its screw grows by where it stands times ho
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +23,8 @@ from thermodata.modelling.inputs.drivers import start_value
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
+
+_T = TypeVar("_T")
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
@@ -199,20 +202,19 @@ def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
 def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course | None]:
     """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
     temperature: it changes where that is sudden, and does nothing while nobody logs it."""
-    held = [_held(b, name) for b in blocks]
+    held = [_kept(_held, b, name) for b in blocks]
     values = [v for v, _ in held if len(v)]
     every = np.concatenate(values) if values else np.zeros(1)
     # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
-    least = {p: MOVED * float(np.ptp(every**p)) for p in POWERS}
+    least = tuple(MOVED * float(np.ptp(every**p)) for p in POWERS)
+    logged = [b if len(own) else None for b, (own, _) in zip(blocks, held, strict=True)]
     if told:
-        return [_of_command(b, v, hole, least) if len(v) else None for b, (v, hole) in zip(blocks, held, strict=True)]
+        return [None if b is None else _kept(_of_command, b, name, least) for b in logged]
     # a motor that cools once its axis rests is no other body
-    sudden = [suddenly(v, b.t_s, BESIDE + 2) for b, (v, _) in zip(blocks, held, strict=True)]
+    sudden = [_kept(_sudden, b, name) for b in logged if b is not None]
     usual = float(np.sqrt(np.mean(np.concatenate([*sudden, np.zeros(1)]) ** 2)))
-    enough = min(least[1], max(SUDDEN * usual, LEAST_K))
-    return [
-        _of_temperature(b, v, x, enough) if len(v) else None for b, (v, _), x in zip(blocks, held, sudden, strict=True)
-    ]
+    enough = min(least[0], max(SUDDEN * usual, LEAST_K))
+    return [None if b is None else _kept(_of_temperature, b, name, enough) for b in logged]
 
 
 def _warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
@@ -260,6 +262,15 @@ def _step_s(t_s: Float1D) -> float:
     return float(np.median(np.diff(t_s)))
 
 
+def _kept(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
+    """What is made of a test at the samples of a block, which is the same in each problem that has these."""
+    key = make.__name__, block.t_s.tobytes(), what
+    if key not in block.test.kept:
+        block.test.kept[key] = make(block, *what)
+    found: _T = block.test.kept[key]
+    return found
+
+
 def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
     test = block.test
@@ -271,9 +282,11 @@ def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
     return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
 
 
-def _of_command(block: Block, value: Float1D, old: Bool1D, least: Mapping[int, float]) -> _Course:
+def _of_command(block: Block, name: str, least: tuple[float, ...]) -> _Course:
+    """least: what makes it a change, by `POWERS`."""
+    value, old = _kept(_held, block, name)
     change = {p: over_three(value**p, block.t_s) for p in POWERS}
-    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > least[p]) for p in POWERS}
+    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > own) for p, own in zip(POWERS, least, strict=True)}
     # a hole begins after the last logged sample and ends before the next one
     hole = old.copy()
     hole[1:] |= old[:-1]
@@ -281,7 +294,13 @@ def _of_command(block: Block, value: Float1D, old: Bool1D, least: Mapping[int, f
     return _Course({**change, EITHER_WAY: np.abs(change[1])}, {**rows, EITHER_WAY: rows[1]}, hole)
 
 
-def _of_temperature(block: Block, value: Float1D, sudden: Float1D, least: float) -> _Course:
+def _sudden(block: Block, name: str) -> Float1D:
+    """What a temperature changes by beyond the slopes beside it, shape (m,)."""
+    return suddenly(_kept(_held, block, name)[0], block.t_s, BESIDE + 2)
+
+
+def _of_temperature(block: Block, name: str, least: float) -> _Course:
     """A body expands by its temperature, not by the square, and one way."""
+    value, _ = _kept(_held, block, name)
     nowhere = np.zeros(len(value), dtype=np.bool_)
-    return _Course({1: over_three(value, block.t_s)}, {1: np.flatnonzero(sudden > least)}, nowhere)
+    return _Course({1: over_three(value, block.t_s)}, {1: np.flatnonzero(_kept(_sudden, block, name) > least)}, nowhere)

@@ -58,18 +58,16 @@ def courses(scored: Scored, problem: Problem) -> list[CandidateCourse]:
     """In each test in which it acts: what the model leaves over, and what the candidate would take of it."""
     if not _of_these(scored, problem):
         return []
-    point, _ = scored.weighed.best
-    found = []
-    for block, columns, acts in zip(problem.blocks, scored.columns.blocks, scored.acts, strict=True):
+    found, contribution = [], scored.columns.does(scored.weighed)
+    for block, rows, acts in zip(problem.blocks, problem.parts, scored.acts, strict=True):
         if acts and len(block.t_s):
-            contribution = columns[:, point, :] @ scored.weighed.coefficients
             found.append(
                 CandidateCourse(
                     campaign=block.test.campaign,
                     test=block.test.test,
                     t_s=_short(block.t_s),
                     residual_um=_short(block.residual),
-                    contribution_um=_short(contribution),
+                    contribution_um=_short(contribution[rows]),
                 )
             )
     return found
@@ -77,7 +75,7 @@ def courses(scored: Scored, problem: Problem) -> list[CandidateCourse]:
 
 def _of_these(scored: Scored, problem: Problem) -> bool:
     """Whether it was scored on the problem's own blocks, and on any at all."""
-    return len(scored.rows) == len(problem.blocks) == len(scored.columns.blocks) > 0
+    return len(scored.rows) == len(problem.blocks) > 0 and len(scored.columns.whole) == problem.rows
 
 
 def chance(measure: Measure) -> list[float]:

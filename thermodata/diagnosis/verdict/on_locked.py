@@ -92,8 +92,9 @@ def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
         if made is None:
             continue
         base = known(problem, noise)
-        weighed = weigh(base, made, moments(base, made), tests)
-        size = np.array([_rms([b[:, weighed.best[0]] @ weighed.coefficients]) for b in made.blocks])
+        weighed = weigh(base, made, moments(base, made).of(tests), tests)
+        does = made.does(weighed)
+        size = np.array([_rms([does[rows]]) for rows in base.space.parts])
         acts |= size >= ACTS * size[tests].max()
         problem = extended(problem, made, weighed)
     return problem, acts

@@ -23,17 +23,14 @@ def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
 
 def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
     """The same with an effect among what is known: at its likeliest time constant, its neighbours at a price."""
-    point, coefficients = weighed.best[0], weighed.coefficients
-    gains, neighbours = made.gains, [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
-    blocks = []
-    for block, full in zip(problem.blocks, made.blocks, strict=True):
-        here = full[:, point]
-        own = here[:, :gains] * np.where(coefficients[:gains] == 0, 1.0, coefficients[:gains])
-        spare = [here[:, gains:].reshape(len(here), -1, gains) @ coefficients[:gains]]
-        if made.on_a_line:
-            spare += [(full[:, p, :gains] @ coefficients[:gains] - own.sum(axis=1))[:, None] for p in neighbours]
-        blocks.append(replace(block, base=np.hstack([block.base, own]), slack=np.hstack([block.slack, *spare])))
-    return replace(problem, blocks=tuple(blocks))
+    point, gains = weighed.best[0], made.gains
+    sized, here = weighed.coefficients[:gains], made.whole[:, point]
+    own = here[:, :gains] * np.where(sized == 0, 1.0, sized)
+    spare = [here[:, gains:].reshape(len(here), -1, gains) @ sized]
+    if made.on_a_line:
+        neighbours = [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
+        spare += [(made.whole[:, p, :gains] @ sized - own.sum(axis=1))[:, None] for p in neighbours]
+    return problem.with_known(own, np.hstack(spare))
 
 
 def each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:

@@ -37,14 +37,14 @@ AT_ONCE = 1600  # columns of candidates that are whitened at once
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """A candidate's columns, scaled so that a coefficient of 1 is as large as the response. blocks: a test each, shape
-    (m, points, c): own columns, then how they differ where the effect acts faster and slower. scale: shape (points,
-    gains), gain of a coefficient of 1. width: shape (c,), prior standard deviation at size 1. prior: shape (points,
-    sizes), log probability. sides: of a difference of two temperatures, a plain lag of each."""
+    """A candidate's columns, scaled so that a coefficient of 1 is as large as the response. whole: of all tests, one
+    after the other, shape (rows, points, c): own columns, then how they differ where the effect acts faster and slower.
+    scale: shape (points, gains), gain of a coefficient of 1. width: shape (c,), prior standard deviation at size 1.
+    prior: shape (points, sizes), log probability. sides: of a difference of two temperatures, a plain lag of each."""
 
     candidate: CandidateEffect
     points: list[dict[str, float]]
-    blocks: tuple[FloatND, ...]
+    whole: FloatND
     scale: Float2D
     width: Float1D
     prior: Float2D
@@ -59,15 +59,23 @@ class Columns:
         """Whether its points differ in one parameter only: then each one's neighbours stand beside it."""
         return len({name for p in self.points for name, value in p.items() if value != self.points[0][name]}) == 1
 
+    def does(self, weighed: Weighed) -> Float1D:
+        """At its likeliest time constant and size, shape (rows,)."""
+        return np.asarray(self.whole[:, weighed.best[0]] @ weighed.coefficients)
+
 
 @dataclass(frozen=True, slots=True)
 class Moments:
     """Products a test: shapes (tests, points, c, c), with the known effects (tests, points, c, k) and with the response
-    (tests, points, c)."""
+    (tests, points, c); of some tests together the same without the first axis."""
 
     own: FloatND
     known: FloatND
     response: FloatND
+
+    def of(self, tests: Int1D) -> Moments:
+        """Of some tests together."""
+        return Moments(*(each[tests].sum(axis=0) for each in (self.own, self.known, self.response)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,19 +102,16 @@ class Weighed:
 def columns(problem: Problem, candidate: CandidateEffect) -> Columns | None:
     """None where its drivers never move."""
     made = basis(problem, candidate)
-    own = np.vstack(made.own)
+    own, others = np.vstack(made.own), np.vstack(made.others)
     moved = np.sqrt(np.mean(own**2, axis=0))
     if not np.any(moved > 0):
         return None
     scale = np.where(moved > 0, rms(problem.response_blocks) / np.where(moved > 0, moved, 1.0), 0.0)
-    gains, ways = scale.shape[1], made.others[0].shape[2]
-    full = np.concatenate([scale] * (1 + ways), axis=1)
-    blocks = tuple(
-        np.concatenate([o, w.reshape(*w.shape[:2], ways * gains)], axis=2) * full
-        for o, w in zip(made.own, made.others, strict=True)
-    )
+    gains, ways = scale.shape[1], others.shape[2]
+    whole = np.concatenate([own, others.reshape(*others.shape[:2], ways * gains)], axis=2)
+    whole *= np.concatenate([scale] * (1 + ways), axis=1)
     width = np.concatenate([np.ones(gains), np.full(ways * gains, SPREAD)])
-    return Columns(candidate, made.points, blocks, scale, width, _prior(candidate, made.points, scale))
+    return Columns(candidate, made.points, whole, scale, width, _prior(candidate, made.points, scale))
 
 
 def _prior(candidate: CandidateEffect, points: Sequence[Mapping[str, float]], scale: Float2D) -> Float2D:
@@ -126,52 +131,51 @@ def _within_bounds(params: Sequence[Param], point: Mapping[str, float]) -> bool:
 
 
 def moments(known: Known, columns: Columns) -> Moments:
-    return next(each_moments(known, [columns]))
+    """A test each."""
+    (white,) = _whites(known, [columns])
+    parts = [(white[rows], known.both[rows]) for rows in known.space.parts]
+    own = np.stack([_squares(part, columns) for part, _ in parts])
+    cross = np.stack([part.T @ both for part, both in parts]).reshape(len(parts), *columns.whole.shape[1:], -1)
+    return Moments(own, cross[..., :-1], cross[..., -1])
 
 
-def each_moments(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
-    """Of each of some candidates, at the cost of few."""
-    sizes = np.cumsum([one.blocks[0][0].size for one in some])
-    for few in np.split(np.arange(len(some)), np.flatnonzero(np.diff(sizes // AT_ONCE)) + 1):
-        yield from _moments_of(known, [some[i] for i in few.tolist()])
-
-
-def _moments_of(known: Known, few: Sequence[Columns]) -> Iterator[Moments]:
+def each_of_all(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
+    """Of each of some candidates, of all tests together, at the cost of few."""
     kept = known.space.products
-    own: list[list[FloatND]] = [[] for _ in few]
-    cross: list[list[FloatND]] = [[] for _ in few]
-    # test by test: what was just whitened is near the processor
-    for i, both in enumerate(known.both):
-        for n, white in enumerate(_whites(known, few, i)):
-            cross[n].append(white.T @ both)
-            if id(few[n]) not in kept:  # the same, whatever is known
-                by_point = white.reshape(-1, *few[n].blocks[i].shape[1:]).transpose(1, 0, 2)
-                own[n].append(by_point.transpose(0, 2, 1) @ by_point)
-    for n, one in enumerate(few):
-        if own[n]:
-            kept[id(one)] = one, np.stack(own[n])
-        with_both = np.stack(cross[n]).reshape(len(one.blocks), *one.blocks[0].shape[1:], -1)
-        yield Moments(kept[id(one)][1], with_both[..., :-1], with_both[..., -1])
+    sizes = np.cumsum([one.whole[0].size for one in some])
+    for few in np.split(np.arange(len(some)), np.flatnonzero(np.diff(sizes // AT_ONCE)) + 1):
+        group = [some[i] for i in few.tolist()]
+        for one, white in zip(group, _whites(known, group), strict=True):
+            if id(one) not in kept:  # the same, whatever is known
+                kept[id(one)] = one, _squares(white, one)
+            cross = (white.T @ known.both).reshape(*one.whole.shape[1:], -1)
+            yield Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
 
 
-def _whites(known: Known, few: Sequence[Columns], test: int) -> list[Float2D]:
-    """Of each in a test, shape (m, points * c)."""
-    return known.space.of_each(test, [(one, one.blocks[test].reshape(len(one.blocks[test]), -1)) for one in few])
+def _squares(white: Float2D, columns: Columns) -> FloatND:
+    """Products of a candidate's columns at each point, shape (points, c, c)."""
+    by_point = white.reshape(-1, *columns.whole.shape[1:]).transpose(1, 0, 2)
+    return np.asarray(by_point.transpose(0, 2, 1) @ by_point)
+
+
+def _whites(known: Known, few: Sequence[Columns]) -> list[Float2D]:
+    """Of each, of all tests, shape (rows, points * c)."""
+    return known.space.of_each([(one, one.whole.reshape(len(one.whole), -1)) for one in few])
 
 
 def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Weighed:
-    """What some tests say."""
+    """What some tests say. moments: of these together."""
     return Weighed(*_weigh(columns, *beyond_known(known, moments, tests)))
 
 
 def each_left_out(known: Known, columns: Columns, moments: Moments) -> list[Weighed]:
-    """What all tests but one say, for each of them in turn."""
-    every, cross = known.every, others_of_each(moments.known)
+    """What all tests but one say, for each of them in turn. moments: a test each."""
+    cross = others_of_each(moments.known)
     count, points, c, k = cross.shape
     half = np.empty_like(cross)
     right = others_of_each(moments.response)
     for i in range(count):
-        others = np.delete(every, i)
+        others = known.others(i)
         half[i] = halved(known.factor(others), cross[i].reshape(points * c, k).T).T.reshape(points, c, k)
         right[i] -= cross[i] @ known.mean(others)
     left = others_of_each(moments.own) - half @ half.swapaxes(-1, -2)
@@ -188,14 +192,12 @@ def others_of_each(parts: FloatND) -> FloatND:
 
 
 def beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
-    """M, shape (points, c, c), and b, (points, c), once the known effects have explained what they can."""
-    cross = moments.known[tests].sum(axis=0)
-    points, c, k = cross.shape
-    factor = known.factor(tests)
-    half = halved(factor, cross.reshape(points * c, k).T).T.reshape(points, c, k)
-    theta = known.mean(tests)
-    left = moments.own[tests].sum(axis=0) - half @ half.transpose(0, 2, 1)
-    return left, moments.response[tests].sum(axis=0) - cross @ theta
+    """M, shape (points, c, c), and b, (points, c), once the known effects have explained what they can. moments: of
+    these tests together."""
+    points, c, k = moments.known.shape
+    half = halved(known.factor(tests), moments.known.reshape(points * c, k).T).T.reshape(points, c, k)
+    left = moments.own - half @ half.transpose(0, 2, 1)
+    return left, moments.response - moments.known @ known.mean(tests)
 
 
 def _weigh(columns: Columns, left: FloatND, right: FloatND) -> tuple[FloatND, FloatND]:
@@ -210,19 +212,13 @@ def _weigh(columns: Columns, left: FloatND, right: FloatND) -> tuple[FloatND, Fl
     return log_bf + columns.prior, deviation * solution
 
 
-def of_each_series(known: Known, columns: Columns, series: Sequence[Float2D]) -> Float1D:
-    """log BF of other responses, whitened, shape (m, s) a test: shape (s,)."""
-    tests = known.every
-    factor = known.factor(tests)
-    count = series[0].shape[1]
-    cross = np.zeros((len(known.precision), count))
-    right: FloatND = np.zeros((*columns.blocks[0].shape[1:], count))
-    products = moments(known, columns)
-    for i, values in enumerate(series):
-        cross += known.white[i].T @ values
-        right += (_whites(known, [columns], i)[0].T @ values).reshape(right.shape)
+def of_each_series(known: Known, columns: Columns, series: Float2D) -> Float1D:
+    """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,)."""
+    tests, count = known.every, series.shape[1]
+    (white,), (products,) = _whites(known, [columns]), each_of_all(known, [columns])
     left, _ = beyond_known(known, products, tests)
-    right -= products.known.sum(axis=0) @ solved(factor, cross)
+    right = (white.T @ series).reshape(*columns.whole.shape[1:], count)
+    right -= products.known @ solved(known.factor(tests), known.white.T @ series)
     deviation = SIZES[:, None] * columns.width
     scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
     scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0

@@ -12,7 +12,7 @@ from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import Known, known, likeliest_of
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.beside import beside
-from thermodata.diagnosis.weigh.evidence import Columns, moments
+from thermodata.diagnosis.weigh.evidence import Columns
 from thermodata.diagnosis.weigh.ranking import Ranked, rank_in, score
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Int1D
@@ -35,7 +35,7 @@ class Found:
         """One of those ranked, with what left-out tests say of it."""
         if len(one.rows):
             return one
-        return score(self.known.problem, self.known, one.columns, moments(self.known, one.columns), one.weighed)
+        return score(self.known, one.columns, one.weighed)
 
 
 def in_noise_of_best(last: Ranked, tried: int) -> Found | None:

@@ -7,8 +7,6 @@ changes that do not touch it: [peters2016].
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from thermodata.diagnosis.question.known import Known, solved
@@ -17,22 +15,21 @@ from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 SPREADS = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
 
 
-def spread_of_gain(known: Known, contribution: Sequence[Float1D], acts: Bool1D) -> float:
+def spread_of_gain(known: Known, contribution: Float1D, acts: Bool1D) -> float:
     """Standard deviation of the factor between tests, as a share of 1: the mean over its likelihood, flat over
-    `SPREADS`. contribution: a test each, shape (m,). acts: in which tests it does something, shape (tests,).
+    `SPREADS`. contribution: of all tests, shape (rows,). acts: in which tests it does something, shape (tests,).
 
     Of all tests, or of those in which it acts, the factors of the others left free, whichever is less: where it rests
     its gain may speak for it, and not against it, for what else moves there it hardly moves.
     """
-    white = [known.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
-    size = np.array([w @ w for w in white])
+    white = known.space.of(contribution[:, None])
+    size = known.space.each(white[:, 0] ** 2)
     moves = size > 1e-6 * size.max()
     if moves.sum() < 2:
         return 1.0
-    cross = np.stack([x.T @ w for x, w in zip(known.white, white, strict=True)])
-    factor = known.factor(known.every)
-    precision = np.diag(size) - cross @ solved(factor, cross.T)
-    right = np.array([w @ y for w, y in zip(white, known.response, strict=True)])
+    both = known.space.each(known.both * white)
+    cross, right = both[:, :-1], both[:, -1]
+    precision = np.diag(size) - cross @ solved(known.factor(known.every), cross.T)
     right = right - cross @ known.mean(known.every)
     precision[np.diag_indices_from(precision)] += 1e-9 * size.max()
     asked = {tuple(np.flatnonzero(some)) for some in (moves, moves & acts) if some.sum() > 1}

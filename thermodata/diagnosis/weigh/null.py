@@ -39,14 +39,10 @@ def in_words(evidence: float, chance: Float1D) -> str:
     return f"chance does as well in {'at most ' if none else ''}{share} of responses in which nothing is missing"
 
 
-def _responses(known: Known, rng: np.random.Generator) -> list[Float2D]:
-    """Whitened, a test each, shape (m, DRAWS)."""
+def _responses(known: Known, rng: np.random.Generator) -> Float2D:
+    """Whitened, of all tests, shape (rows, DRAWS)."""
     mean = known.mean(known.every)
     # gains as fitted: what is free would be fitted again; how the effects act otherwise, drawn
     loose = np.where(known.precision >= 1.0, known.precision, np.inf)
     drawn = mean[:, None] + rng.standard_normal((len(mean), DRAWS)) / np.sqrt(loose)[:, None]
-    series = []
-    for i, white in enumerate(known.white):
-        noise = known.space.projected(i, rng.standard_normal((len(white), DRAWS)))
-        series.append(white @ drawn + noise)
-    return series
+    return np.asarray(known.white @ drawn + known.space.projected(rng.standard_normal((len(known.white), DRAWS))))

@@ -12,10 +12,9 @@ from thermodata.diagnosis.question.known import Known, known, solved
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.weigh.evidence import (
     Columns,
-    Moments,
     Weighed,
     each_left_out,
-    each_moments,
+    each_of_all,
     moments,
     others_of_each,
     weigh,
@@ -40,36 +39,32 @@ def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, *, left_out
     """The same in a given noise."""
     base = known(problem, noise)
     weighed = [
-        (weigh(base, one, products, base.every), products, one)
-        for one, products in zip(pool, each_moments(base, pool), strict=True)
+        (weigh(base, one, products, base.every), one)
+        for one, products in zip(pool, each_of_all(base, pool), strict=True)
     ]
     weighed.sort(key=lambda item: -item[0].total)
-    ranked = [
-        score(problem, base, one, products, w) if left_out else _seen(base, one, w)
-        for w, products, one in weighed[:SCORED]
-    ]
-    ranked += [_unscored(one, w) for w, _, one in weighed[SCORED:]]
+    ranked = [score(base, one, w) if left_out else _seen(base, one, w) for w, one in weighed[:SCORED]]
+    ranked += [_unscored(one, w) for w, one in weighed[SCORED:]]
     return Ranked(base, tuple(ranked))
 
 
-def score(problem: Problem, base: Known, one: Columns, products: Moments, w: Weighed) -> Scored:
-    """With what the left-out tests say of it. base: the known effects; products: with them; w: what all tests say."""
-    tests = base.every
+def score(base: Known, one: Columns, w: Weighed) -> Scored:
+    """With what the left-out tests say of it. base: the known effects; w: what all tests say."""
+    tests, parts, known_columns, products = base.every, base.space.parts, base.problem.known, moments(base, one)
     before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
     of_all, toward = (base.mean(tests), base.factor(tests)), products.known.sum(axis=0)
     toward_others = others_of_each(products.known)
     for i, seen in enumerate(each_left_out(base, one, products)):
-        block, others, best = problem.blocks[i], np.delete(tests, i), seen.best
+        block, others, best = base.problem.blocks[i], base.others(i), seen.best
         gained[i] = w.total - seen.total
-        held, sized = np.hstack([block.base, block.slack]), seen.mean[best]
-        does = one.blocks[i][:, best[0]] @ sized
+        held, sized = known_columns[parts[i]], seen.coefficients
+        does = one.whole[parts[i], best[0]] @ sized
         of_others = base.mean(others), base.factor(others)
         before[i], after[i] = _errors(block, held, does, *of_others, toward_others[i, best[0]].T @ sized)
         own_before[i], own_after[i] = _errors(block, held, does, *of_all, toward[best[0]].T @ sized)
-    point, sized = w.best[0], w.coefficients
-    contribution = [b[:, point] @ sized for b in one.blocks]
-    rows = np.array([len(c) for c in contribution])
-    size = np.sqrt([np.mean(c**2) for c in contribution])
+    contribution = one.does(w)
+    rows = np.array([len(contribution[own]) for own in parts])
+    size = np.sqrt(base.space.each(contribution**2) / rows)
     return Scored(
         candidate=one.candidate,
         columns=one,
@@ -89,7 +84,8 @@ def score(problem: Problem, base: Known, one: Columns, products: Moments, w: Wei
 
 
 def _evidence(base: Known, one: Columns) -> float:
-    return weigh(base, one, moments(base, one), base.every).total - one.candidate.log_prior
+    (products,) = each_of_all(base, [one])
+    return weigh(base, one, products, base.every).total - one.candidate.log_prior
 
 
 def _errors(
@@ -106,8 +102,7 @@ def _errors(
 
 def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
     """What it looks like, without the left-out tests."""
-    point, sized = w.best[0], w.coefficients
-    return replace(_unscored(one, w), shape=_shape(base, [b[:, point] @ sized for b in one.blocks]))
+    return replace(_unscored(one, w), shape=_shape(base, one.does(w)))
 
 
 def _unscored(one: Columns, w: Weighed) -> Scored:
@@ -116,11 +111,9 @@ def _unscored(one: Columns, w: Weighed) -> Scored:
     return Scored(one.candidate, one, w, evidence, no, no, no, no, no, no, no, spread=1.0, shape=no)
 
 
-def _shape(base: Known, contribution: Sequence[np.ndarray]) -> np.ndarray:
+def _shape(base: Known, contribution: Float1D) -> Float1D:
     """The whitened contribution without what the known effects can do, unit length."""
-    white = [base.space.of(i, c[:, None])[:, 0] for i, c in enumerate(contribution)]
-    cross = np.sum([x.T @ w for x, w in zip(base.white, white, strict=True)], axis=0)
-    theta = solved(base.factor(base.every), cross[:, None])[:, 0]
-    whole = np.concatenate([w - x @ theta for x, w in zip(base.white, white, strict=True)])
+    white = base.space.of(contribution[:, None])
+    whole = (white - base.white @ solved(base.factor(base.every), base.white.T @ white))[:, 0]
     length = float(np.linalg.norm(whole))
     return np.asarray(whole / length if length > 0 else whole)

@@ -49,12 +49,14 @@ def make_drivers(test: TestData, effect: Effect, binding: Mapping[str, str], nam
     valid: dict[str, Bool1D] = {}
     quantity = {need.role: need.quantity for need in effect.needs}
     for role, text in binding.items():
-        raw, good, relative = evaluate(test, text)
-        if not good.any():
-            raise _nothing_valid(test, text, f"effect '{name or effect.name}', driver '{role}'")
-        if quantity.get(role) == "position":  # an effect that names position means the coordinate
-            relative = False
-        values[role], valid[role] = prepare(raw, good, step_s(test), relative)
+        coordinate = quantity.get(role) == "position"  # an effect that names position means the coordinate
+        key = "driver", text, coordinate
+        if key not in test.kept:
+            raw, good, relative = evaluate(test, text)
+            if not good.any():
+                raise _nothing_valid(test, text, f"effect '{name or effect.name}', driver '{role}'")
+            test.kept[key] = prepare(raw, good, step_s(test), relative and not coordinate)
+        values[role], valid[role] = test.kept[key]
     return read_only(Drivers(test.t_s, values, valid, test.conditions))
 
 

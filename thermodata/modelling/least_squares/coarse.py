@@ -66,7 +66,16 @@ def coarse_tests(tests: Sequence[TestData], wanted: tuple[str, ...] | None) -> l
 
 
 def coarser(test: TestData, factor: int) -> TestData:
-    """Means of the valid samples of `factor` neighbours; what is left over at the end goes."""
+    """Means of the valid samples of `factor` neighbours; what is left over at the end goes. Kept with the test: each
+    fit looks at the same."""
+    key = "coarser", factor
+    if key not in test.kept:
+        test.kept[key] = _coarser(test, factor)
+    found: TestData = test.kept[key]
+    return found
+
+
+def _coarser(test: TestData, factor: int) -> TestData:
     n = len(test.t_s) // factor
     rows = n * factor
 

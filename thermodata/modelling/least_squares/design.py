@@ -6,7 +6,7 @@ each test.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -15,7 +15,7 @@ import numpy as np
 from thermodata.modelling.terms.bound import PLACE, BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import fit_mask
 from thermodata.modelling.terms.nuisance import Nuisance
-from thermodata.plugin import Bool1D, Float1D, Float2D, Param
+from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Param
 from thermodata.view.dataset import TestData
 
 KEPT_BYTES = 256 * 2**20  # of columns, before they all go
@@ -81,7 +81,20 @@ class Design:
             or [np.zeros(0)]
         )
         self.slots = tuple(self._slots())
-        self._kept: dict[tuple[int, tuple[float, ...]], Float2D] = {}
+        self._kept = self._columns_kept()
+
+    def _columns_kept(self) -> dict[Hashable, tuple[Effect, Float2D]]:
+        """Kept with the tests until others are fitted: a further fit to the same samples looks at many of the same
+        points. With their effects, for an id is one's own as long as one lives."""
+        if not self.tests:
+            return {}
+        weights = (self.bound.name, *self.bound.weights.items()) if self.bound.weights else ()
+        key = tuple(map(id, self.tests)), b"".join(m.tobytes() for m in self.masks), weights
+        kept = self.tests[0].kept
+        if key not in kept.get("columns", {}):
+            kept["columns"] = {key: (self.tests, {})}
+        found: dict[Hashable, tuple[Effect, Float2D]] = kept["columns"][key][1]
+        return found
 
     def _slots(self) -> list[Slot]:
         slots = []
@@ -107,19 +120,20 @@ class Design:
 
     def columns(self, slot: int, params: Mapping[str, float]) -> Float2D:
         """shape (n, gains): masked, centred a test, zero in tests outside the slot."""
-        key = (slot, tuple(params[name] for name in self.names(slot)))
-        kept = self._kept.get(key)
-        if kept is None:
-            term = self.terms[self.slots[slot].term]
-            kept = np.zeros((self.n, len(term.effect.gains)), order="F")
-            for k, j in enumerate(self.slots[slot].tests):
+        term, of = self.terms[self.slots[slot].term], self.slots[slot]
+        values = tuple(params[name] for name in self.names(slot))
+        phases = tuple(term.spec.phases or ())
+        key = id(term.effect), term.reading, phases, of.tests, of.factors, values
+        if key not in self._kept:
+            made = np.zeros((self.n, len(term.effect.gains)), order="F")
+            for k, j in enumerate(of.tests):
                 full = term.columns(self.tests[j], params)[self.masks[j]]
-                own = self.slots[slot].factors[k] if self.slots[slot].factors else ""
-                kept[self.parts[j]] = self.nuisance[j].without(full) * params.get(factor(own), 1.0)
-            if (len(self._kept) + 1) * kept.nbytes > KEPT_BYTES:
+                own = of.factors[k] if of.factors else ""
+                made[self.parts[j]] = self.nuisance[j].without(full) * params.get(factor(own), 1.0)
+            if (len(self._kept) + 1) * made.nbytes > KEPT_BYTES:
                 self._kept.clear()
-            self._kept[key] = kept
-        return kept
+            self._kept[key] = term.effect, made
+        return self._kept[key][1]
 
 
 def factor(group: str) -> str:

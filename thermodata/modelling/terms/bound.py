@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -40,6 +40,11 @@ class BoundTerm:
     _drivers: dict[int, tuple[TestData, Drivers, tuple[Drivers, int]]] = field(
         default_factory=dict, repr=False, compare=False
     )
+
+    @property
+    def reading(self) -> Hashable:
+        """Which channels it reads in which campaign."""
+        return tuple((campaign, *binding.items()) for campaign, binding in self.bindings.items())
 
     @property
     def binding(self) -> Mapping[str, str]:
