@@ -792,7 +792,20 @@ MUTANTS = [
     diagnosis("heat_balance.py", "LEAST_SHARE = 0.3", "LEAST_SHARE = 0.2", "a weak temperature moves a clock"),
     diagnosis("heat_balance.py", "BEATS = 4.0", "BEATS = 1.0", "a slow body moves a clock"),
     diagnosis("heat_balance.py", "step_s > UNMOVED_S", "False", "one coarse sample moves a clock"),
-    diagnosis("commanded.py", "old & told", "old", "a warm room excuses every slip that nobody saw"),
+    diagnosis(
+        "commanded.py",
+        "nowhere = np.zeros(len(value), dtype=np.bool_)",
+        "nowhere = _kept(_held, block, name)[1]",
+        "a warm room excuses every slip that nobody saw",
+    ),
+    diagnosis("commanded.py", "max(SUDDEN * usual, LEAST_K)", "np.inf", "a gate on air that a day warms is a slip"),
+    diagnosis(
+        "commanded.py", "SUDDEN, LEAST_K = 4.0, 0.5", "SUDDEN, LEAST_K = 4.0, 0.4", "air of 0.45 K excuses a slip"
+    ),
+    diagnosis(
+        "stated.py", "or not chosen or bool(s.others)", "or True", "what nobody asked beside the chosen is likely"
+    ),
+    diagnosis("stated.py", "and (m is not None or reads_as(s, modes) is None)", "", "a lag of a refinement is a cause"),
     diagnosis("heat_balance.py", "LEAST_TELLING = 2", "LEAST_TELLING = 1", "one temperature moves a clock"),
     diagnosis("heat_balance.py", "TWO_HOURS_S, ABOUT_S = 7200.0", "TWO_HOURS_S, ABOUT_S = 0.0", "two hours pass"),
     diagnosis(
