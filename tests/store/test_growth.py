@@ -81,7 +81,7 @@ def test_an_ingest_looks_the_version_of_a_reader_up_once_whatever_the_number_of_
 def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
     store: Store, lab: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from thermodata.store.ingest import run
+    from thermodata.store.ingest import layers, run
     from thermodata.store.ingest.known import unchanged
     from thermodata.store.ingest.reading import campaign_files
 
@@ -94,7 +94,12 @@ def test_an_ingest_that_changes_nothing_reads_nothing_and_says_the_same(
     def never(*_: Any, **__: Any) -> Any:
         raise AssertionError("the short way does not come here")
 
-    for module, name in ((campaign_files, "settled"), (unchanged, "settled"), (run, "bind"), (run, "read_inventory")):
+    for module, name in (
+        (campaign_files, "settled"),
+        (unchanged, "settled"),
+        (layers, "bind"),
+        (run, "read_inventory"),
+    ):
         monkeypatch.setattr(module, name, never)
     assert said(ingest(store, lab)) == said(kept) == as_again(first)
     assert store.generation == generation
