@@ -143,8 +143,10 @@ class Whitened:
     def of_each(self, asked: Sequence[tuple[object, Float2D]]) -> list[Float2D]:
         """The same of each of several askers, whitened at once. An asker lives as long as this."""
         lacking = [(who, columns) for who, columns in asked if id(who) not in self.kept]
-        made = {id(who): np.empty(columns.shape) for who, columns in lacking}
         ends = np.cumsum([columns.shape[1] for _, columns in lacking])
+        # in one piece, which a system gives sooner than many
+        pieces = np.split(np.empty(sum(columns.size for _, columns in lacking)), ends[:-1] * self.parts[-1].stop)
+        made = {id(who): own.reshape(columns.shape) for (who, columns), own in zip(lacking, pieces, strict=False)}
         for first, last in self._few(int(ends[-1]) if lacking else 0):
             rows = slice(self.parts[first].start, self.parts[last].stop)
             white = self._chain.part(rows).halved(np.hstack([columns[rows] for _, columns in lacking]))
