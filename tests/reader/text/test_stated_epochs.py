@@ -102,10 +102,30 @@ def test_a_clock_by_ptp_may_count_leap_seconds_or_none_and_is_asked(tmp_path: Pa
         ("days since 1 January 2000 UTC", since(2000) / 86400, 1 / 1440),
         ("Time [gps]", since(1980, 1, 6) + 18, 60),
         ("Time [tai_ns]", (since(1970) + 37) * 1e9, 6e10),
+        ("time [GPS, s since 1980-01-06]", since(1980, 1, 6) + 18, 60),
+        ("TAI, ms since 1970-01-01", (since(1970) + 37) * 1e3, 6e4),
+        ("GPS clock: s since 1970-01-01 UTC", since(1970), 60),
+        ("seconds_since_1904", since(1904), 60),
+        ("time_min_since_2026_01_01", since(2026) / 60, 1),
     ],
 )
 def test_a_name_states_it(tmp_path: Path, name: str, first: float, step: float) -> None:
     assert first_time(written(tmp_path, "", name, first, step)) == AT
+
+
+def test_a_name_that_says_ptp_is_asked_as_a_head_is(tmp_path: Path) -> None:
+    path = written(tmp_path, "", "time [PTP, s since 1970-01-01]", since(1970) + 37)
+    with pytest.raises(QuestionError) as asked:
+        first_time(path)
+    assert asked.value.declare["time"]["unit"] == "tai"
+    assert first_time(path, unit="tai") == AT
+
+
+def test_a_label_and_its_scale_may_stand_in_two_cells(tmp_path: Path) -> None:
+    rows = [["time_base", "GPS"], ["time [s]", "T [degC]"]]
+    rows += [[since(1980, 1, 6) + 18 + 60 * k, 20 + k / 10] for k in range(40)]
+    workbook(tmp_path / "run.xlsx", {"log": rows})
+    assert first_time(tmp_path / "run.xlsx") == AT
 
 
 @pytest.mark.parametrize(
@@ -148,6 +168,7 @@ def test_seconds_that_no_recording_reaches_are_asked(tmp_path: Path, year: int, 
         ("# reference date: 2025-01-01", "time [s]", 86_400),
         ("# epoch: 3", "time [s]", 0),
         ("# time scale: 1 s", "time [s]", 0),
+        ("# scale;2000", "time [s]", 0),
         ("", "gps_distance", 0),
         ("# seconds since 2026-01-01 UTC", "time;T_2", 0),  # whose times are dates
     ],

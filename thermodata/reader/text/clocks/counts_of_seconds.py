@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.since import leaves_leaps_open
 from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
 
 _SCALES = {
@@ -34,9 +35,10 @@ def scale_question(
     """Asks whether times are of the scale that their name hints at; None where it hints at none, or they are of no year
     in it, or where their unit says what they count from. column: its number, from 1, where its name does not tell it
     for a time. hint: what else of the file names a scale, in place of the name."""
-    match = _HINT.search(name if hint is None else hint)
+    open_in = next((text for text in (unit, name) if text is not None and leaves_leaps_open(text)), None)
+    match = _HINT.search(name if hint is None else hint) or _HINT.search(open_in or "")
     values = values[np.isfinite(values)]
-    if match is None or not values.size or (unit is not None and known_unit(unit) in EPOCHS):
+    if match is None or not values.size or (open_in is None and unit is not None and known_unit(unit) in EPOCHS):
         return None
     word = (match["scale"] or match["begins"]).lower()
     scale = "tai" if word == "ptp" else word

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from thermodata.reader.since import since
+from thermodata.reader.since import count_in
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.time_units import EPOCHS, SECONDS, known_unit
@@ -51,8 +51,8 @@ def says_time(cell: str) -> bool:
 
 def _split(header: str) -> tuple[str, str | None]:
     """(name, unit or None), a count from a date as a unit, too: 'Timestamp (OADate)'."""
-    if (stated := since(header)) is not None:  # 'seconds since 2000-01-01', 't [s since 1900-01-01]'
-        return "time", stated[1].unit(stated[0])
+    if (stated := count_in(header)) is not None:  # 'seconds since 2000-01-01', 't [s since 1900-01-01]'
+        return "time", stated
     name, unit = split_unit(header)
     match = _BRACKETS.match(name.strip()) if unit is None else None
     return (match["name"], match["unit"]) if match and known_unit(match["unit"]) in EPOCHS else (name, unit)
