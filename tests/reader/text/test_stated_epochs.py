@@ -213,3 +213,86 @@ def test_arrays_of_such_seconds_are_asked_too(tmp_path: Path, kind: str, name: s
             first_time(path)
     else:
         assert first_time(path) == (AT if name == "time_gps" else None)
+
+
+GPS, TAI = since(1980, 1, 6) + 18, since(1970) + 37
+STATED = [
+    ({"unit": "s since 2000-01-01"}, {}, since(2000)),
+    ({"unit": "GPS time, s since 1980-01-06"}, {}, GPS),
+    ({"unit": "s", "description": "seconds since 1900-01-01"}, {}, since(1900)),
+    ({"unit": "s", "epoch": "2001-01-01T00:00:00Z"}, {}, since(2001)),
+    ({"epoch": "2001-01-01T00:00:00Z"}, {}, since(2001)),
+    ({"unit": "s"}, {"time_base": "GPS"}, GPS),
+    ({"unit": "s"}, {"clock": "PTP (TAI), s since 1970-01-01"}, TAI),
+]
+
+
+def array_file(folder: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float) -> Path:
+    """Times in seconds, with what the file says of them, and of itself."""
+    path, times, values = folder / f"run.{kind}", first + 60.0 * np.arange(40), np.linspace(20, 25, 40)
+    if kind == "parquet":
+        fields = [pa.field("time", pa.float64(), metadata=of_time), pa.field("T", pa.float64())]
+        pq.write_table(pa.table([times, values], schema=pa.schema(fields, metadata=of_file)), path)
+    elif kind == "mat":
+        beside = {f"time_{key}": text for key, text in of_time.items()}
+        scipy.io.savemat(path, {"time": times, "T": values, **beside, **of_file})
+    else:
+        nptdms = pytest.importorskip("nptdms")
+        own = {"unit_string" if key == "unit" else key: text for key, text in of_time.items()}
+        made = [nptdms.ChannelObject("Log", "Time", times, own), nptdms.ChannelObject("Log", "T", values)]
+        with nptdms.TdmsWriter(str(path)) as writer:
+            writer.write_segment([nptdms.RootObject(of_file), *made])
+    return path
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize(("of_time", "of_file", "first"), STATED)
+def test_what_stands_beside_an_array_states_it(
+    tmp_path: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float
+) -> None:
+    assert first_time(array_file(tmp_path, kind, of_time, of_file, first)) == AT
+    (source,) = draft_files(tmp_path).draft.sources
+    assert not [q for q in source.questions if not q.startswith("timezone?")]
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat"])
+def test_a_clock_by_ptp_of_an_array_is_asked(tmp_path: Path, kind: str) -> None:
+    path = array_file(tmp_path, kind, {"unit": "s"}, {"clock": "PTP, s since 1970-01-01"}, TAI)
+    with pytest.raises(QuestionError) as asked:
+        first_time(path)
+    assert asked.value.declare["time"]["unit"] == "tai"
+    assert first_time(path, unit="tai") == AT
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize(
+    "of_file",
+    [
+        {"note": "calibrated after 2026-01-01"},
+        {"base": "2000"},
+        {"scale": "0.1"},
+        {"machine": "35 days since 2026-01-01 without a stop"},
+        {"reference_date": "2025-01-01"},
+    ],
+)
+def test_other_words_beside_an_array_of_seconds_say_nothing_of_them(
+    tmp_path: Path, kind: str, of_file: dict[str, str]
+) -> None:
+    path = array_file(tmp_path, kind, {"unit": "s"}, of_file, 0)
+    assert first_time(path) is None
+    assert not described(readers()["table"], path, Source()).notes
+
+
+def test_attributes_of_an_array_in_hdf5_state_it(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "run.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("time", since(2000) + 60.0 * np.arange(40)), ("T", np.linspace(20, 25, 40))):
+            file.create_dataset(name, data=values[None, :]).attrs["MATLAB_class"] = np.bytes_("double")
+        file["time"].attrs["units"] = "s since 2000-01-01"
+        file["T"].attrs["unit"] = "degC"
+    head = b"MATLAB 7.3 MAT-file, Platform: GLNXA64, HDF5 schema 1.00 .".ljust(124) + b"\0\2IM"
+    path.write_bytes(head + path.read_bytes()[len(head) :])
+    assert first_time(path) == AT
+    (signal,) = described(readers()["table"], path, Source()).signals
+    assert signal.unit == "degC"

@@ -111,7 +111,7 @@ def far_question(name: str, values: Array, unit: str, where: str) -> QuestionErr
 def ask_what_counts(name: str, values: Array, unit: str | None, where: str) -> None:
     """Raises the question of what times count from, where one is open. unit: what the file says, None where nothing."""
     known = None if unit is None else known_unit(unit)
-    if (asked := scale_question(name, values, where, unit=known)) is not None:
+    if (asked := scale_question(name, values, where, unit=unit)) is not None:
         raise asked
     if known is not None and (asked := far_question(name, values, known, where)) is not None:
         raise asked

@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from thermodata.plugin import Array
 from thermodata.reader.since import Zero, leaping, moment_in, since
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
 
 _MARKS = "#%;*'\"/!<> \t"
 _LABEL = re.compile(
@@ -40,8 +41,15 @@ class SaidEpoch:
             return self.zero.unit(own)
         return f"{self.scale}{_BEHIND[own]}" if own in _BEHIND and f"{self.scale}{_BEHIND[own]}" in EPOCHS else None
 
-    def note(self, unit: str) -> str:
-        return f"times count from a date by a line above the rows: '{self.line[:60]}' ({unit})"
+    def fitting(self, unit: str | None, values: Array) -> str | None:
+        """The same for times, shape (n,), that are of a year then that is logged; where nothing names their unit, in
+        seconds, or else in the only one in which they are."""
+        tried = [unit] if unit is not None or self.unit is not None else ["s", *sorted(_PLAIN - {"s"})]
+        found = [full for one in tried if (full := self.of(one)) is not None and is_logged(values, full)]
+        return found[0] if len(found) == 1 or (found and found[0] == self.of("s")) else None
+
+    def note(self, unit: str, by: str = "a line above the rows") -> str:
+        return f"times count from a date by {by}: '{self.line[:60]}' ({unit})"
 
     def not_used(self) -> str:
         return (
@@ -72,8 +80,8 @@ def _said(text: str) -> SaidEpoch | None:
         return None
     if (zero := moment_in(match["value"])) is not None:
         return SaidEpoch(None, zero, "", text)
-    scale = _SCALE.match(match["value"])
-    return None if scale is None else SaidEpoch(None, None, scale["scale"].lower(), text)
+    named = _SCALE.match(match["value"])
+    return None if named is None else SaidEpoch(None, None, named["scale"].lower(), text)
 
 
 def _plain(unit: str) -> str | None:
