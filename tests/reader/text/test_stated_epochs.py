@@ -41,7 +41,7 @@ def written(folder: Path, head: str, name: str, first: float, step: float = 60, 
 def first_time(path: Path, timezone: str | None = None, **time: object) -> datetime | None:
     """When the first row was measured; None where it counts from a start."""
     source = Source(timezone=timezone, table={"time": time} if time else None)
-    reader = readers()["table"]
+    reader = readers()["crio" if path.suffix == ".tdms" else "table"]
     recording = described(reader, path, source)
     if recording.clock == "relative":
         return None
@@ -238,14 +238,14 @@ def array_file(folder: Path, kind: str, of_time: dict[str, str], of_file: dict[s
         scipy.io.savemat(path, {"time": times, "T": values, **beside, **of_file})
     else:
         nptdms = pytest.importorskip("nptdms")
-        own = {"unit_string" if key == "unit" else key: text for key, text in of_time.items()}
+        own = {("unit_string" if key == "unit" else key): text for key, text in of_time.items()}
         made = [nptdms.ChannelObject("Log", "Time", times, own), nptdms.ChannelObject("Log", "T", values)]
         with nptdms.TdmsWriter(str(path)) as writer:
             writer.write_segment([nptdms.RootObject(of_file), *made])
     return path
 
 
-@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
 @pytest.mark.parametrize(("of_time", "of_file", "first"), STATED)
 def test_what_stands_beside_an_array_states_it(
     tmp_path: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float
@@ -255,7 +255,7 @@ def test_what_stands_beside_an_array_states_it(
     assert not [q for q in source.questions if not q.startswith("timezone?")]
 
 
-@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
 def test_a_clock_by_ptp_of_an_array_is_asked(tmp_path: Path, kind: str) -> None:
     path = array_file(tmp_path, kind, {"unit": "s"}, {"clock": "PTP, s since 1970-01-01"}, TAI)
     with pytest.raises(QuestionError) as asked:
@@ -264,7 +264,7 @@ def test_a_clock_by_ptp_of_an_array_is_asked(tmp_path: Path, kind: str) -> None:
     assert first_time(path, unit="tai") == AT
 
 
-@pytest.mark.parametrize("kind", ["parquet", "mat"])
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
 @pytest.mark.parametrize(
     "of_file",
     [
@@ -280,7 +280,24 @@ def test_other_words_beside_an_array_of_seconds_say_nothing_of_them(
 ) -> None:
     path = array_file(tmp_path, kind, {"unit": "s"}, of_file, 0)
     assert first_time(path) is None
-    assert not described(readers()["table"], path, Source()).notes
+    assert not described(readers()["crio" if kind == "tdms" else "table"], path, Source()).notes
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "unit"), [("gps_time", GPS, "gps"), ("t_tai", TAI, "tai"), ("ntpTime", since(1900), "ntp")]
+)
+def test_a_tdms_channel_whose_name_hints_at_a_scale_is_asked(
+    tmp_path: Path, name: str, first: float, unit: str
+) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    times = nptdms.ChannelObject("Log", name, first + 60.0 * np.arange(40))
+    path = tmp_path / "run.tdms"
+    with nptdms.TdmsWriter(str(path)) as writer:
+        writer.write_segment([times, nptdms.ChannelObject("Log", "T", np.linspace(20, 25, 40))])
+    (source,) = draft_files(tmp_path).draft.sources
+    assert source.table == {"time": {"unit": unit}}
+    assert any("2026-03-12 07:00:00 UTC" in q for q in source.questions)
+    assert first_time(path, unit=unit) == AT
 
 
 def test_attributes_of_an_array_in_hdf5_state_it(tmp_path: Path) -> None:

@@ -24,6 +24,11 @@ _FROM_START_S = 2.8e8  # nine years: a control that ran for so long had its upda
 _FIRST, _LAST = np.datetime64("2010-01-01"), np.datetime64("2040-01-01")  # when what is so large is likely logged
 
 
+def names_scale(name: str) -> bool:
+    """Whether a name hints at a scale."""
+    return _HINT.search(name) is not None
+
+
 def scale_question(
     name: str,
     values: Array,
