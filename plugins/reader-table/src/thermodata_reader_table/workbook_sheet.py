@@ -191,7 +191,9 @@ class Table:
         if declared_parts(group.form, len(columns)) or numbers:
             parts = [[part_of_date(cell) for cell in cells] for cells in columns]
             forms = find_formats(names, parts, group.form, self.where)
-            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
+            moment = column_times(parts, forms)
+            zoned = any(form.zoned for form in forms)
+            return Stamps(moment, True, ()) if zoned else times_of_dates(moment.view("datetime64[ns]"), zone)
         if len(columns) == 2 and is_once(columns[0]):
             self.notes.append(NOTE)
             order = group.form if group.form in ORDERS else None

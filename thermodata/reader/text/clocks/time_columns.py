@@ -20,6 +20,7 @@ from thermodata.reader.text.clocks.time_questions import (
     no_time,
     of_day_question,
     time_question,
+    weeks_question,
     without_word,
     worded_time,
     zone_question,
@@ -100,7 +101,8 @@ def time_of(
         open_part: ThermodataError | None = None
         if not told and not likely:
             open_part = (
-                joined_question(columns, names, data, where)
+                weeks_question(columns, names, data, where)
+                or joined_question(columns, names, data, where)
                 or clock_question(columns, names, data, where)
                 or part_question(columns, names, data, where)
                 or _fraction_beside(columns, names, data, where)
