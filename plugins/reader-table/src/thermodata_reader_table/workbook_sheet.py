@@ -77,8 +77,9 @@ class Table:
         source: Source,
         percent: Mapping[int, int] = MappingProxyType({}),
         start_above: bool = True,
+        from_1904: bool = False,
     ) -> None:
-        self.percent = percent
+        self.percent, self.from_1904 = percent, from_1904
         self.start_above, self.begun = start_above, False
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
@@ -183,6 +184,9 @@ class Table:
         zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
+            if unit == "excel" and self.from_1904:
+                unit = "excel1904"
+                self.notes.append("days count from 1904, as the workbook says")
             if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
