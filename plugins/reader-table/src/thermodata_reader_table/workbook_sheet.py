@@ -22,7 +22,7 @@ from thermodata.reader.text.preamble.head_start import ORDERS
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.tables.zone_named import named_note
-from thermodata.reader.text.times.clock_numbers import clock_of_numbers
+from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_midnight_format
 from thermodata.reader.text.times.date_parts import column_times, declared_parts
 from thermodata.reader.text.times.days import NOTE, is_once
 from thermodata.reader.text.times.in_memory import (
@@ -191,6 +191,9 @@ class Table:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
         names = [self.layout.names[i] for i in group.time]
+        if since_midnight_format(group.form) is not None:
+            counts = [[part_of_date(cell) for cell in cells] for cells in columns]
+            return times_of_day(column_times(counts, find_formats(names, counts, group.form, self.where)))
         numbers = any(clock_of_numbers(n, cells) for n, cells in zip(names[1:], columns[1:], strict=True))
         if declared_parts(group.form, len(columns)) or numbers:
             parts = [[part_of_date(cell) for cell in cells] for cells in columns]

@@ -23,7 +23,7 @@ from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
 _ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
-_COUNTERS = {"millis": "ms", "micros": "us"}
+COUNTERS = {"millis": "ms", "micros": "us"}  # by the names that an Arduino has for them
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 
@@ -111,7 +111,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in data)
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     low = names[place].strip().lower().removesuffix("()")
-    unit = epoch or _COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
+    unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
     column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
     then = f"time: {column}" + (", and clock: {resets: allow} beside table" if rolls else "")

@@ -18,6 +18,7 @@ from thermodata.reader.text.names.header import split_unit, unique
 from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
 from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
+from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
@@ -114,8 +115,7 @@ def find(
     data = _whole_rows(below, width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    asked = between is not None
-    lost = lines_between(above, width, skip, names, units, where, asked) if header is None else []
+    lost = lines_between(above, width, skip, names, units, where, between is not None) if header is None else []
     stated = stated_epoch(said.get("time"), map(texts_of, above))
     try:
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
@@ -124,7 +124,8 @@ def find(
     except QuestionError as question:
         answer = None if stated is None else answer_of(stated, names, units, data)
         if stated is None or answer is None:
-            raise with_interval(question, map(texts_of, above)) from None
+            asked = with_interval(question, map(texts_of, above))
+            raise with_start(asked, names, data, map(texts_of, above)) from None
         groups, notes = _groups(answer, names, units, data, where)
         notes = [*notes, stated.note(answer["unit"])]
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
