@@ -12,9 +12,9 @@ from thermodata.draft.make import draft_files
 BEGAN = datetime(2026, 11, 26, 5, tzinfo=UTC)
 
 
-def asked(folder: Path, hours: int, time: str = "Zeit", back_at: int = 999) -> str:
+def asked(folder: Path, hours: int, time: str = "Zeit", back_at: int = 999, began: datetime = BEGAN) -> str:
     """The question of the zone of times that are so many hours ahead, and an hour less from a row on."""
-    rows = [BEGAN + timedelta(minutes=k) for k in range(200)]
+    rows = [began + timedelta(minutes=k) for k in range(200)]
     local = [t + timedelta(hours=hours - (k >= back_at)) for k, t in enumerate(rows)]
     lines = [f"{t:%d.%m.%Y %H:%M:%S};{20 + k / 50:.2f}" for k, t in enumerate(local)]
     (folder / "shop.csv").write_text("\n".join([f"{time};T_Spindel [°C]", *lines, ""]))
@@ -46,6 +46,11 @@ def test_a_clock_that_is_set_back_tells_no_zone(tmp_path: Path) -> None:
     said = asked(tmp_path, 2, back_at=140)
     assert "its clock is set back later, so that they tell no zone" in said
     assert "Europe" not in said
+
+
+def test_one_that_is_set_back_where_summer_time_ends_still_has_its_zones(tmp_path: Path) -> None:
+    said = asked(tmp_path, 2, back_at=60, began=datetime(2026, 10, 25, 0, tzinfo=UTC))
+    assert "+2 h from the other sources' UTC: so are Europe/Prague, Europe/Berlin and others" in said
 
 
 @pytest.mark.parametrize("hours", [-9, 13])

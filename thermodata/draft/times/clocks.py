@@ -82,10 +82,16 @@ def _shown(hours: set[int]) -> str:
     return "/".join(f"{h:+d} h" for h in sorted(hours))
 
 
+def _is_set_otherwise(file: RawFile) -> bool:
+    """Whether a file's clock is set back by more than summer time that ends."""
+    back = file.sample.set_back
+    return back is not None and not back.in_no_order and likely_cause(back.from_ns, back.to_ns, file.local) is None
+
+
 def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> str:
     """What local times tell of their zone: whether it is the one that the file names, and else which ones are so far
     ahead, for no offset tells one of them. ahead: (hours, the beginning in UTC [ns]) of each test."""
-    if any(f.sample.set_back is not None and not f.sample.set_back.in_no_order for f in group.files):
+    if any(_is_set_otherwise(f) for f in group.files):
         return " where the file begins, and its clock is set back later, so that they tell no zone"
     if (named := zone_in(likely)) is not None:
         own = [_offset(named, begin) for _, begin in ahead]
