@@ -1,4 +1,5 @@
-"""Units of time that state what they count from: 's since 2000-01-01 00:00:00 UTC', 'Sekunden seit 01.01.1904'."""
+"""Units of time that state what they count from: 's since 2000-01-01 00:00:00 UTC', 'Sekunden seit 01.01.1904',
+'GPS time, s since 1980-01-06', or a name: 'seconds_since_1904'."""
 
 from __future__ import annotations
 
@@ -35,6 +36,13 @@ _COUNT = re.compile(
 # what all programs count in seconds from is in UTC, said or not
 _OF_PROGRAMS = frozenset(datetime(y, m, d) for y, m, d in ((1900, 1, 1), (1904, 1, 1), (1970, 1, 1), (1980, 1, 6)))
 _OF_UNIX = datetime(1970, 1, 1)
+# scales that count leap seconds, and where they begin; clocks that go by PTP count these or UTC
+PTP = "ptp"
+_LEAPING = re.compile(r"(?i)(?<![a-z])(?:(?P<tai>tai)|(?P<gps>gps)|(?P<ptp>ptp))(?![a-z])")
+_ZERO_S = {"tai": 0, "gps": 315_964_800, PTP: 0}
+_UTC = re.compile(r"(?i)(?<![a-z])(?:utc|gmt|unix|posix)(?![a-z])|\d\s*z(?![a-z])")
+_STEPS = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}  # of counts by these scales, behind their names
+_JOINED = re.compile(r"(?<=\d)_(?=\d)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +64,39 @@ def since(text: str) -> tuple[str, Zero] | None:
     low = text.lower()
     if not any(word in low for word in ("since", "seit", "after", "depuis", "desde", "dal", "od ")):
         return None
+    if "since" in low or "seit" in low:  # of a name: 'seconds_since_2000_01_01'
+        low = _JOINED.sub("-", low).replace("_", " ")
     count = _COUNT.search(low)
     if count is None:
         return None
     unit = next(name for name in _UNITS if count[f"u_{name}"])
     zero = moment_in(low[count.end() :], seconds=unit != "d")
     return None if zero is None else (unit, zero)
+
+
+def count_in(text: str) -> str | None:
+    """The unit of a count from a date that a text says: 's since 2000-01-01t00:00:00z', or 'gps_ms' where it is of a
+    scale that counts leap seconds. None where it says none."""
+    found = since(text)
+    if found is None:
+        return None
+    unit, zero = found
+    scale = leaping(text, zero)
+    return f"{scale}{_STEPS[unit]}" if scale not in (None, PTP) and unit in _STEPS else zero.unit(unit)
+
+
+def leaping(text: str, zero: Zero) -> str | None:
+    """'tai' of 'PTP (TAI), ns since 1970-01-01': the scale with leap seconds that a count from its zero is said to be
+    of, `PTP` where that leaves it open; None where the text says UTC, too, or another zero."""
+    named = {str(m.lastgroup) for m in _LEAPING.finditer(text.replace("_", " "))}
+    fitting = [scale for scale in _ZERO_S if scale in named and _ZERO_S[scale] == zero.zero_s]
+    return fitting[0] if fitting and _UTC.search(text) is None else None
+
+
+def leaves_leaps_open(text: str) -> bool:
+    """Whether a text says a count by PTP, and not whether it counts leap seconds."""
+    found = since(text)
+    return found is not None and leaping(text, found[1]) == PTP
 
 
 def moment_in(text: str, seconds: bool = True) -> Zero | None:

@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.since import since
+from thermodata.reader.since import count_in, since
 from thermodata.reader.zone import NAT
 
 _DAY = 86400.0
@@ -150,8 +150,8 @@ def known_unit(text: str) -> str | None:
     """A unit of time, or a count from a date, by its name here: 'excel' of '[OLE]'. None where it is none."""
     low = text.strip().strip("[]()").strip().lower()
     low = _ALSO.get(low, low)
-    if low not in SECONDS and (stated := since(low)) is not None:
-        return stated[1].unit(stated[0])
+    if low not in SECONDS and (stated := count_in(low)) is not None:
+        return stated
     return low if low in SECONDS or low in EPOCHS else None
 
 

@@ -92,10 +92,7 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
             raise _keeps_one_offset(timezone, when, before, after)
         if after > before:
             utc[inside] = local[inside] - before
-            notes.append(
-                f"{int(inside.sum())} local times in the hour that {timezone} skips at {when}: the logger's "
-                "clock does not follow daylight saving, or not at once"
-            )
+            notes.append(_in_skipped_hour(int(inside.sum()), timezone, when))
         else:
             second, sure = _second_pass(local, inside, before - after)
             utc[inside] = local[inside] - before
@@ -105,6 +102,34 @@ def local_to_utc_ns(naive: npt.NDArray[Any], timezone: str | None) -> tuple[Int1
                 f"{int(second.sum())} in its second" + ("" if sure else " (no row steps back: a guess)")
             )
     return utc, notes
+
+
+def skips_between(timezone: str, first_ns: int, last_ns: int) -> bool:
+    """Whether a zone skips an hour between two instants in UTC, or within a day of them."""
+    found = _transitions(zone(timezone), first_ns // _S - 86_400, last_ns // _S + 86_400)
+    return any(after > before for _, before, after in found)
+
+
+def skipped_notes(local_ns: Int1D, timezone: str) -> list[str]:
+    """What is told of local times, shape (n,), that lie in an hour that a zone skips in spring."""
+    good = local_ns[local_ns != NAT]
+    if not good.size:
+        return []
+    first, last = (int(end) // _S for end in (good.min(), good.max()))
+    found = []
+    for instant, before, after in _transitions(zone(timezone), first - 2 * 86_400, last + 2 * 86_400):
+        many = int(((good >= instant + before) & (good < instant + after)).sum())
+        if many:
+            when = datetime.fromtimestamp(instant // _S, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+            found.append(_in_skipped_hour(many, timezone, when))
+    return found
+
+
+def _in_skipped_hour(many: int, timezone: str, when: str) -> str:
+    return (
+        f"{many} local times in the hour that {timezone} skips at {when}: the logger's "
+        "clock does not follow daylight saving, or not at once"
+    )
 
 
 def _runs_on(local: Int1D, inside: Bool1D, before: int, after: int) -> bool:

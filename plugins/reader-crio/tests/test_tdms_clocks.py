@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from thermodata_reader_crio import Reader
 
-from thermodata.errors import QuestionError
+from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
 from thermodata.reader.guard import described, guarded
 
@@ -34,13 +34,40 @@ def times(path: Path, source: Source) -> list[int]:
 
 @pytest.mark.parametrize(
     ("unit", "step_s"),
-    [("min", 60), ("h", 3600), ("ms", 1e-3), ("s", 1), ("", 1), ("Sekunden", 1), ("mm", 1), (" Min ", 60)],
+    [("min", 60), ("h", 3600), ("ms", 1e-3), ("s", 1), ("", 1), ("Sekunden", 1), ("Time", 1), (" Min ", 60)],
 )
 def test_a_waveform_counts_in_its_unit_of_x(tmp_path: Path, unit: str, step_s: float) -> None:
     start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 1.0, "wf_start_offset": 2.0}
     more = {"wf_xunit_string": unit} if unit else {}
     path = written(tmp_path / "a.tdms", {"T": np.arange(5.0)}, **start, **more)
     assert times(path, Source()) == [T0 + (2 + k) * round(step_s * 1e9) for k in range(5)]
+
+
+@pytest.mark.parametrize("over", [{"wf_xunit_string": "Hz"}, {"wf_xunit_string": "mm"}, {"wf_xname": "Frequency"}])
+def test_a_waveform_over_no_time_has_none(tmp_path: Path, over: dict[str, str]) -> None:
+    start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 2.0}
+    path = tmp_path / "a.tdms"
+    with nptdms.TdmsWriter(str(path)) as writer:
+        spectrum = nptdms.ChannelObject("Log", "FFT", np.arange(9.0), {**start, **over})
+        writer.write_segment([nptdms.ChannelObject("Log", "T", np.arange(5.0), start), spectrum])
+    recording = described(Reader(), path, Source())
+    assert [s.name for s in recording.signals] == ["Log/T"]
+    said = next(iter(over.values()))
+    assert f"Log/FFT: stands over {said}, not over time; left out" in recording.notes
+    assert times(path, Source()) == [T0 + 2 * k * 10**9 for k in range(5)]
+    counted = described(Reader(), path, Source(options={"increment": "0.5 s"}))
+    assert {s.name for s in counted.signals} == {"Log/T", "Log/FFT"}
+    alone = written(tmp_path / "b.tdms", {"FFT": np.arange(9.0)}, **start, **over)
+    with pytest.raises(FormatError, match="not over time"):
+        described(Reader(), alone, Source())
+
+
+def test_a_path_beside_a_channel_of_times_has_these(tmp_path: Path) -> None:
+    path = written(tmp_path / "a.tdms", {"Timestamp": stamps("%Y-%m-%d %H:%M:%S"), "T": np.arange(30.0)}, **OVER_MM)
+    assert times(path, Source(timezone="Europe/Berlin")) == [T0 + k * 60 * 10**9 for k in range(30)]
+
+
+OVER_MM = {"wf_increment": 1.0, "wf_xunit_string": "mm"}
 
 
 def stamps(form: str, n: int = 30) -> list[str]:

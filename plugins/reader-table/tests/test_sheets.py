@@ -182,6 +182,15 @@ def test_the_date_system_of_1904(tmp_path: Path) -> None:
         np.testing.assert_array_equal(np.diff(data.t_ns["table"]), [3600 * 10**9] * 3)
 
 
+def test_plain_numbers_count_from_1904_too_where_the_workbook_says_so(tmp_path: Path) -> None:
+    rows: list[list[object]] = [["Datum", "T"], *([43891 + i / 24, i] for i in range(4))]
+    for properties, year in (('<workbookPr date1904="true"/>', 2024), ('<workbookPr date1904="0"/>', 2020)):
+        for table in (None, {"time": {"unit": "excel"}}):
+            data = read(tmp_path, {"a": sheet(rows)}, Source(timezone="UTC", table=table), properties=properties)
+            assert np.datetime64(int(data.t_ns["table"][0]), "ns").astype("datetime64[Y]").item().year == year
+            assert ("days count from 1904, as the workbook says" in data.recording.notes) == (year == 2024)
+
+
 def test_the_zone_that_a_header_says_is_that_of_the_dates_below_it(tmp_path: Path) -> None:
     source = Source(timezone="Europe/Prague")
     for header, utc in (("time", "2020-03-01T07:00"), ("Time (UTC)", "2020-03-01T08:00")):

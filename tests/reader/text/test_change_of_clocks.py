@@ -31,3 +31,18 @@ def test_what_a_change_does_is_said(tmp_path: Path, night: tuple[int, int, int],
     notes = described(readers()[reader], path, Source(timezone="Europe/Prague")).notes
     found = [n for n in notes if "daylight saving" in n]
     assert [n.partition("in this file")[2] for n in found] == ([] if said is None else [said])
+
+
+@pytest.mark.parametrize("reader", ["cnc", "table"])
+@pytest.mark.parametrize("first", ["01:30", "02:05", "00:30"])
+def test_times_in_the_hour_that_is_skipped_are_told(tmp_path: Path, first: str, reader: str) -> None:
+    began = datetime.fromisoformat(f"2026-03-29 {first}")
+    times = [began + timedelta(minutes=4 * i) for i in range(21) if (began + timedelta(minutes=4 * i)).hour < 3]
+    inside = sum(t.hour == 2 for t in times)
+    path = tmp_path / "x.csv"
+    path.write_text("time;T\n" + "".join(f"{t:%Y-%m-%d %H:%M:%S};{20 + i / 50}\n" for i, t in enumerate(times)))
+    notes = described(readers()[reader], path, Source(timezone="Europe/Berlin")).notes
+    told = [n for n in notes if f"{inside} local times in the hour that Europe/Berlin skips" in n]
+    assert bool(told) == bool(inside)
+    assert not any("it skips an hour, no row" in n for n in notes) or not inside
+    assert not any("skips" in n for n in described(readers()[reader], path, Source(timezone="Etc/GMT-1")).notes)

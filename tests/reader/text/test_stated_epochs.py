@@ -41,7 +41,7 @@ def written(folder: Path, head: str, name: str, first: float, step: float = 60, 
 def first_time(path: Path, timezone: str | None = None, **time: object) -> datetime | None:
     """When the first row was measured; None where it counts from a start."""
     source = Source(timezone=timezone, table={"time": time} if time else None)
-    reader = readers()["table"]
+    reader = readers()["crio" if path.suffix == ".tdms" else "table"]
     recording = described(reader, path, source)
     if recording.clock == "relative":
         return None
@@ -102,10 +102,30 @@ def test_a_clock_by_ptp_may_count_leap_seconds_or_none_and_is_asked(tmp_path: Pa
         ("days since 1 January 2000 UTC", since(2000) / 86400, 1 / 1440),
         ("Time [gps]", since(1980, 1, 6) + 18, 60),
         ("Time [tai_ns]", (since(1970) + 37) * 1e9, 6e10),
+        ("time [GPS, s since 1980-01-06]", since(1980, 1, 6) + 18, 60),
+        ("TAI, ms since 1970-01-01", (since(1970) + 37) * 1e3, 6e4),
+        ("GPS clock: s since 1970-01-01 UTC", since(1970), 60),
+        ("seconds_since_1904", since(1904), 60),
+        ("time_min_since_2026_01_01", since(2026) / 60, 1),
     ],
 )
 def test_a_name_states_it(tmp_path: Path, name: str, first: float, step: float) -> None:
     assert first_time(written(tmp_path, "", name, first, step)) == AT
+
+
+def test_a_name_that_says_ptp_is_asked_as_a_head_is(tmp_path: Path) -> None:
+    path = written(tmp_path, "", "time [PTP, s since 1970-01-01]", since(1970) + 37)
+    with pytest.raises(QuestionError) as asked:
+        first_time(path)
+    assert asked.value.declare["time"]["unit"] == "tai"
+    assert first_time(path, unit="tai") == AT
+
+
+def test_a_label_and_its_scale_may_stand_in_two_cells(tmp_path: Path) -> None:
+    rows = [["time_base", "GPS"], ["time [s]", "T [degC]"]]
+    rows += [[since(1980, 1, 6) + 18 + 60 * k, 20 + k / 10] for k in range(40)]
+    workbook(tmp_path / "run.xlsx", {"log": rows})
+    assert first_time(tmp_path / "run.xlsx") == AT
 
 
 @pytest.mark.parametrize(
@@ -148,6 +168,7 @@ def test_seconds_that_no_recording_reaches_are_asked(tmp_path: Path, year: int, 
         ("# reference date: 2025-01-01", "time [s]", 86_400),
         ("# epoch: 3", "time [s]", 0),
         ("# time scale: 1 s", "time [s]", 0),
+        ("# scale;2000", "time [s]", 0),
         ("", "gps_distance", 0),
         ("# seconds since 2026-01-01 UTC", "time;T_2", 0),  # whose times are dates
     ],
@@ -192,3 +213,103 @@ def test_arrays_of_such_seconds_are_asked_too(tmp_path: Path, kind: str, name: s
             first_time(path)
     else:
         assert first_time(path) == (AT if name == "time_gps" else None)
+
+
+GPS, TAI = since(1980, 1, 6) + 18, since(1970) + 37
+STATED = [
+    ({"unit": "s since 2000-01-01"}, {}, since(2000)),
+    ({"unit": "GPS time, s since 1980-01-06"}, {}, GPS),
+    ({"unit": "s", "description": "seconds since 1900-01-01"}, {}, since(1900)),
+    ({"unit": "s", "epoch": "2001-01-01T00:00:00Z"}, {}, since(2001)),
+    ({"epoch": "2001-01-01T00:00:00Z"}, {}, since(2001)),
+    ({"unit": "s"}, {"time_base": "GPS"}, GPS),
+    ({"unit": "s"}, {"clock": "PTP (TAI), s since 1970-01-01"}, TAI),
+]
+
+
+def array_file(folder: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float) -> Path:
+    """Times in seconds, with what the file says of them, and of itself."""
+    path, times, values = folder / f"run.{kind}", first + 60.0 * np.arange(40), np.linspace(20, 25, 40)
+    if kind == "parquet":
+        fields = [pa.field("time", pa.float64(), metadata=of_time), pa.field("T", pa.float64())]
+        pq.write_table(pa.table([times, values], schema=pa.schema(fields, metadata=of_file)), path)
+    elif kind == "mat":
+        beside = {f"time_{key}": text for key, text in of_time.items()}
+        scipy.io.savemat(path, {"time": times, "T": values, **beside, **of_file})
+    else:
+        nptdms = pytest.importorskip("nptdms")
+        own = {("unit_string" if key == "unit" else key): text for key, text in of_time.items()}
+        made = [nptdms.ChannelObject("Log", "Time", times, own), nptdms.ChannelObject("Log", "T", values)]
+        with nptdms.TdmsWriter(str(path)) as writer:
+            writer.write_segment([nptdms.RootObject(of_file), *made])
+    return path
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
+@pytest.mark.parametrize(("of_time", "of_file", "first"), STATED)
+def test_what_stands_beside_an_array_states_it(
+    tmp_path: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float
+) -> None:
+    assert first_time(array_file(tmp_path, kind, of_time, of_file, first)) == AT
+    (source,) = draft_files(tmp_path).draft.sources
+    assert not [q for q in source.questions if not q.startswith("timezone?")]
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
+def test_a_clock_by_ptp_of_an_array_is_asked(tmp_path: Path, kind: str) -> None:
+    path = array_file(tmp_path, kind, {"unit": "s"}, {"clock": "PTP, s since 1970-01-01"}, TAI)
+    with pytest.raises(QuestionError) as asked:
+        first_time(path)
+    assert asked.value.declare["time"]["unit"] == "tai"
+    assert first_time(path, unit="tai") == AT
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
+@pytest.mark.parametrize(
+    "of_file",
+    [
+        {"note": "calibrated after 2026-01-01"},
+        {"base": "2000"},
+        {"scale": "0.1"},
+        {"machine": "35 days since 2026-01-01 without a stop"},
+        {"reference_date": "2025-01-01"},
+    ],
+)
+def test_other_words_beside_an_array_of_seconds_say_nothing_of_them(
+    tmp_path: Path, kind: str, of_file: dict[str, str]
+) -> None:
+    path = array_file(tmp_path, kind, {"unit": "s"}, of_file, 0)
+    assert first_time(path) is None
+    assert not described(readers()["crio" if kind == "tdms" else "table"], path, Source()).notes
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "unit"), [("gps_time", GPS, "gps"), ("t_tai", TAI, "tai"), ("ntpTime", since(1900), "ntp")]
+)
+def test_a_tdms_channel_whose_name_hints_at_a_scale_is_asked(
+    tmp_path: Path, name: str, first: float, unit: str
+) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    times = nptdms.ChannelObject("Log", name, first + 60.0 * np.arange(40))
+    path = tmp_path / "run.tdms"
+    with nptdms.TdmsWriter(str(path)) as writer:
+        writer.write_segment([times, nptdms.ChannelObject("Log", "T", np.linspace(20, 25, 40))])
+    (source,) = draft_files(tmp_path).draft.sources
+    assert source.table == {"time": {"unit": unit}}
+    assert any("2026-03-12 07:00:00 UTC" in q for q in source.questions)
+    assert first_time(path, unit=unit) == AT
+
+
+def test_attributes_of_an_array_in_hdf5_state_it(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "run.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("time", since(2000) + 60.0 * np.arange(40)), ("T", np.linspace(20, 25, 40))):
+            file.create_dataset(name, data=values[None, :]).attrs["MATLAB_class"] = np.bytes_("double")
+        file["time"].attrs["units"] = "s since 2000-01-01"
+        file["T"].attrs["unit"] = "degC"
+    head = b"MATLAB 7.3 MAT-file, Platform: GLNXA64, HDF5 schema 1.00 .".ljust(124) + b"\0\2IM"
+    path.write_bytes(head + path.read_bytes()[len(head) :])
+    assert first_time(path) == AT
+    (signal,) = described(readers()["table"], path, Source()).signals
+    assert signal.unit == "degC"

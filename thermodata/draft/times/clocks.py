@@ -12,7 +12,7 @@ from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
-from thermodata.draft.times.zone_of_names import named_zone
+from thermodata.draft.times.zone_of_names import named_zone, zone_in
 from thermodata.errors import ThermodataError
 from thermodata.reader.step_back import likely_cause, said
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
@@ -69,15 +69,39 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
         for f in files[:1]
         if f.start_ns is not None and (begin := _begin(g.tests[test])) is not None
     ]
-    hours = [round((a - b) / _HOUR_NS) for a, b in pairs if abs((a - b) / _HOUR_NS - round((a - b) / _HOUR_NS)) < 0.25]
-    if not pairs or len(hours) < 0.6 * len(pairs) or max(map(abs, hours)) > 14:
+    whole = [(round(h), b) for a, b in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
+    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _ in whole) > 14:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
         return asked + which_pass(group.files, likely)
-    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for (_, begin), h in zip(pairs, hours, strict=False))]
-    ahead = "/".join(f"{h:+d} h" for h in sorted(set(hours)))
-    return f"timezone? local times, {ahead} from the other sources' UTC: " + (
-        f"fits {', '.join(fitting[:3])}{said}" if fitting else f"or a clock that is wrong by whole hours{said}"
-    )
+    asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
+    return f"{asked}{_zones_of(whole, likely, group)}{said}"
+
+
+def _shown(hours: set[int]) -> str:
+    return "/".join(f"{h:+d} h" for h in sorted(hours))
+
+
+def _is_set_otherwise(file: RawFile) -> bool:
+    """Whether a file's clock is set back by more than summer time that ends."""
+    back = file.sample.set_back
+    return back is not None and not back.in_no_order and likely_cause(back.from_ns, back.to_ns, file.local) is None
+
+
+def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> str:
+    """What local times tell of their zone: whether it is the one that the file names, and else which ones are so far
+    ahead, for no offset tells one of them. ahead: (hours, the beginning in UTC [ns]) of each test."""
+    if any(_is_set_otherwise(f) for f in group.files):
+        return " where the file begins, and its clock is set back later, so that they tell no zone"
+    if (named := zone_in(likely)) is not None:
+        own = [_offset(named, begin) for _, begin in ahead]
+        if own == [h for h, _ in ahead]:
+            return f", as those of {named} are: {likely}"
+        hours = _shown({h for h in own if h is not None})
+        return f"; those of {named} were {hours} ahead then: was the clock set otherwise? {likely}"
+    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for h, begin in ahead)]
+    if not fitting:
+        return ": of what zone, or is the clock wrong by whole hours?"
+    return f": so are {', '.join(fitting[:3])} and others, and a clock that was set otherwise"
 
 
 def start_question(group: Group, groups: Sequence[Group]) -> str | None:

@@ -21,3 +21,9 @@ def named_zone(head: str | None, paths: Sequence[PurePosixPath]) -> str:
     by_name = {stated_zone([path.stem]) or (named_in([path.stem]) or (None,))[0] for path in paths}
     zone = by_name.pop() if len(by_name) == 1 else None
     return _EXAMPLE if zone is None else f"timezone: {zone}? as '{paths[0].name}' says"
+
+
+def zone_in(ending: str) -> str | None:
+    """The zone that such an ending names; None where it is an example."""
+    told = re.match(r"timezone: ([^\s?]+)\?", ending)
+    return None if told is None else told[1]

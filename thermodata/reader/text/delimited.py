@@ -5,14 +5,14 @@ A control's export, a logger's CSV, a spreadsheet saved as text: `table` looks a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Block, Loss, Recording, Signal, Source
+from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.repeated_hour import repeated_hour
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
@@ -31,7 +31,7 @@ from thermodata.reader.text.tables.table_rows import RowReader
 from thermodata.reader.text.times.days_without_year import yearless_note
 from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.time_units import EPOCHS
-from thermodata.reader.zone import local_to_utc_ns, utc_offset_ns
+from thermodata.reader.zone import local_to_utc_ns, skipped_notes, skips_between, utc_offset_ns
 
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
 
@@ -167,10 +167,8 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
         return ["; ".join([f"times in {timed.stated} by their header '{names}'", *said])]
     if source.timezone is None:
         return local_to_utc_ns(np.array([start], np.int64).view("datetime64[ns]"), None)[1]
-    last = (table.sample.rest or table.sample.head)[-50:]
-    reader = RowReader(table, Source(table=source.table), 1)
-    data = "\n".join((*last, "")).encode()
-    ends = [int(b.t_ns[-1]) for b in reader.read(Chunk(data, 0, 0, False)) if isinstance(b, Block)]
+    last = _local_times(table, source, (table.sample.rest or table.sample.head)[-50:])
+    ends = [int(t_ns[-1]) for t_ns in last]
     before, after = (utc_offset_ns(source.timezone, ns // 10**9) for ns in (start, max([start, *ends])))
     hour = repeated_hour(source.timezone, start)
     if hour is not None and all(ns < hour.at_ns + hour.summer_ns for ns in ends):
@@ -178,12 +176,24 @@ def _zone_notes(table: Table, source: Source, start: int) -> list[str]:
     notes = []
     if table.zone is not None and {before, after} != {utc_offset_ns(table.zone[0], start // 10**9)}:
         notes.append(f"the line above the rows says '{table.zone[1][:60]}'; the declared {source.timezone} is used")
-    if before != after:
+    lines = [*table.sample.head[table.layout.first :], *table.sample.rest]
+    near = skips_between(source.timezone, start, max([start, *ends]))
+    local = _local_times(table, source, lines) if near else []
+    skipped = skipped_notes(np.concatenate(local), source.timezone) if local else []
+    notes += skipped
+    if before != after and not skipped:
         how = (
             "rows of the repeated hour are told apart by their order" if after < before else "it skips an hour, no row"
         )
         notes.append(f"daylight saving of {source.timezone} changes in this file; {how}")
     return notes
+
+
+def _local_times(table: Table, source: Source, lines: Sequence[str]) -> list[Int1D]:
+    """The times of lines, block by block, as if they were UTC."""
+    reader = RowReader(table, Source(table=source.table), 1)
+    chunk = Chunk("\n".join((*lines, "")).encode(), 0, 0, False)
+    return [b.t_ns for b in reader.read(chunk) if isinstance(b, Block) and b.t_ns.size]
 
 
 def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:

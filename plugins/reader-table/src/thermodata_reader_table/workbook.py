@@ -25,7 +25,7 @@ from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata.workbook_check import check_size
-from thermodata_reader_table.workbook_percent import percent_columns
+from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns
 from thermodata_reader_table.workbook_related import with_related
 from thermodata_reader_table.workbook_series import taken_apart
 from thermodata_reader_table.workbook_sheet import Stream, Table
@@ -37,11 +37,12 @@ _SMALL = 8_000_000
 @dataclass(frozen=True)
 class Book:
     """sheets: name -> rows, of those that are wanted and hold some. odd: what check_size() counted. percent: sheet ->
-    column -> numbers that are shown in per cent."""
+    column -> numbers that are shown in per cent; from_1904: whether its days count from there, not from 1900."""
 
     sheets: dict[str, list[list[Any]]]
     odd: dict[str, int]
     percent: dict[str, Counter[int]]
+    from_1904: bool
 
 
 def _book(path: Path, source: Source) -> Book:
@@ -91,7 +92,7 @@ def _load(name: str, mtime_ns: int, size: int, wanted: int | str | None) -> Book
             where=path.name,
             expected="a table",
         )
-    return Book(sheets, odd, percent_columns(path))
+    return Book(sheets, odd, percent_columns(path), counts_from_1904(path))
 
 
 _kept = lru_cache(maxsize=1)(_load)
@@ -185,7 +186,7 @@ def _streams(
     for sheet, layout in layouts.items():
         where = f"{path.name} sheet '{sheet}'" if several else path.name
         rows, percent = book.sheets[sheet], book.percent.get(sheet, Counter[int]())
-        tables[sheet] = Table(sheet, rows, layout, where, source, percent, start_above)
+        tables[sheet] = Table(sheet, rows, layout, where, source, percent, start_above, book.from_1904)
         found[sheet] = list(tables[sheet].streams(sheet if several else None))
     return tables, found
 

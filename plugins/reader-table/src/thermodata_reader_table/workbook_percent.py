@@ -1,5 +1,5 @@
-"""Which columns of a workbook are shown in per cent: such a cell holds 0.25 and reads "25 %". Cells come without their
-formats, so the sheets are asked."""
+"""What a workbook says of its numbers elsewhere: which columns are shown in per cent (such a cell holds 0.25 and reads
+"25 %"), and from which year days count. Cells come without their formats, so the sheets are asked."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ _FORMAT = re.compile(r"""<(?:\w+:)?numFmt\s[^>]*?>""")
 _XFS = re.compile(r"<(?:\w+:)?cellXfs\b.*?</(?:\w+:)?cellXfs>", re.DOTALL)
 _XF = re.compile(r"<(?:\w+:)?xf\b[^>]*?>")
 _SHEET = re.compile(r"<(?:\w+:)?sheet\s[^>]*?>")
+_PROPERTIES = re.compile(r"<(?:\w+:)?workbookPr\s[^>]*?>")
 _RELATION = re.compile(r"<(?:\w+:)?Relationship\s[^>]*?>")
 # a number: no type, or "n"; a formula may stand before its value
 _CELL = re.compile(rb"<(?:\w+:)?c\s([^>]*?)>(?:<(?:\w+:)?f\b[^>]*?(?:/>|>[^<]*</(?:\w+:)?f>))?<(?:\w+:)?v>[^<]")
@@ -43,6 +44,13 @@ def percent_columns(path: Path) -> dict[str, Counter[int]]:
             if counts:
                 found[sheet] = counts
         return found
+
+
+def counts_from_1904(path: Path) -> bool:
+    """Whether a workbook counts its days from 1904, as Excel did on a Macintosh."""
+    with zipfile.ZipFile(path) as archive:
+        tags = _PROPERTIES.findall(_part(archive, "xl/workbook.xml"))
+    return any(_attribute(tag, "date1904") in ("1", "true", "on") for tag in tags)
 
 
 def _part(archive: zipfile.ZipFile, name: str) -> str:

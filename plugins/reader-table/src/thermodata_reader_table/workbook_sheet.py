@@ -22,7 +22,7 @@ from thermodata.reader.text.preamble.head_start import ORDERS
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.tables.another_header import another_in_sheet, repeated_in_sheet
 from thermodata.reader.text.tables.zone_named import named_note
-from thermodata.reader.text.times.clock_numbers import clock_of_numbers
+from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_midnight_format
 from thermodata.reader.text.times.date_parts import column_times, declared_parts
 from thermodata.reader.text.times.days import NOTE, is_once
 from thermodata.reader.text.times.in_memory import (
@@ -77,8 +77,9 @@ class Table:
         source: Source,
         percent: Mapping[int, int] = MappingProxyType({}),
         start_above: bool = True,
+        from_1904: bool = False,
     ) -> None:
-        self.percent = percent
+        self.percent, self.from_1904 = percent, from_1904
         self.start_above, self.begun = start_above, False
         self.sheet, self.layout, self.where, self.source = sheet, layout, where, source
         self.notes = list(layout.notes)
@@ -183,15 +184,23 @@ class Table:
         zone = stated_zone(self.layout.names[i] for i in group.time) or self.source.timezone
         if not group.dated:
             unit = group.epoch or next(u for u, seconds in SECONDS.items() if seconds == group.seconds)
+            if unit == "excel" and self.from_1904:
+                unit = "excel1904"
+                self.notes.append("days count from 1904, as the workbook says")
             if EPOCHS.get(unit) is not None and EPOCHS[unit].local:
                 return times_of_dates(self._days(columns[0], EPOCHS[unit]).view("datetime64[ns]"), zone)
             return times_of_numbers(self._numbers(columns[0])[0], unit, zone)
         names = [self.layout.names[i] for i in group.time]
+        if since_midnight_format(group.form) is not None:
+            counts = [[part_of_date(cell) for cell in cells] for cells in columns]
+            return times_of_day(column_times(counts, find_formats(names, counts, group.form, self.where)))
         numbers = any(clock_of_numbers(n, cells) for n, cells in zip(names[1:], columns[1:], strict=True))
         if declared_parts(group.form, len(columns)) or numbers:
             parts = [[part_of_date(cell) for cell in cells] for cells in columns]
             forms = find_formats(names, parts, group.form, self.where)
-            return times_of_dates(column_times(parts, forms).view("datetime64[ns]"), zone)
+            moment = column_times(parts, forms)
+            zoned = any(form.zoned for form in forms)
+            return Stamps(moment, True, ()) if zoned else times_of_dates(moment.view("datetime64[ns]"), zone)
         if len(columns) == 2 and is_once(columns[0]):
             self.notes.append(NOTE)
             order = group.form if group.form in ORDERS else None

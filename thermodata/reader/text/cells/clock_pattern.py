@@ -7,8 +7,10 @@ import re
 
 BLANK = "[\\s\u00a0\u202f\u2009]"  # a spreadsheet parts 'p. m.' by blanks that do not break
 _FORENOON, _AFTERNOON = ("上午", "午前", "오전"), ("下午", "午後", "오후")
-_LATE = ("nachm", "odp", "du")  # in German, Czech and Hungarian
-HALF = rf"(?:[AaPp]\.?{BLANK}?[Mm]\.?|(?:[Vv]orm|[Nn]achm|[Dd]op|[Oo]dp)(?:\.|(?!\w))|(?:de|du)\.)"
+_LATE = ("nachm", "nachmittags", "odp", "du")  # in German, Czech and Hungarian
+HALF = (
+    rf"(?:[AaPp]\.?{BLANK}?[Mm]\.?|(?:[Vv]orm(?:ittags)?|[Nn]achm(?:ittags)?|[Dd]op|[Oo]dp)(?:\.|(?!\w))|(?:de|du)\.)"
+)
 _BEFORE = "|".join((*_FORENOON, *_AFTERNOON))
 # hours to seconds; more digits than nanoseconds are cut
 CLOCK = (

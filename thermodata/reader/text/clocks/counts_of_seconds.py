@@ -10,6 +10,7 @@ import numpy as np
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.open_questions import UNKNOWN
+from thermodata.reader.since import leaves_leaps_open
 from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
 
 _SCALES = {
@@ -23,6 +24,11 @@ _FROM_START_S = 2.8e8  # nine years: a control that ran for so long had its upda
 _FIRST, _LAST = np.datetime64("2010-01-01"), np.datetime64("2040-01-01")  # when what is so large is likely logged
 
 
+def names_scale(name: str) -> bool:
+    """Whether a name hints at a scale."""
+    return _HINT.search(name) is not None
+
+
 def scale_question(
     name: str,
     values: Array,
@@ -34,9 +40,10 @@ def scale_question(
     """Asks whether times are of the scale that their name hints at; None where it hints at none, or they are of no year
     in it, or where their unit says what they count from. column: its number, from 1, where its name does not tell it
     for a time. hint: what else of the file names a scale, in place of the name."""
-    match = _HINT.search(name if hint is None else hint)
+    open_in = next((text for text in (unit, name) if text is not None and leaves_leaps_open(text)), None)
+    match = _HINT.search(name if hint is None else hint) or _HINT.search(open_in or "")
     values = values[np.isfinite(values)]
-    if match is None or not values.size or (unit is not None and known_unit(unit) in EPOCHS):
+    if match is None or not values.size or (open_in is None and unit is not None and known_unit(unit) in EPOCHS):
         return None
     word = (match["scale"] or match["begins"]).lower()
     scale = "tai" if word == "ptp" else word
@@ -109,7 +116,7 @@ def far_question(name: str, values: Array, unit: str, where: str) -> QuestionErr
 def ask_what_counts(name: str, values: Array, unit: str | None, where: str) -> None:
     """Raises the question of what times count from, where one is open. unit: what the file says, None where nothing."""
     known = None if unit is None else known_unit(unit)
-    if (asked := scale_question(name, values, where, unit=known)) is not None:
+    if (asked := scale_question(name, values, where, unit=unit)) is not None:
         raise asked
     if known is not None and (asked := far_question(name, values, known, where)) is not None:
         raise asked

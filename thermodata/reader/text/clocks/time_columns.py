@@ -20,6 +20,7 @@ from thermodata.reader.text.clocks.time_questions import (
     no_time,
     of_day_question,
     time_question,
+    weeks_question,
     without_word,
     worded_time,
     zone_question,
@@ -27,7 +28,7 @@ from thermodata.reader.text.clocks.time_questions import (
 from thermodata.reader.text.clocks.unit_of_numbers import unit_of_numbers
 from thermodata.reader.text.clocks.zoned_beside import beside_note, zoned_beside
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.text.names.time_header import is_time_header, since_midnight
 from thermodata.reader.text.times.clock_numbers import columns_of_clock
 from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.date_parts import find_parts
@@ -100,7 +101,8 @@ def time_of(
         open_part: ThermodataError | None = None
         if not told and not likely:
             open_part = (
-                joined_question(columns, names, data, where)
+                weeks_question(columns, names, data, where)
+                or joined_question(columns, names, data, where)
                 or clock_question(columns, names, data, where)
                 or part_question(columns, names, data, where)
                 or _fraction_beside(columns, names, data, where)
@@ -114,7 +116,7 @@ def time_of(
         notes += [*beside_note(columns[0], names, data), *interval_note(columns, names, data)]
     name = names[columns[0]]
     if form is None and unit is None and len(columns) == 1:
-        form = said_clock(name, units[columns[0]], cells)
+        form = said_clock(name, units[columns[0]], cells) or (since_midnight(name) if numeric else None)
     if form is not None or (not numeric and unit is None):
         return columns, None, form, notes
     known, more = unit_of_numbers(columns[0], names, units, data, unit, where)

@@ -17,11 +17,13 @@ from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
 from thermodata.reader.text.clocks.counts_of_days import count_question, excel_or_question, may_be_excel
 from thermodata.reader.text.names.time_header import is_time_header
 from thermodata.reader.text.times.clock_numbers import days_beside, fraction_question, year_and_day
+from thermodata.reader.text.times.date_parts import declared_parts
+from thermodata.reader.text.times.gps_weeks import find_weeks
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
 
 _ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
-_COUNTERS = {"millis": "ms", "micros": "us"}
+COUNTERS = {"millis": "ms", "micros": "us"}  # by the names that an Arduino has for them
 _FEWEST_ROWS = 10  # of a table whose period is asked for: less is a list of anything
 ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one then
 
@@ -29,6 +31,8 @@ ZONED_ROWS = 40  # of its beginning and its end, for the zone may be another one
 def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionError | None:
     """What to ask of a table in which `find_time` finds none: how the times are written in a column that is called so,
     else the time from row to row. None where it is no table of numbers."""
+    if (weeks := weeks_question((), names, data, where)) is not None:
+        return weeks
     worded = worded_time(names, data)
     if worded is None and (days := year_and_day(names, data)) is not None:
         return _format_question(days[0], names, days[1], " ".join(str(data[0][i]) for i in days[0]), where)
@@ -36,6 +40,35 @@ def no_time(names: list[str], data: list[list[Cell]], where: str) -> QuestionErr
         return time_question(names, data, where)
     place, words = worded
     return _format_question((place,), names, guess_format(words), words[0], where)
+
+
+def weeks_question(
+    columns: tuple[int, ...], names: list[str], data: list[list[Cell]], where: str
+) -> QuestionError | None:
+    """What to ask of a week of GPS and the seconds in it, which may have been found for the time (`columns`) or not;
+    None where there are none, or another time is there."""
+    found = find_weeks(names, data)
+    if found is None or not set(columns) <= set(found[0]):
+        return None
+    places, form = found
+    row = next(r for r in data if all(is_number(r[i]) for i in places))
+    got = " ".join(str(row[i]).strip() for i in places)
+    (reading, *_) = declared_parts(form, 2)
+    assert reading.reads is not None
+    at = str(np.datetime64(reading.reads(got) // 10**9, "s")).replace("T", " ")
+    said = {"time": {"column": [i + 1 for i in places], "format": form}}
+    return QuestionError(
+        "times in weeks of GPS",
+        where=where,
+        expected="a date and a time of day, or how they are counted",
+        got=got,
+        hint=f"declare table: {{time: {{column: {said['time']['column']}, format: '{form}'}}}}",
+        times=[names[i] for i in places],
+        ask=f"format of the times: are '{names[places[0]]}' and '{names[places[1]]}' a week of GPS and the time in it "
+        f"({form})? '{got}' is {at} UTC then",
+        declare=said,
+        meanwhile=said,
+    )
 
 
 def worded_time(names: list[str], data: list[list[Cell]]) -> tuple[int, list[str]] | None:
@@ -78,7 +111,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
     rolls = rising is not None and float(rising.max()) > max(number_of(r[place]) or 0.0 for r in data)
     epoch = None if rising is None or rolls else found_epoch(rising) or ("excel" if may_be_excel(rising) else None)
     low = names[place].strip().lower().removesuffix("()")
-    unit = epoch or _COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
+    unit = epoch or COUNTERS.get(low) or (low if low in SECONDS else "ms" if rolls else "s")
     also = ", which begins anew behind 2^32" if rolls else ""
     column = "{column: 1, unit: s}" if rising is None else f"{{column: {place + 1}, unit: {unit}}}"
     then = f"time: {column}" + (", and clock: {resets: allow} beside table" if rolls else "")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from thermodata.reader.since import since
+from thermodata.reader.since import count_in
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.time_units import EPOCHS, SECONDS, known_unit
@@ -14,6 +14,12 @@ _UNIT_BEHIND = re.compile(
 )
 _FIRST_WORD = re.compile(r"^[^\W\d_]+")
 _BRACKETS = re.compile(r"^(?P<name>.*\S)\s*[(\[](?P<unit>[^()\[\]]+)[)\]]$")
+_SECONDS = r"s|secs?|seconds?|sekunden|ms|millis(?:econds?)?|millisekunden"
+_OF_DAY = re.compile(
+    rf"(?i)(?<![^\W_])(?:(?P<unit>{_SECONDS}|minutes?|minuten|hours|stunden)[ _]?"
+    r"(?:since|after|past|from|seit|nach)[ _](?:last[ _])?(?:midnight|mitternacht|0?0:00)|"
+    rf"(?P<of>{_SECONDS})[ _]of[ _](?:the[ _])?day)(?![^\W_])"
+)
 _MARK = re.compile(r"^\s*[#%;]+\s*")  # of a comment that holds the header
 
 
@@ -33,11 +39,24 @@ def unit_of_time(header: str, unit: str | None = None) -> str | None:
 
 def is_time_header(header: str, unit: str | None = None) -> bool:
     """Whether a header says that its column is the time: by its word, or by a unit of time behind that."""
+    if since_midnight(header) is not None:
+        return True
     name, own = _split(header)
     name = _MARK.sub("", name).strip()
     if unit is not None and unit_of_time(header, unit) is None:
         return False
     return TIME_WORD.match(name) is not None or (own is None and unit_of_time(header) is not None)
+
+
+def since_midnight(header: str) -> str | None:
+    """'s since midnight' of a header that says such a count in words: numbers that tell the time of day. None of
+    others."""
+    match = _OF_DAY.search(header)
+    if match is None:
+        return None
+    word = (match["unit"] or match["of"]).lower()
+    each = SECONDS["ms"] if word.startswith("milli") else SECONDS[word]
+    return next((f"{unit} since midnight" for unit in ("s", "ms", "min", "h") if SECONDS[unit] == each), None)
 
 
 def says_time(cell: str) -> bool:
@@ -51,8 +70,8 @@ def says_time(cell: str) -> bool:
 
 def _split(header: str) -> tuple[str, str | None]:
     """(name, unit or None), a count from a date as a unit, too: 'Timestamp (OADate)'."""
-    if (stated := since(header)) is not None:  # 'seconds since 2000-01-01', 't [s since 1900-01-01]'
-        return "time", stated[1].unit(stated[0])
+    if (stated := count_in(header)) is not None:  # 'seconds since 2000-01-01', 't [s since 1900-01-01]'
+        return "time", stated
     name, unit = split_unit(header)
     match = _BRACKETS.match(name.strip()) if unit is None else None
     return (match["name"], match["unit"]) if match and known_unit(match["unit"]) in EPOCHS else (name, unit)

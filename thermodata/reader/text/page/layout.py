@@ -12,12 +12,14 @@ from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.clocks.time_columns import column, time_of
 from thermodata.reader.text.clocks.time_groups import Span, spans
+from thermodata.reader.text.names.before_values import names_before_values
 from thermodata.reader.text.names.declared_names import declared_names, unused_note
 from thermodata.reader.text.names.described import descriptions
 from thermodata.reader.text.names.header import split_unit, unique
 from thermodata.reader.text.names.header_rows import are_numbers, names_and_units, texts_of
 from thermodata.reader.text.page.first_data import first_data, width_of
 from thermodata.reader.text.page.from_epoch import answer_of, from_epoch, stated_epoch
+from thermodata.reader.text.page.from_start import with_start
 from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.line_up import Fit, line_up
 from thermodata.reader.text.page.lines_between import lines_between
@@ -102,6 +104,9 @@ def find(
     if between is not None and said.get("names") is None:
         refuse_units_misfit(above, width, row_of_units, skip, between, where)
     heads, units, over = names_and_units([r[:width] for r in above], width, row_of_units)
+    worded = names_before_values(heads, below) if said.get("names") is None and not any(units) else {}
+    heads = [worded.get(i, head) for i, head in enumerate(heads)]
+    units = [split_unit(worded[i])[1] if i in worded else unit for i, unit in enumerate(units)]
     unused = None
     if said.get("names") is not None and list(said["names"]) != heads:
         unused = unused_note(heads, below)
@@ -114,8 +119,7 @@ def find(
     data = _whole_rows(below, width)
     if not data:
         raise FormatError("a table without data rows", where=where, expected=f"data after row {first}")
-    asked = between is not None
-    lost = lines_between(above, width, skip, names, units, where, asked) if header is None else []
+    lost = lines_between(above, width, skip, names, units, where, between is not None) if header is None else []
     stated = stated_epoch(said.get("time"), map(texts_of, above))
     try:
         groups, notes = _groups(said.get("time") or {}, names, units, data, where)
@@ -124,12 +128,19 @@ def find(
     except QuestionError as question:
         answer = None if stated is None else answer_of(stated, names, units, data)
         if stated is None or answer is None:
-            raise with_interval(question, map(texts_of, above)) from None
+            asked = with_interval(question, map(texts_of, above))
+            raise with_start(asked, names, data, map(texts_of, above)) from None
         groups, notes = _groups(answer, names, units, data, where)
         notes = [*notes, stated.note(answer["unit"])]
     time = groups[0].time[:1] if not said.get("time") and len(groups) == 1 else ()
     against = [against_interval(names[i], [r[i] for r in data], groups[0].seconds, map(texts_of, above)) for i in time]
-    noted = (*notes, *lost, *(note for note in (fit.note if fit else None, lacking, unused, *against) if note))
+    by_words = [f"columns are called by the words before their values: {', '.join(worded.values())}"] if worded else []
+    noted = (
+        *notes,
+        *lost,
+        *by_words,
+        *(note for note in (fit.note if fit else None, lacking, unused, *against) if note),
+    )
     return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
 
 

@@ -7,8 +7,9 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from thermodata.reader.since import Zero, moment_in, since
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.plugin import Array
+from thermodata.reader.since import Zero, leaping, moment_in, since
+from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
 
 _MARKS = "#%;*'\"/!<> \t"
 _LABEL = re.compile(
@@ -17,11 +18,6 @@ _LABEL = re.compile(
     r"(?P<value>\S.*)$"
 )
 _SCALE = re.compile(r"(?i)^(?P<scale>gps|tai|ntp|unix|posix|labview)\b")
-# scales that count leap seconds, and where they begin; clocks that go by PTP count these or UTC
-PTP = "ptp"
-_LEAPING = re.compile(r"(?i)(?<![a-z])(?:(?P<tai>tai)|(?P<gps>gps)|(?P<ptp>ptp))(?![a-z])")
-_ZERO_S = {"tai": 0, "gps": 315_964_800, PTP: 0}
-_UTC = re.compile(r"(?i)(?<![a-z])(?:utc|gmt|unix|posix)(?![a-z])|\d\s*z(?![a-z])")
 _PLAIN = frozenset({"s", "min", "h", "d", "ms", "us", "ns"})
 _BEHIND = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}
 
@@ -45,8 +41,15 @@ class SaidEpoch:
             return self.zero.unit(own)
         return f"{self.scale}{_BEHIND[own]}" if own in _BEHIND and f"{self.scale}{_BEHIND[own]}" in EPOCHS else None
 
-    def note(self, unit: str) -> str:
-        return f"times count from a date by a line above the rows: '{self.line[:60]}' ({unit})"
+    def fitting(self, unit: str | None, values: Array) -> str | None:
+        """The same for times, shape (n,), that are of a year then that is logged; where nothing names their unit, in
+        seconds, or else in the only one in which they are."""
+        tried = [unit] if unit is not None or self.unit is not None else ["s", *sorted(_PLAIN - {"s"})]
+        found = [full for one in tried if (full := self.of(one)) is not None and is_logged(values, full)]
+        return found[0] if len(found) == 1 or (found and found[0] == self.of("s")) else None
+
+    def note(self, unit: str, by: str = "a line above the rows") -> str:
+        return f"times count from a date by {by}: '{self.line[:60]}' ({unit})"
 
     def not_used(self) -> str:
         return (
@@ -60,32 +63,25 @@ def epoch_said(lines: Iterable[Sequence[str]]) -> SaidEpoch | None:
     several things."""
     found: list[SaidEpoch] = []
     for cells in lines:
-        text = " ".join(" ".join(cells).strip(_MARKS).split())
-        if len(text) > 200 or (said := _said(text)) is None:
-            continue
-        found.append(said)
+        filled = [c for c in cells if c.strip(_MARKS)]
+        label = ": " if len(filled) == 2 and not filled[0].rstrip().endswith((":", "=")) else " "
+        text = " ".join(label.join(filled).strip(_MARKS).split())
+        if len(text) <= 200 and (said := _said(text)) is not None:
+            found.append(said)
     return found[0] if len({(s.unit, s.zero, s.scale) for s in found}) == 1 else None
 
 
 def _said(text: str) -> SaidEpoch | None:
     if (counted := since(text)) is not None:
-        leaping = _leaping(text, counted[1])
-        return SaidEpoch(*counted, "", text) if leaping is None else SaidEpoch(counted[0], None, leaping, text)
+        scale = leaping(text, counted[1])
+        return SaidEpoch(*counted, "", text) if scale is None else SaidEpoch(counted[0], None, scale, text)
     match = _LABEL.match(text)
     if match is None:
         return None
     if (zero := moment_in(match["value"])) is not None:
         return SaidEpoch(None, zero, "", text)
-    scale = _SCALE.match(match["value"])
-    return None if scale is None else SaidEpoch(None, None, scale["scale"].lower(), text)
-
-
-def _leaping(text: str, zero: Zero) -> str | None:
-    """'tai' of 'PTP (TAI), ns since 1970-01-01': the scale with leap seconds that a count from its zero is said to be
-    of; None where the text says UTC, too, or another zero."""
-    named = {str(m.lastgroup) for m in _LEAPING.finditer(text)}
-    fitting = [scale for scale in _ZERO_S if scale in named and _ZERO_S[scale] == zero.zero_s]
-    return fitting[0] if fitting and _UTC.search(text) is None else None
+    named = _SCALE.match(match["value"])
+    return None if named is None else SaidEpoch(None, None, named["scale"].lower(), text)
 
 
 def _plain(unit: str) -> str | None:

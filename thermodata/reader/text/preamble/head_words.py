@@ -35,7 +35,8 @@ _RECORDED = (
     "misurazioni acquisizione registrazione prova mesure enregistrement essai medición medicion medida adquisición "
     "adquisicion registro "
     "ensayo medição aquisição měření mereni záznam zaznam záznamu zkouška měřeno pomiar pomiaru rejestracja "
-    "rejestracji mérés meting 測定 測定日時 測定日 計測日時 记录时间 测量时间 测试时间 采集时间 試験日"
+    "rejestracji mérés meting boot booted bootup boottime bootzeit hochgefahren eingeschaltet einschaltzeit neustart "
+    "測定 測定日時 測定日 計測日時 记录时间 测量时间 测试时间 采集时间 試験日"
 )
 _BARE = (
     "date time datetime timestamp day datum zeit uhrzeit zeitpunkt zeitstempel data ora orario heure horodatage "

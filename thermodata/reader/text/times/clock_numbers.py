@@ -3,6 +3,7 @@ year (Campbell's `Year, DOY, HHMM`, also without a header). Read cell by cell, e
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from datetime import date
 from functools import partial
@@ -14,9 +15,13 @@ from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.cells.joined_clock import read_joined
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.text.names.header import split_unit
+from thermodata.reader.text.names.time_header import since_midnight
 from thermodata.reader.zone import NAT
 
 _UNITS = {"H": DAY_NS // 24, "M": DAY_NS // 1440, "S": DAY_NS // 86400, "": DAY_NS}
+_SINCE_MIDNIGHT, _MOST_DAYS = "since midnight", 1000
+_OF_MIDNIGHT = {"s": 10**9, "ms": 10**6, "min": 60 * 10**9, "h": 3600 * 10**9}
+_NUMBER = re.compile(r"\s*(?P<H>[\d.,eE+ ]+)\s*")
 _MOST = {"H": 24.0, "M": 60.0, "S": 61.0, "": 1.0}
 _WORDS = {
     letter: words.split()
@@ -34,6 +39,8 @@ def clock_of_numbers(name: str, cells: Sequence[Cell]) -> TimeFormat | None:
     full = [c for c in cells if not is_empty(c)]
     if not full or not mostly(full, is_number, 0.9, len(full)):
         return None
+    if (of_day := since_midnight_format(since_midnight(name))) is not None:
+        return of_day
     word = split_unit(name)[0].strip(" #.:_").casefold()
     letter = next((k for k, words in _WORDS.items() if word in words), "")
     values = [v for c in full if (v := number_of(c)) is not None]
@@ -43,8 +50,25 @@ def clock_of_numbers(name: str, cells: Sequence[Cell]) -> TimeFormat | None:
     return TimeFormat("time", None, text, zoned=False, reads=partial(_counted, _UNITS[letter], _MOST[letter]))
 
 
+def since_midnight_format(declared: str | None) -> TimeFormat | None:
+    """How numbers read that are declared as 's since midnight', or in ms, min or h: as times of day. None of others."""
+    unit, _, what = (declared or "").partition(" ")
+    if what != _SINCE_MIDNIGHT or unit not in _OF_MIDNIGHT:
+        return None
+    # which is of a time of day, whatever reads it
+    return TimeFormat("time", _NUMBER, f"{unit} since midnight", reads=partial(_since_midnight, _OF_MIDNIGHT[unit]))
+
+
+def _since_midnight(unit_ns: int, cell: str) -> int:
+    value = number_of(cell) if is_number(cell) else None
+    return NAT if value is None or not 0 <= value * unit_ns < _MOST_DAYS * DAY_NS else round(value * unit_ns)
+
+
 def columns_of_clock(day: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
     """The columns behind a date that are called hour, minute and second and hold such numbers."""
+    behind = [r[day + 1] for r in data] if day + 1 < len(names) and since_midnight(names[day + 1]) else []
+    if behind and clock_of_numbers(names[day + 1], behind) is not None:
+        return (day + 1,)
     found: tuple[int, ...] = ()
     for letter, place in zip("HMS", range(day + 1, len(names)), strict=False):
         word = split_unit(names[place])[0].strip(" #.:_").casefold()

@@ -22,6 +22,7 @@ from thermodata.reader.text.cells.time_pattern import MILLISECONDS, TIME_OF_DAY,
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_numbers import days_of_years
+from thermodata.reader.text.times.gps_weeks import reads_weeks
 from thermodata.reader.zone import NAT
 
 _WORDS = {
@@ -132,10 +133,14 @@ def declared_parts(declared: str | None, columns: int) -> tuple[TimeFormat, ...]
     """The formats of the columns of a date in parts: that of all parts, and `PART` for the others; () where a declared
     format is none of parts, or has more of them than there are columns."""
     pieces = (declared or "").split()
-    if len(pieces) == columns > 1 and (reads := days_of_years(pieces)) is not None:
-        form = TimeFormat(
-            "datetime", None, f"{declared} in {columns} columns", zoned=False, columns=columns, reads=reads
-        )
+    if len(pieces) == columns > 1:
+        weeks = reads_weeks(pieces)  # which are in UTC
+        reads = weeks or days_of_years(pieces)
+    else:
+        weeks = reads = None
+    if reads is not None:
+        text = f"{declared} in {columns} columns"
+        form = TimeFormat("datetime", None, text, zoned=weeks is not None, columns=columns, reads=reads)
         return (form, *[PART] * (columns - 1))
     letters = [p[1:] for p in pieces if p[:1] == "%" and p[1:] in _PIECES]
     if len(letters) != len(pieces) or len(pieces) < 3 or len(pieces) > columns or columns == 1:

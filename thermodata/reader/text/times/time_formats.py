@@ -28,7 +28,7 @@ from thermodata.reader.text.cells.time_pattern import (
 )
 from thermodata.reader.text.times import time_cells, timestamp
 from thermodata.reader.text.times.clock_letters import refuse_unread, with_clock
-from thermodata.reader.text.times.clock_numbers import clock_of_numbers
+from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_midnight_format
 from thermodata.reader.text.times.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.times.date_parts import PART, declared_parts
 from thermodata.reader.text.times.spans import SPAN, are_spans
@@ -70,6 +70,8 @@ def find_formats(
     """
     if declared == UNKNOWN:
         raise unanswered("time.format", f"{', '.join((*_ORDERS, *CLOCKS))}, or strptime's letters", where)
+    if (of_day := since_midnight_format(declared)) is not None and len(columns) == 1:
+        return (of_day,)
     order = declared if declared in _ORDERS else None
     clock = declared if declared in CLOCKS else None
     if declared is None and len(columns) == 1:

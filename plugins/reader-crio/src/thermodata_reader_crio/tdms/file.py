@@ -72,6 +72,6 @@ def _opened(path: Path, source: Source, sheet: int | str | None) -> File:
             where=path.name,
             expected="channels with raw data",
             got=f"{index.segments} segments, {len(index.properties)} objects",
-            hint=index.damage or next(iter(partly), None),
+            hint=index.damage or next(iter([*partly, *notes]), None),
         )
     return File(index, tuple(found), tuple(notes), tuple(partly))

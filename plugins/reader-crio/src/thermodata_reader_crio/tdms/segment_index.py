@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from thermodata_reader_crio.tdms.chunk_layout import Layout
 
-CLOCK = ("wf_start_time", "wf_start_offset", "wf_increment", "wf_xunit_string")
+CLOCK = ("wf_start_time", "wf_start_offset", "wf_increment", "wf_xunit_string", "wf_xname")
 
 
 class Shape(NamedTuple):

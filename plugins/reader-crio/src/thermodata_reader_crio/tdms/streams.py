@@ -12,8 +12,8 @@ from thermodata.plugin import Array, Bool1D, Int1D, Source
 from thermodata_reader_crio.tdms.channel_clock import counted_clock
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.segment_index import Index
-from thermodata_reader_crio.tdms.time_channel import TimeChannel, is_time, time_channel
-from thermodata_reader_crio.tdms.waveform_clock import Clock
+from thermodata_reader_crio.tdms.time_channel import TimeChannel, time_channel, time_channels
+from thermodata_reader_crio.tdms.waveform_clock import Clock, runs_over
 
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
@@ -69,18 +69,25 @@ def streams_of(
     that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    clocks = [c for c in filled if c.clock is None and is_time(c, source, file)]
+    clocks = time_channels(filled, source, file)
     apart = set(map(id, clocks))
     late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
     used: set[int] = set()
     step = _seconds(source.options.get("increment"))
+    if step is None:
+        for c in filled:
+            over = runs_over(c.signal.properties) if c.clock is None and id(c) not in apart else None
+            if over is not None and not any(_same_rows(time, c, index) for time in clocks):
+                notes.append(f"{c.signal.name}: stands over {over}, not over time; left out")
+                apart.add(id(c))
+    above = [index.properties.get(path, {}) for path in (_path_above(filled), "/")]
     for part in _parts([c for c in filled if id(c) not in apart], index):
         time = None if part[0].clock is not None else next((c for c in clocks if _same_rows(c, part[0], index)), None)
         name = _name(group, taken)
         own = tuple([c.in_stream(name) for c in part])
         if time is not None:
             used.add(id(time))
-            yield Stream(name, own, None, time_channel(time, file, source, notes))
+            yield Stream(name, own, None, time_channel(time, file, source, notes, above))
             continue
         clock = part[0].clock
         if clock is None:
@@ -102,7 +109,7 @@ def streams_of(
         # a time channel beside waveforms is a signal like any other
         if id(c) not in used:
             name = _name(group, taken)
-            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, source, notes))
+            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, source, notes, above))
 
 
 def _name(group: str, taken: dict[str, int]) -> str:
@@ -161,6 +168,11 @@ def _same_rows(a: Channel, b: Channel, index: Index) -> bool:
     if index.damage is None:
         return False
     return a.planned == b.planned or abs(a.length - b.length) <= max(a.last_run, b.last_run)
+
+
+def _path_above(members: list[Channel]) -> str:
+    """The path of the group that channels stand in, as the file has it."""
+    return members[0].columns[0].path.rpartition("/")[0] if members else ""
 
 
 def _seconds(step: Any) -> float | None:

@@ -1,121 +1,171 @@
-"""Channels that hold the time: timestamps, seconds from the start, or seconds since 1904 or 1970."""
+"""Channels that hold the time: timestamps, seconds from the start, or seconds from a date that the file states."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 
-from thermodata.plugin import Array, Bool1D, Int1D, Source
+from thermodata.plugin import Array, Bool1D, Float1D, Int1D, Source
+from thermodata.reader.since import count_in
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.cell import is_dated, mostly
+from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts, names_scale, scale_question
 from thermodata.reader.text.clocks.time_groups import one_time
-from thermodata.reader.text.times.in_memory import Stamps, times_of_texts
+from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.page.counted_from import counted_from
+from thermodata.reader.text.times.in_memory import Stamps, times_of_numbers, times_of_texts
+from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, known_unit
 from thermodata.reader.zone import NAT
-from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
+from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.raw_values import read
 
 # "t" is a time, "T" a temperature
 _TIME_NAME = re.compile(r"^(t|(?i:time|zeit|čas|cas|time ?stamp|elapsed( time)?|x_?value|uhrzeit|时间|時間))$")
 _LOOKED_AT = 100  # rows of a channel of text
-_SECONDS = {
-    "s": 1.0,
-    "sec": 1.0,
-    "seconds": 1.0,
-    "min": 60.0,
-    "h": 3600.0,
-    "ms": 1e-3,
-    "us": 1e-6,
-    "µs": 1e-6,
-    "μs": 1e-6,
-    "ns": 1e-9,
-}
 
 
 @dataclass(frozen=True, eq=False)
 class TimeChannel:
-    """seconds: one unit of the channel, None for timestamps; epoch_ns: of its zero, None where it counts from the
-    recording's start. told: the times of all rows where it holds text."""
+    """unit: in which the channel counts, from a date or from the recording's start; None for timestamps. told: the
+    times of all rows where it holds text, or counts in the time of the place."""
 
     channel: Channel
-    seconds: float | None
-    epoch_ns: int | None
+    unit: str | None
     told: Stamps | None = None
 
     @property
     def absolute(self) -> bool:
         """Whether its times are since 1970 UTC, not since the start."""
-        return self.epoch_ns is not None if self.told is None else self.told.absolute
+        return self.unit is None or self.unit in EPOCHS if self.told is None else self.told.absolute
 
     def times(self, values: Array, first: int) -> tuple[Int1D, Bool1D]:
         """(nanoseconds, whether there is a time at all) of the channel's values from a row on, shape (n,)."""
         if self.told is not None:
             t = self.told.t_ns[first : first + len(values)]
-            return np.where(t == NAT, 0, t), t != NAT
-        if self.seconds is None:
+        elif self.unit is None:
             t = values.astype(np.int64)
             return t, np.abs(t) < LAST_NS
-        v = values.astype(np.float64)
-        offset = self.epoch_ns or 0
-        good = np.isfinite(v) & (np.abs(v) * self.seconds < (LAST_NS - abs(offset)) / 1e9)
-        whole = np.floor(np.where(good, v, 0.0))
-        # whole seconds and the rest apart: 3.9e9 s with microseconds is at the end of what a double holds
-        if self.seconds == 1.0:
-            rest = np.rint((np.where(good, v, 0.0) - whole) * 1e9)
-            return whole.astype(np.int64) * 1_000_000_000 + rest.astype(np.int64) + offset, good
-        return np.rint(np.where(good, v, 0.0) * (self.seconds * 1e9)).astype(np.int64) + offset, good
+        else:
+            t = times_of_numbers(values, self.unit, None).t_ns
+        good = (t != NAT) & (np.abs(t) < LAST_NS)
+        return np.where(good, t, 0), good
 
 
-def is_time(channel: Channel, source: Source, file: BinaryIO) -> bool:
+def time_channels(members: Sequence[Channel], source: Source, file: BinaryIO) -> list[Channel]:
+    """Those of a group's channels that hold the time of their neighbours; where none is called a time, and nothing else
+    dates the group, the ones whose name hints at the scale that they count by."""
+    bare = [c for c in members if c.clock is None]
+    found = [c for c in bare if _is_time(c, source, file)]
+    if found or len(bare) < len(members) or _declared(source, "column") is not None:
+        return found
+    return [c for c in bare if _is_number(c) and _hints_at_scale(c, file)]
+
+
+def _declared(source: Source, key: str) -> Any:
+    """What is declared of the time: under `table`, or its channel under `options`."""
+    said = one_time(source.table, "table").get(key)
+    return source.options.get("time", said) if key == "column" else said
+
+
+def _is_time(channel: Channel, source: Source, file: BinaryIO) -> bool:
     """Whether a channel holds the time of its neighbours: declared, of timestamps, or by its name and unit; where it
     holds text, by its name and first values."""
-    wanted = source.options.get("time")
+    wanted = _declared(source, "column")
     if wanted is not None:
         return wanted in (channel.signal.name, channel.short)
     if channel.is_timestamp:
         return True
     if channel.signal.dtype == "str":
         return _TIME_NAME.match(split_unit(channel.short)[0]) is not None and _are_dates(channel, file)
-    return (
-        channel.signal.dtype not in ("str", "bool")
-        and channel.signal.scaling is None
-        and channel.joined_by is None
-        and _TIME_NAME.match(split_unit(channel.short)[0]) is not None
-        and _unit_seconds(channel) is not None
-    )
+    if not _is_number(channel):
+        return False
+    unit, own = channel.signal.unit, split_unit(channel.short)[1]
+    if _TIME_NAME.match(split_unit(channel.short)[0]) is not None:
+        return known_unit(unit or own or "s") is not None
+    return unit_of_time(channel.short, unit) is not None and is_time_header(channel.short, unit)
 
 
-def time_channel(channel: Channel, file: BinaryIO, source: Source, notes: list[str]) -> TimeChannel:
-    """What a time channel counts in, by its unit and its first values. FormatError, QuestionError: it holds text that
-    is no time, or one that may be read in several ways."""
+def _is_number(channel: Channel) -> bool:
+    kind = channel.signal
+    return kind.dtype not in ("str", "bool") and kind.scaling is None and channel.joined_by is None
+
+
+def _first(channel: Channel, file: BinaryIO) -> Float1D:
+    found = read(file, list(channel.columns), 0, min(_LOOKED_AT, channel.length))[0].astype(np.float64)
+    return found[np.isfinite(found)]
+
+
+def _hints_at_scale(channel: Channel, file: BinaryIO) -> bool:
+    first = _first(channel, file) if names_scale(channel.short) else np.zeros(0)
+    return bool((np.diff(first) > 0).all()) and scale_question(channel.short, first, "") is not None
+
+
+def time_channel(
+    channel: Channel, file: BinaryIO, source: Source, notes: list[str], above: Sequence[Mapping[str, Any]]
+) -> TimeChannel:
+    """What a time channel counts in, by its unit, by what it, its group or the file (`above`) says, and by its first
+    values. FormatError, QuestionError: it holds text that is no time, or one that may be read in several ways, or it is
+    open what it counts from."""
     if channel.is_timestamp:
-        return TimeChannel(channel, None, 0)
+        return TimeChannel(channel, None)
+    name = channel.signal.name
     if channel.signal.dtype == "str":
-        form = one_time(source.table, channel.signal.name).get("format")
         cells = [str(c).strip() for c in read(file, list(channel.columns), 0, channel.length)[0]]
-        told = times_of_texts(cells, source.timezone, form, channel.signal.name)
-        notes.extend(n for n in told.notes if n not in notes)
-        return TimeChannel(channel, None, None, told)
-    seconds = _unit_seconds(channel) or 1.0
-    first = read(file, list(channel.columns), 0, min(100, channel.length))[0].astype(np.float64) * seconds
-    first = first[np.isfinite(first)]
-    if first.size and LABVIEW_SECONDS[0] <= first.min() and first.max() <= LABVIEW_SECONDS[1]:
-        notes.append(f"{channel.signal.name}: its values are taken as seconds since 1904 UTC, as LabVIEW counts")
-        return TimeChannel(channel, seconds, EPOCH_1904_NS)
-    if first.size and UNIX_SECONDS[0] <= first.min() and first.max() <= UNIX_SECONDS[1]:
-        notes.append(f"{channel.signal.name}: its values are taken as seconds since 1970 UTC")
-        return TimeChannel(channel, seconds, 0)
-    return TimeChannel(channel, seconds, None)
+        told = times_of_texts(cells, source.timezone, _declared(source, "format"), name)
+    else:
+        unit = _unit_of(channel, file, _declared(source, "unit"), notes, above)
+        if unit not in EPOCHS or not EPOCHS[unit].local:
+            return TimeChannel(channel, unit)
+        values = read(file, list(channel.columns), 0, channel.length)[0]
+        told = times_of_numbers(values, unit, source.timezone)
+    notes.extend(n for n in told.notes if n not in notes)
+    return TimeChannel(channel, None, told)
+
+
+def _unit_of(
+    channel: Channel, file: BinaryIO, declared: str | None, notes: list[str], above: Sequence[Mapping[str, Any]]
+) -> str:
+    name, short = channel.signal.name, channel.short
+    if declared is not None:
+        return check_unit(str(declared), name)
+    said = channel.signal.unit or split_unit(short)[1]
+    written = next((text for text in (said, short) if text and (text is said or count_in(text))), None)
+    written = written if written is not None and known_unit(written) is not None else unit_of_time(short)
+    first = _first(channel, file)
+    layers = [{k: str(v) for k, v in layer.items()} for layer in (channel.signal.properties, *above)]
+    stated, told = counted_from(short, first, written or "s", layers, name)
+    notes.extend(told)
+    if stated is not None:
+        return stated
+    if (asked := scale_question(short, first, name, unit=written)) is not None:
+        raise asked
+    known = known_unit(written or "s") or "s"
+    if known in SECONDS and (epoch := _by_size(first * SECONDS[known], name, notes)) is not None:
+        return check_unit(f"{_plain(known)} since {epoch}", name)
+    ask_what_counts(short, first, written or "s", name)
+    return known
+
+
+def _by_size(first_s: Float1D, name: str, notes: list[str]) -> str | None:
+    """The year that seconds are counted from, where they can be of no other."""
+    for year, (low, high) in ((1904, LABVIEW_SECONDS), (1970, UNIX_SECONDS)):
+        if first_s.size and low <= first_s.min() and first_s.max() <= high:
+            as_labview = ", as LabVIEW counts" if year == 1904 else ""
+            notes.append(f"{name}: its values are taken as seconds since {year} UTC{as_labview}")
+            return f"{year}-01-01"
+    return None
+
+
+def _plain(unit: str) -> str:
+    """'s' of 'seconds'."""
+    return next(u for u in ("s", "min", "h", "d", "ms", "us", "ns") if SECONDS[u] == SECONDS[unit])
 
 
 def _are_dates(channel: Channel, file: BinaryIO) -> bool:
     cells = [str(c).strip() for c in read(file, list(channel.columns), 0, min(_LOOKED_AT, channel.length))[0]]
     return bool(cells) and mostly(cells, is_dated, 0.8, len(cells))
-
-
-def _unit_seconds(channel: Channel) -> float | None:
-    unit = channel.signal.unit or split_unit(channel.short)[1] or "s"
-    return _SECONDS.get(unit.strip().lower())

@@ -6,14 +6,18 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.time_units import SECONDS
+from thermodata.schema.quantity import converts, is_unit
 from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
 from thermodata_reader_crio.tdms.metadata import Timestamp
+
+_FREQUENCY = ("freq", "frekvenc", "fréq")  # the beginnings of its names, as LabVIEW calls the x of a spectrum
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +39,11 @@ class Waveform:
 
 
 def waveform(properties: Mapping[str, Any]) -> Waveform | None:
-    """A channel's waveform clock, or None where it has no usable increment."""
+    """A channel's waveform clock, or None where it has no usable increment, or does not run over time."""
     increment, unit_s = properties.get("wf_increment"), _unit_s(properties.get("wf_xunit_string"))
     if (
-        isinstance(increment, bool)
+        runs_over(properties) is not None
+        or isinstance(increment, bool)
         or not isinstance(increment, int | float)
         or not math.isfinite(increment)
         or not 1e-12 < increment < 1e9
@@ -54,6 +59,22 @@ def waveform(properties: Mapping[str, Any]) -> Waveform | None:
     )
     offset_ns = round(Fraction(repr(float(offset))) * unit_s * 1_000_000_000) if usable else 0
     return Waveform(start_ns, offset_ns, step_ns(float(increment)) * unit_s)
+
+
+def runs_over(properties: Mapping[str, Any]) -> str | None:
+    """What a waveform runs over that is no time: 'Hz' of a spectrum, 'mm' of a path; None where it is a time, or where
+    nothing says what it is."""
+    unit, name = (str(properties.get(key) or "").strip() for key in ("wf_xunit_string", "wf_xname"))
+    return _other_than_time(unit, name)
+
+
+@lru_cache(maxsize=256)
+def _other_than_time(unit: str, name: str) -> str | None:
+    if unit.lower() in SECONDS:
+        return None
+    if is_unit(unit):
+        return None if converts(unit, "s") else unit
+    return name if name.lower().startswith(_FREQUENCY) else None
 
 
 def _unit_s(text: Any) -> Fraction:

@@ -1,10 +1,12 @@
-"""Dates as MATLAB's `datevec` has them: a matrix of year, month, day, hour, minute and second in each row."""
+"""Dates in several columns: a matrix of year, month, day, hour, minute and second in each row, as MATLAB's `datevec`
+has them; a vector of weeks of GPS beside one of the times in them."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from thermodata.plugin import Array
+from thermodata.reader.text.times.gps_weeks import find_weeks, seconds_of_weeks
 from thermodata_reader_table.mat.stream_plan import LOOK, Plan, Scope, TimeVector, upwards
 from thermodata_reader_table.mat.tree import Numbers
 
@@ -24,6 +26,29 @@ def take_date_vectors(plan: Plan, scope: Scope) -> None:
         if dates is not None:
             scope.times.append(TimeVector(path, len(dates), texts=dates))
             scope.matrices.remove((path, node))
+
+
+def take_weeks(plan: Plan, scope: Scope) -> None:
+    """A vector of weeks of GPS and one of the times in them as one time, where nothing else is the time."""
+    names = [c.name.rsplit("/", 1)[-1] for c in scope.columns]
+    rows = max((c.length for c in scope.columns), default=0)
+    if plan.wanted is not None or any(level.times for level in upwards(scope)) or len(set(names)) < len(names):
+        return
+    first = [c.load(0, LOOK).tolist() if c.length == rows and c.dtype != "str" else [] for c in scope.columns]
+    whole = [k for k, cells in enumerate(first) if cells]
+    data = [list(row) for row in zip(*(first[k] for k in whole), strict=True)]
+    found = find_weeks([names[k] for k in whole], data)
+    if found is None:
+        return
+    (at, beside), form = found
+    week, in_week = scope.columns[whole[at]], scope.columns[whole[beside]]
+
+    def load(start: int, stop: int) -> Array:
+        return seconds_of_weeks(week.load(start, stop), in_week.load(start, stop), form)
+
+    scope.columns = [c for c in scope.columns if c not in (week, in_week)]
+    scope.times.append(TimeVector(week.name, rows, load, unit="gps"))
+    plan.notes.append(f"'{week.name}' and '{in_week.name}' are read as weeks of GPS and the times in them, in UTC")
 
 
 def dates_of(node: Numbers) -> tuple[str, ...] | None:

@@ -29,6 +29,7 @@ from thermodata_reader_table.mat.tree import (
 
 _NUMBERS = {"double": "float64", "single": "float32", "logical": "bool"}
 _NUMBERS |= {f"{sign}int{bits}": f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
+_MOST, _LONGEST = 100, 500  # attributes of an array, and letters of one
 _CACHE = 64 << 20  # a chunk is unpacked once, not once a block
 
 
@@ -214,7 +215,13 @@ def _numbers(item: Any, kind: str, where: str, spans: Spans) -> Node:
         raise ValueError("its values stand in another file")
     check_stored(item, kind, spans)
     turned = [1] * (2 - len(shape)) + shape
-    return Numbers(turned[-1], turned[-2], dtype, _loader(item, len(shape), dtype, where))
+    return Numbers(turned[-1], turned[-2], dtype, _loader(item, len(shape), dtype, where), _attributes(item))
+
+
+def _attributes(item: Any) -> dict[str, str]:
+    """Texts that another program than MATLAB put beside an array: {'units': 's since 1904-01-01'}."""
+    said = {str(key): item.attrs[key] for key in list(item.attrs)[:_MOST] if not str(key).startswith("MATLAB_")}
+    return {key: _text(v)[:_LONGEST] for key, v in said.items() if isinstance(v, str | bytes)}
 
 
 def _loader(item: Any, ndim: int, dtype: str, where: str) -> Callable[[int, int, int, int], Array]:

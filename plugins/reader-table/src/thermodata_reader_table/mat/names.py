@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
+from thermodata.reader.since import count_in
 from thermodata.reader.time_units import EPOCHS, SECONDS
 
 _TIME = {
@@ -185,6 +186,11 @@ def unit_of(name: str, known: Collection[str] = (), unit: str | None = None) -> 
     return None if names_time_unit(name, unit) or squeezed(other) in _GENERAL else str(other)
 
 
+def unit_among(said: Mapping[str, str]) -> str | None:
+    """The unit that attributes of an array say."""
+    return next((text for key, text in said.items() if squeezed(key) in _UNITS and text.strip()), None)
+
+
 def listed_of(name: str, known: Collection[str]) -> str:
     """The variable whose columns a list of names or units is of, by its own name: 'T_names' of T; '' where it is called
     after none (names, channelUnits). known: the variables beside it; 'tempNames' is of Temp, 'T_names' never of t."""
@@ -215,7 +221,9 @@ def names_rate(name: str) -> bool:
 
 
 def unit_in_name(name: str) -> str | None:
-    """The unit at the end of a time's name: 'time_s', 'tMin', 'time [h]'."""
+    """The unit at the end of a time's name: 'time_s', 'tMin', 'time [h]'; or a count: 'seconds_since_1904'."""
+    if (counted := count_in(name)) is not None:
+        return counted
     parts = tokens(name)
     last = parts[-1].lower() if len(parts) > 1 else ""
     return (

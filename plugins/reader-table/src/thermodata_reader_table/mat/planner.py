@@ -9,7 +9,7 @@ from typing import Any
 from thermodata.errors import FormatError, UsageError, nearest
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.preamble.scale_words import spellings
-from thermodata_reader_table.mat.date_vectors import take_date_vectors
+from thermodata_reader_table.mat.date_vectors import take_date_vectors, take_weeks
 from thermodata_reader_table.mat.described_by import settle_lists
 from thermodata_reader_table.mat.matrices import sort_matrices
 from thermodata_reader_table.mat.signal_structs import as_record
@@ -72,6 +72,7 @@ def _scope(plan: Plan, fields: Mapping[str, Node], path: str, above: Scope | Non
     for name, node in fields.items():
         sort_variable(plan, scope, name, node, inner)
     take_date_vectors(plan, scope)
+    take_weeks(plan, scope)
     settle_lists(plan, scope)
     sort_matrices(plan, scope)
     assign_columns(plan, scope)

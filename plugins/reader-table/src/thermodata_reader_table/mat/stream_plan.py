@@ -19,7 +19,7 @@ LOOK = 2000  # values by which a time is judged
 @dataclass(frozen=True, slots=True)
 class TimeVector:
     """A time of `length` rows. load: None for a grid of step_s from zero_s. texts: dates as text. unit: as the file
-    says it, or None."""
+    says it, or None; said: what else it says of the time alone."""
 
     path: str
     length: int
@@ -28,6 +28,7 @@ class TimeVector:
     unit: str | None = None
     step_s: float = 0.0
     zero_s: float = 0.0
+    said: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from thermodata.reader import time_units
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
+from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata_reader_table.mat.planner import plan_streams
@@ -82,7 +83,7 @@ class Clocked:
             whole, absolute = found.t_ns, found.absolute
             self._note(found.notes)
         elif time.load is not None:
-            unit = self._unit(time)
+            unit = self._unit(time, stream.properties)
             absolute = time_units.is_absolute(unit)
             if absolute and time_units.EPOCHS[unit].local:
                 found = in_memory.times_of_numbers(time.load(0, time.length), unit, self.source.timezone)
@@ -100,12 +101,18 @@ class Clocked:
         self._note((f"dates read as '{form}'",))
         return form
 
-    def _unit(self, time: TimeVector) -> str:
+    def _unit(self, time: TimeVector, properties: Mapping[str, str]) -> str:
         assert time.load is not None
         declared = one_time(self.source.table, self.where).get("unit")
         text = time_units.with_step(declared or time.unit)
         if declared is None:
-            ask_what_counts(time.path, time.load(0, LOOK), text, self.where)
+            values, name = time.load(0, LOOK), time.path.rsplit("/", 1)[-1]
+            own = _called_after(name, properties)
+            stated, notes = counted_from(time.path, values, text, ({**own, **time.said}, properties), self.where)
+            self._note(tuple(notes))
+            if stated is not None:
+                return stated
+            ask_what_counts(time.path, values, text, self.where)
         if text is not None:
             try:
                 return time_units.check_unit(str(text), f"{self.where} {time.path}")
@@ -122,6 +129,8 @@ class Clocked:
                 )
             )
             return epoch
+        if declared is None:
+            ask_what_counts(time.path, time.load(0, LOOK), "s", self.where)
         self._note(
             (f"'{time.path}' has no unit: taken as seconds; declare table: {{time: {{unit: ...}}}} if that is wrong",)
         )
@@ -129,3 +138,9 @@ class Clocked:
 
     def _note(self, notes: tuple[str, ...]) -> None:
         self.notes.extend(n for n in notes if n not in self.notes)
+
+
+def _called_after(name: str, properties: Mapping[str, str]) -> dict[str, str]:
+    """What variables say of a time that are called after it: 'epoch' of 'tvec_epoch', and 'time_epoch' of a time."""
+    own = {key: said for key, said in properties.items() if key.startswith(f"{name}_")}
+    return own if name.lower() in ("time", "zeit") else {key.removeprefix(f"{name}_"): own[key] for key in own}

@@ -18,13 +18,14 @@ class Numbers:
     """A real matrix of `rows` x `columns`. dtype: numpy's name, "bool" for logical arrays.
 
     load(fixed, axis, start, stop): elements [start, stop) along `axis` (0: down the column `fixed`, 1: along the row
-    `fixed`), shape (stop - start,), in dtype.
+    `fixed`), shape (stop - start,), in dtype. said: what attributes of it say, by their names.
     """
 
     rows: int
     columns: int
     dtype: str
     load: Callable[[int, int, int, int], Array]
+    said: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def size(self) -> int:

@@ -52,12 +52,12 @@ def _numbers(plan: Plan, scope: Scope, name: str, path: str, node: Numbers) -> N
         _state(plan, path, scope.properties[name])
     elif node.is_vector:
         if _is_time(plan, name, path, node):
-            scope.times.append(
-                TimeVector(path, node.size, node.vector, unit=split_unit(name)[1] or say.unit_in_name(name))
-            )
+            unit = split_unit(name)[1] or say.unit_in_name(name) or say.unit_among(node.said)
+            scope.times.append(TimeVector(path, node.size, node.vector, unit=unit, said=node.said))
         else:
             scope.scales += _scales(scope, name, node)
-            scope.columns.append(Column(path, split_unit(name)[1], node.dtype, node.size, node.vector))
+            unit = split_unit(name)[1] or say.unit_among(node.said)
+            scope.columns.append(Column(path, unit, node.dtype, node.size, node.vector))
     elif node.size:
         scope.matrices.append((path, node))
 

@@ -34,6 +34,16 @@ def said_of_fields(schema: Any, of_file: Mapping[bytes, bytes] | None) -> list[d
     return said
 
 
+def said_of_file(metadata: Mapping[bytes, bytes] | None, names: Sequence[str]) -> dict[str, str]:
+    """What the metadata of the file say, and not of one of its columns."""
+    columns, said = set(names), dict[str, str]()
+    for key, text in _texts(metadata):
+        for path, value in _leaves(key, text):
+            if columns.isdisjoint(path.split("/")) and len(said) < _MOST:
+                said.setdefault(path.split("/")[-1], value)
+    return said
+
+
 def _unit_of(path: str) -> tuple[str, str] | None:
     """('dZ', 'units') of 'units/dZ' and of 'dZ/units'; None of another path."""
     *_, above, last = "", *path.split("/")

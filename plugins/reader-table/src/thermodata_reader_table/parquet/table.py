@@ -21,6 +21,7 @@ from thermodata.reader.text.clocks.time_columns import find_time, time_of
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
+from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.page.layout import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.date_parts import find_parts
@@ -28,7 +29,7 @@ from thermodata.reader.text.times.in_memory import times_of_numbers
 from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch, known_unit, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
-from thermodata_reader_table.parquet.field_metadata import said_of_fields, units_of
+from thermodata_reader_table.parquet.field_metadata import said_of_fields, said_of_file, units_of
 from thermodata_reader_table.parquet.footer_check import check_footer
 from thermodata_reader_table.parquet.schema import check_types, column_at, flat, left_out, value_type
 
@@ -152,28 +153,34 @@ class Table:
         cells = None if found is None else found.column(column)
         whole = cells is not None and pt.is_integer(kind)  # which may be longer than a float64 tells
         values = np.zeros(0) if cells is None else cells.drop_null().to_numpy() if whole else numbers(cells)
-        text = with_step(unit or self._unit_said(column, values) or unit_of_time(self.names[column]))
+        name, text = self.names[column], with_step(unit)
         if unit is None:
-            ask_what_counts(self.names[column], values, text, self.path.name)
+            text = with_step(self._unit_said(column) or unit_of_time(name))
+            of_file = said_of_file(self.file.schema_arrow.metadata, self.names)
+            stated, notes = counted_from(name, values, text, (self.said[column], of_file), self.path.name)
+            self.notes += notes
+            text = stated or self._by_size(column, text, values)
+            ask_what_counts(name, values, text, self.path.name)
         if text is None:
             text = found_epoch(values)
             if text is None:
-                raise unit_question(self.names[column], values, self.path.name)
-            self.notes.append(f"time column '{self.names[column]}' has no unit: by its size it is {text}")
+                raise unit_question(name, values, self.path.name)
+            self.notes.append(f"time column '{name}' has no unit: by its size it is {text}")
         return column, check_unit(str(text), self.path.name)
 
-    def _unit_said(self, column: int, values: Any) -> str | None:
-        """The unit in a time's name, or in its metadata: what these say of counts from a date by their size is the
-        step of that count, and what is no unit of time is told."""
+    def _unit_said(self, column: int) -> str | None:
+        """The unit in a time's name, or in its metadata; what is no unit of time there is told."""
         said = self.units[column]
-        if said is None or split_unit(self.names[column])[1] is not None:
-            return said
-        known, epoch = known_unit(said), found_epoch(values)
-        if known is None:
+        if said is not None and split_unit(self.names[column])[1] is None and known_unit(said) is None:
             self.notes.append(f"'{self.names[column]}': its metadata say '{said}', which is no unit of time: not used")
             return None
-        same = epoch is not None and SECONDS.get(known) == EPOCHS[epoch].seconds
-        return epoch if same else known
+        return said
+
+    def _by_size(self, column: int, unit: str | None, values: Any) -> str | None:
+        """What metadata say of counts from a date by their size is the step of that count: 's' of Unix times."""
+        epoch = None if split_unit(self.names[column])[1] is not None else found_epoch(values)
+        same = unit is not None and epoch is not None and SECONDS.get(known_unit(unit) or "") == EPOCHS[epoch].seconds
+        return epoch if same else unit
 
     def _of_cells(self, said: Mapping[str, Any], units: list[str | None]) -> int:
         """The first column of a time that no type tells, found as in a table of text: with the others that a time of
