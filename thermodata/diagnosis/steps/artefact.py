@@ -7,7 +7,7 @@ bend where heat begins or ends, nor what comes back, nor what only the model doe
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -27,6 +27,7 @@ from thermodata.diagnosis.steps.sudden import (
     suddenly,
     time_of_step,
 )
+from thermodata.diagnosis.steps.who_made import BODY, which
 from thermodata.diagnosis.steps.windows import in_windows
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
@@ -236,14 +237,14 @@ def _stands_out(step: Step) -> str:
     return f"{step.z:.0f} times the usual change"
 
 
-def _made_by(step: Step) -> str:
-    slipped = "a probe or fixture slipped"
+def _made_by(step: Step, among: Sequence[Step]) -> str:
+    slipped, moved = "a probe or fixture slipped", f"a body that nobody logs moved ({BODY})"
     if not step.beside:
-        return f"{NOTHING_ELSEWHERE}: {slipped}"
+        return f"nothing logged goes with it, for {NOTHING_ELSEWHERE}: {slipped}, or {moved}; {which(step, among)}"
     verb, makes, it = ("change", "make", "they act") if len(step.beside) > 1 else ("changes", "makes", "it acts")
     return (
         f"{' and '.join(step.beside)} {verb} just then and {makes} no such step elsewhere: {slipped}, or {it} by what "
-        "was other there, as how warm a part is"
+        f"was other there, as how warm a part is, or {moved}; {which(step, among)}"
     )
 
 
@@ -259,7 +260,8 @@ def _to_write(step: Step) -> str:
     )
 
 
-def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
+def as_artefacts(steps: list[Step], unit: str, among: Sequence[Step] | None = None) -> list[Artefact]:
+    """among: all that were found, also those that are no artefacts of their own."""
     return [
         Artefact(
             kind="step",
@@ -268,7 +270,7 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             at_s=s.at_s,
             size_um=s.size,
             why=f"the displacement jumps by {s.size:+.1f} {unit} within {s.within_s:.0f} s, {_stands_out(s)}, "
-            f"and does not decay; {_made_by(s)}; {_to_write(s)}",
+            f"and does not decay; {_made_by(s, steps if among is None else among)}; {_to_write(s)}",
         )
         for s in steps
     ]

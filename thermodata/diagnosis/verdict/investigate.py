@@ -142,7 +142,7 @@ def investigate(
         *first_of_each(
             [
                 *known_faults,
-                *as_artefacts(steps, info.unit),
+                *as_artefacts(steps, info.unit, found),
                 *repeating.as_artefacts(repeating.repeating(found), info.unit),
                 *faults,
             ]
