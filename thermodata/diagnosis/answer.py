@@ -39,7 +39,7 @@ from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.as_modelled import as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, suspect
+from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, suspect
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
@@ -237,7 +237,7 @@ def _diagnosis(
             problem,
             investigation.spots,
             likely,
-            plausible,
+            plausible or nearest([s for s, _ in shown[:1]], problem),
             doubt_of_heat(
                 alone.left if alone is not None else np.inf,
                 investigation.measure,
