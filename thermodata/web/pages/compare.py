@@ -17,7 +17,7 @@ from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.headline import capital
-from thermodata.report.history import chain_units, versions
+from thermodata.report.history import chain_units, how_it_went, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
 from thermodata.report.of_response import some_of
 from thermodata.report.words import base_role, pooled
@@ -118,7 +118,8 @@ def show(request: Request) -> Response:
         heat=[(m, script_json(heat.as_json())) for m, heat in maps(store, chosen, keys, str(response), of_response)],
         in_sample=IN_SAMPLE if any(any(line.in_sample) for line in lines) else None,
         chain=chain,
-        waterfall=_waterfall(chain),
+        waterfall=(waterfall := _waterfall(chain)),
+        went=how_it_went([error for _, error, _ in waterfall]),
         lost=capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         undo=_undo(chosen[-1], models),
         autocorrelation=script_json(correlated(parts).as_json()) if parts else None,
