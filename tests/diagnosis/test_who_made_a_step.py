@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.steps.repeating import as_artefacts as as_repeated
 from thermodata.diagnosis.steps.repeating import repeating
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.who_made import evenly, which
 
 from .hand_made import Parts, problem

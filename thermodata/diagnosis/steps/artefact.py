@@ -16,6 +16,7 @@ import numpy as np
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.steps.commanded import POSITION, commands_of
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import (
     beyond_slopes,
     comes_back,
@@ -31,7 +32,6 @@ from thermodata.diagnosis.steps.who_made import BODY, which
 from thermodata.diagnosis.steps.windows import in_windows
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
-from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0
 Z_LIMIT = 12.0
@@ -47,18 +47,6 @@ WITHIN = 0.7  # and within three intervals, beyond what the steeper of the slope
 SEEN = 0.3  # the same of the response, and its inverse at most: a model jumps, too, where its drivers do
 # loads, powers and flows go with them
 NOTHING_ELSEWHERE = "no speed, feed, position or switch does that elsewhere"
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    test: TestData
-    at_s: float
-    size: float
-    z: float  # times the usual change, of lines through both sides
-    alone: float = 0.0  # times the most sudden other change of the test, where that tells
-    within_s: float = 0.0
-    beside: tuple[str, ...] = ()  # commands that change just then
-    bare: bool = False  # alone among what no command makes
 
 
 @dataclass(frozen=True, slots=True)

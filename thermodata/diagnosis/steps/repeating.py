@@ -12,7 +12,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE, Step
+from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.who_made import BODY, evenly
 from thermodata.plugin import Bool1D
 from thermodata.schema.diagnosis import Artefact

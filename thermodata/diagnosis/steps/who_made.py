@@ -8,10 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations, pairwise
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from thermodata.diagnosis.steps.artefact import Step
+from thermodata.diagnosis.steps.step import Step
 
 BODY = "an indexing table or a clamp, say"
 ALIKE = 0.1  # of a size, that another one differs from it by at most
