@@ -10,6 +10,8 @@ from thermodata.modelling import run
 from thermodata.modelling.add import add
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
+from thermodata.report.collect import collect
+from thermodata.report.page import render
 from thermodata.schema.candidate import Candidate, LeftOut
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.result import FitResult
@@ -17,6 +19,7 @@ from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis
 from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset
+from thermodata.view.load import data_version
 
 from .conftest import Spec
 from .test_run import stored
@@ -93,6 +96,37 @@ def test_a_verification_test_that_came_after_the_diagnosis_is_said_to_be_fitted(
     again = diagnosis_of(first.model, candidate_on(found.id, [*asked, "t6"]), "another")
     save_diagnosis(store, first.model, again)
     assert not any(said in note for note in add(store, first.model, 1, plain=True).notes)
+
+
+def test_a_report_says_at_its_top_what_is_older_than_the_data(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
+    with_tests(store, path, "t6")
+    first = run.fit(store, spec("ambient_frame", "coolant"))
+    kept = diagnosis_of(
+        first.model, candidate_on("spindle_bearing:T_bearing", ["t5"]), find_model(store, first.model).data_version
+    )
+    save_diagnosis(store, first.model, kept)
+    chosen = add(store, first.model, 1, plain=True)
+    assert (collect(store, first.model).older, collect(store, chosen.model).older) == ((), ())
+    with_tests(store, path)
+    tests, asked = collect(store, first.model).older
+    assert "not those that there were when this model was fitted" in tests
+    assert "Everything here but the diagnosis is of a fit to the tests that there are now" in tests
+    assert asked.startswith("The diagnosis is older than the data")
+    alert = f'<div class="alert">{asked}.</div>'
+    page = render(collect(store, first.model))
+    assert alert in page
+    assert page.index(alert) < page.index("<h2>Errors")
+    # of what led to a version
+    assert (
+        collect(store, chosen.model)
+        .older[-1]
+        .startswith(f"What was missing before is told by the diagnosis of an earlier version, {first.model}")
+    )
+    # asked anew it is as old as the data
+    save_diagnosis(store, first.model, kept.model_copy(update={"data_version": data_version(store, ["c"])}))
+    (tests,) = collect(store, first.model).older
+    assert "Everything here is of a fit" in tests
 
 
 def candidate_on(name: str, tests: list[str]) -> Candidate:
