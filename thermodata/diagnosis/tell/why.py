@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
@@ -101,7 +102,7 @@ def why(
     if not failed and by_name is not None:
         return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
-        return f"{numbers}; not claimed: it would be another mode of what the model has"
+        return f"{numbers}; not claimed: {would_be_a_mode(s.candidate)}"
     failed += [why for why in [blunt(s)] if why]
     if failed:
         asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
@@ -112,6 +113,16 @@ def why(
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
     return f"{numbers}; not claimed: {judgement.reason}"
+
+
+def would_be_a_mode(one: CandidateEffect) -> str:
+    """Why what is no cause by its kin is none: of a plain function, what else it may be."""
+    if not one.unmodelled:
+        return "it would be another mode of what the model has"
+    return (
+        f"the model reads what sits there already, so {one.id}, which names no heat, may be another mode of that; or "
+        f"it is {' or '.join(one.unmodelled)}, of whose heat the model has nothing: confirm it by that name"
+    )
 
 
 def _numbers(s: Scored, told: Scored | None, investigation: Investigation, others: Sequence[str] = ()) -> str:
