@@ -250,6 +250,12 @@ def test_where_nothing_goes_with_it_the_data_are_said_to_be_silent() -> None:
     assert "note what runs in t0 and is not logged" in text
 
 
+@pytest.mark.parametrize(("sign", "what"), [(1, "channel"), (-1, "channel"), (0, "temperature")])
+def test_what_was_not_compared_is_not_said_to_go_with_nothing(sign: int, what: str) -> None:
+    """A heat that goes both ways is never on, so that no speed, load or state was compared with it."""
+    assert f"No logged {what} goes with it" in said(NOT_COLUMN, sign=sign)
+
+
 @pytest.mark.parametrize(("acts_in", "logged"), [("t0", True), ("t1", False)])
 def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_not_logged(
     acts_in: str, logged: bool

@@ -47,7 +47,9 @@ def where(
         found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
     look_at = _to_look_at(strong[0], strongest, first, is_warm)
     # what ranks first may be the cause, whose heat comes by another way than one lag
-    none = "No logged channel goes with it" if first is None else "No logged channel has just its course"
+    # a heat that goes both ways is never on or off, and is compared with temperatures alone
+    channel = "channel" if heat.sign else "temperature"
+    none = f"No logged {channel} {'goes with it' if first is None else 'has just its course'}"
     return ". ".join([*said, *_place(found, none, look_at, suspect), *_direction(heat)])
 
 
