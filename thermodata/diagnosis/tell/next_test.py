@@ -179,12 +179,10 @@ def to_find(
         add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
         if tests > FEW_TESTS:
             return f"{counted(tests, 'test')} took part; {add} at least: no other test foretells what acts in one alone"
-        all_at_once, one_each = (
-            ", ".join(f"{share} with {n}" for n, share in some) for some in (ALL_AT_ONCE, ONE_EACH)
-        )
+        all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
         return (
             f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
-            f"machines a missing cause was named on {all_at_once} tests where most of them work all parts, and on "
+            f"machines a missing cause was named in {all_at_once} tests where most of them work all parts, and in "
             f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add} at least"
         )
     worst = spots[0].state if spots else "no state in particular"
