@@ -15,7 +15,7 @@ from .hand_made import Parts, problem
 
 TESTS = [b.test for b in problem(*(Parts(np.zeros(400)) for _ in range(3)), noise=0.05).blocks]
 BODY = "speaks for a body that moved"
-SLIP = "speaks for a slip"
+SLIP = "so do slips"
 
 
 def at(hours: float, size: float, test: int = 0) -> Step:
@@ -46,9 +46,9 @@ def test_a_level_that_comes_back_over_several_steps_speaks_for_a_body(last: floa
 @pytest.mark.parametrize(
     ("hours", "said"),
     [
-        ((1.0, 2.0, 3.0), "they come every 60 min"),
-        ((1.0, 2.0, 4.0), "they come every 60 min, or a multiple of it"),
-        ((1.0, 2.0, 4.01), "they come every 60 min, or a multiple of it"),
+        ((1.0, 2.0, 3.0), "the jumps come every 60 min"),
+        ((1.0, 2.0, 4.0), "the jumps come every 60 min, or a multiple of it"),
+        ((1.0, 2.0, 4.01), "the jumps come every 60 min, or a multiple of it"),
         ((1.0, 2.0, 4.1), ""),
         ((1.0, 2.0), ""),
         ((1.0, 1.5, 2.0), ""),  # 120 s of 30 min by chance: 7 %
@@ -59,6 +59,8 @@ def test_even_distances_speak_for_a_programme(hours: tuple[float, ...], said: st
     some = [at(h, size) for h, size in zip(hours, (3.0, 7.0, 12.0), strict=False)]
     assert evenly(some) == said
     assert (BODY in which(some[0], some)) is bool(said)
+    alone = at(1.4, 20.0, 1)
+    assert BODY not in which(alone, [*some, alone]), "of another test they say nothing"
 
 
 def test_one_time_of_several_tests_speaks_for_a_programme() -> None:
@@ -85,4 +87,4 @@ def test_of_one_step_alone_nothing_is_known() -> None:
 def test_steps_of_one_size_may_be_a_bodys_and_say_where_they_come_evenly(third: float, evenly_told: bool) -> None:
     [told] = as_repeated(repeating([at(h, 6.8) for h in (1.0, 2.0, third)]), "um")
     assert "or to a body that nobody logs and that moves by one amount (an indexing table" in told.why
-    assert ("they come every 60 min, as a programme has it" in told.why) is evenly_told
+    assert ("the jumps come every 60 min, as a programme has it" in told.why) is evenly_told

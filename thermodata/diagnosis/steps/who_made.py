@@ -19,7 +19,9 @@ LEAST_S = 1.0  # to which moments are known, where nobody said how long a step t
 
 def which(step: Step, steps: Sequence[Step]) -> str:
     """What of all that was found speaks for a body or for a slip, in words. steps: all of all tests, this one too."""
-    signs = [sign for sign in (_back_at(step, steps), evenly(steps), _as_elsewhere(step, steps)) if sign]
+    own = sum(s.test.key == step.test.key for s in steps)
+    even = evenly(steps) if own > 1 else ""
+    signs = [sign for sign in (_back_at(step, steps), even, _as_elsewhere(step, steps)) if sign]
     if signs:
         return f"{' and '.join(signs)}, which speaks for a body that moved"
     alike = _as_large_as(step, steps)
@@ -27,15 +29,12 @@ def which(step: Step, steps: Sequence[Step]) -> str:
         where = f" in {alike.test.test}" if alike.test.key != step.test.key else ""
         return f"that{where} at {_hours(alike)} is as large, which a body repeats, and two slips are by chance"
     if len(steps) > 1:
-        return (
-            "its level does not come back, no other is as large, and they come at no even distances, which speaks for "
-            "a slip"
-        )
+        return "no other jump takes it back or is as large, and no programme shows in when they come: so do slips"
     return "there is no other, and its level does not come back: that happens with both"
 
 
 def evenly(steps: Sequence[Step]) -> str:
-    """'they come every 60 min, or a multiple of it', where several in one test do by no chance; else ''."""
+    """'the jumps come every 60 min, or a multiple of it', where several in one test do by no chance; else ''."""
     times: dict[tuple[str, str], list[float]] = {}
     for s in sorted(steps, key=lambda s: s.at_s):
         times.setdefault(s.test.key, []).append(s.at_s)
@@ -49,7 +48,7 @@ def evenly(steps: Sequence[Step]) -> str:
     if (2 * known / every) ** (len(gaps) - 1) > CHANCE:
         return ""
     multiple = "" if max(gaps) < 1.5 * every else ", or a multiple of it"
-    return f"they come every {every / 60:.0f} min{multiple}"
+    return f"the jumps come every {every / 60:.0f} min{multiple}"
 
 
 def _back_at(step: Step, steps: Sequence[Step]) -> str:
