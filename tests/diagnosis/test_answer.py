@@ -234,6 +234,11 @@ def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(
     kept = as_kept(fitted.spec, make_result(fitted, data, "m"), data, changed=False)
     found = diagnosis(data, spec)
     stored = Loaded("m", None, kept, data, kept=True)
-    told = by_its_own_parameters(found, stored).weak_spots
-    assert told == weak_spots_of(stored, [found])[found.response]
-    assert told != found.weak_spots
+    told = by_its_own_parameters(found, stored)
+    assert told.weak_spots == weak_spots_of(stored, [found])[found.response]
+    assert told.weak_spots != found.weak_spots
+    # nor is its error that of the refit
+    own = np.concatenate([r.residual(t)[r.mask(t)] for t in kept.tests(data) for r in kept.responses])
+    assert told.fitted_rmse_um == pytest.approx(float(np.sqrt(np.mean(own**2))))
+    assert found.fitted_rmse_um is not None
+    assert told.fitted_rmse_um > 1.01 * found.fitted_rmse_um

@@ -37,7 +37,7 @@ def test_what_falls_by_no_per_cent_hardly_falls(after: float, said: str) -> None
     assert way(1.0, after) == said
 
 
-@pytest.mark.parametrize(("after", "said"), [(0.9, "falls by 10 % only"), (0.996, "hardly falls,")])
+@pytest.mark.parametrize(("after", "said"), [(0.9, "falls by 10 % only"), (0.996, "hardly falls (limit")])
 def test_a_rule_says_that_an_error_hardly_falls_and_not_by_how_little(after: float, said: str) -> None:
     (reason,) = failed_rules(scored(after=after, evidence=DULL), measure(), "um")[:1]
     assert f"the error {said}" in reason

@@ -18,7 +18,7 @@ from thermodata.diagnosis.unlogged.goes_with import (
 )
 from thermodata.diagnosis.unlogged.missing_heat import Course, MissingHeat
 from thermodata.diagnosis.unlogged.unexplained import characterise
-from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect, doubt_of_heat, first
+from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect, doubt_of_heat, first, nearest
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo, TestData
@@ -250,6 +250,12 @@ def test_where_nothing_goes_with_it_the_data_are_said_to_be_silent() -> None:
     assert "note what runs in t0 and is not logged" in text
 
 
+@pytest.mark.parametrize(("sign", "what"), [(1, "channel"), (-1, "channel"), (0, "temperature")])
+def test_what_was_not_compared_is_not_said_to_go_with_nothing(sign: int, what: str) -> None:
+    """A heat that goes both ways is never on, so that no speed, load or state was compared with it."""
+    assert f"No logged {what} goes with it" in said(NOT_COLUMN, sign=sign)
+
+
 @pytest.mark.parametrize(("acts_in", "logged"), [("t0", True), ("t1", False)])
 def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_not_logged(
     acts_in: str, logged: bool
@@ -259,6 +265,26 @@ def test_what_ranks_first_and_acts_where_it_is_strongest_comes_before_what_is_no
     assert ("turret:Q is the likeliest of what is logged (31 %) and acts in t0: Q is to be looked at" in text) is logged
     assert ("note what runs in t0 and is not logged" in text) is not logged
     assert "can't say where it is; least like it is what is logged near column" in text
+    assert "turret:Q is the likeliest of what is logged (31 %)" in text, "wherever it acts"
+    assert "No logged channel goes with it" not in text
+
+
+@pytest.mark.parametrize(("after", "is_nearest"), [(1.7, True), (1.68, True), (1.72, False)])
+def test_what_ranks_first_without_being_plausible_is_told_before_what_is_not_logged(
+    after: float, is_nearest: bool
+) -> None:
+    """A guideway of a grinder took a third of the error, at 9 %: no logged channel was said to go with the heat."""
+    asked = problem(*(Parts(np.zeros(4)) for _ in range(10)), noise=0.05)
+    guideway = scored("guideway", channels=("T",), before=2.0, after=after)
+    found = nearest([guideway], asked)
+    assert (found is not None) is is_nearest
+    if found is not None:
+        text = said(NOT_COLUMN, first=replace(found, acts_in=frozenset({a_test("t0", 4).key})))
+        assert f"guideway:T comes nearest of what is logged (where it acts the error goes 2.00 -> {after:.2f}" in text
+        assert "T is to be looked at before anything that is not logged" in text
+        assert "No logged channel goes with it" not in text
+        assert "column" not in text
+    assert nearest([], asked) is None
 
 
 @pytest.mark.parametrize(

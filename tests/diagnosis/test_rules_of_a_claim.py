@@ -14,12 +14,13 @@ from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import at_best, probability, sharpness
 from thermodata.diagnosis.claims.rules import acting_size, blunt, explained, failed_rules
 from thermodata.diagnosis.verdict.judge import equivalents
+from thermodata.diagnosis.weigh.figures import short
 from thermodata.schema.counted import apart
 
 from .hand_made import measure, scored
 
 CHANCE = "chance does as well"
-FALL = "tests in which it acts the error"
+FALL = "tests in which it acts, with its size from the others, the error"
 FEW = "tests in which it acts more probable"
 GAIN = "its gain differs between tests by"
 LITTLE = "it explains"
@@ -249,7 +250,7 @@ def test_at_best_left_out_tests_are_foretold_and_nothing_is_sharper(samples: int
 @pytest.mark.parametrize(
     ("kind", "words"),
     [
-        ({"beaten": True, "around": True}, "an effect beside it is sharper, and leaves what is slow, as the air is"),
+        ({"beaten": True, "around": True}, "a sharper effect stands beside it, and leaves what is slow, as the air is"),
         ({"passive": True}, "it reads a body that makes no heat, one beside the machine, or one whose place"),
         ({"kin": "part"}, "the model reads it already, together with others"),
         ({"of_holder": True}, "it reads the tool, or what holds the probes, which warms with all in the working space"),
@@ -362,6 +363,33 @@ def test_parts_of_few_tests_are_called_parts(in_parts: bool, said: str) -> None:
     against = replace(measure(), in_parts=in_parts)
     (reason,) = failed_rules(scored(after=1.0, evidence=DULL), against, "um")[:1]
     assert reason.startswith(f"in the 10 {said} in which it acts")
+
+
+@pytest.mark.parametrize(
+    ("acting", "said"),
+    [
+        (1, f"in the one {FALL[:4]} in which it acts{FALL.partition('acts')[2]} falls by 10 % only (limit 15 %)"),
+        (1, "it makes the one test in which it acts less probable"),
+        (1, "it acts in one test only, so no other tells its gain"),
+        (1, "it acts in one test only: no other foretells it"),
+        (
+            2,
+            "in the 2 tests in which it acts, with its size from the others, the error falls by 10 % only (limit 15 %)",
+        ),
+        (2, "it makes none of the 2 tests in which it acts more probable (limit 60 %)"),
+        (2, "its gain differs between tests by 100 % (limit 50 %): a cause acts alike everywhere"),
+    ],
+)
+def test_a_rule_that_is_broken_is_told_of_one_test_and_of_several(acting: int, said: str) -> None:
+    size = np.where(np.arange(10) < acting, 1.0, 0.0)
+    one = replace(scored(after=0.9, evidence=DULL, spread=1.0, gained=-1.0), size=size)
+    assert said in failed_rules(one, measure(), "um")
+
+
+@pytest.mark.parametrize(("value", "said"), [(0.204, "0.2"), (93.4, "93"), (124.0, "120"), (1e4, "10000")])
+def test_a_figure_of_two_digits_has_no_power_of_ten(value: float, said: str) -> None:
+    """A time constant was "about 1 instead of 1e+02 min"."""
+    assert short(value) == said
 
 
 def test_what_it_explains_is_told_as_the_share_that_the_rule_asks() -> None:

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates, grid
+from thermodata.diagnosis.claims.refinement import mode_of
 from thermodata.diagnosis.question.present import Present
+from thermodata.diagnosis.tell.why import would_be_a_mode
 from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
 from thermodata.view.dataset import ChannelInfo
@@ -286,6 +288,28 @@ def test_a_lag_is_as_near_to_the_model_as_the_furthest_name_of_its_channel(
     }
     found = {c.id: c.kin for c in candidates(library, channels, (has("screw", "T_nut", family="feed_x"),), "dZ")}
     assert found["lag:T_end"] == expected
+
+
+@pytest.mark.parametrize(
+    ("family", "expected"), [("cutting", ("cut:P",)), ("spindle", ()), ("generic", ())], ids=["cut", "spindle", "none"]
+)
+def test_a_lag_at_the_place_of_what_is_read_says_of_which_named_heat_the_model_has_nothing(
+    family: str, expected: tuple[str, ...]
+) -> None:
+    """The power of a spindle whose bearing is read: of the heat of cutting the model has nothing."""
+    cut = replace(PlainEffect("cut", family), needs=(Need("u", "power"),))
+    channels = {
+        "T_brg": ChannelInfo("T_brg", "temperature", "degC", at="spindle.bearing.front"),
+        "P": ChannelInfo("P", "power", "kW", at="spindle"),
+    }
+    found = candidates({e.name: e for e in (cut, LAG)}, channels, (has("bearing", "T_brg", family="spindle"),), "dZ")
+    (lag,) = (c for c in found if c.id == "lag:P")
+    assert (lag.kin, lag.unmodelled) == ("same", expected)
+    said = would_be_a_mode(lag)
+    assert ("it would be another mode of what the model has" in said) is not expected
+    assert ("or it is cut:P, of whose heat the model has nothing" in said) is bool(expected)
+    assert ("though of the heat of cut:P it has nothing" in mode_of([], lag.unmodelled)) is bool(expected)
+    assert "nothing" not in mode_of(["lag"], lag.unmodelled)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import comes_back
 from thermodata.plugin import Float1D
 

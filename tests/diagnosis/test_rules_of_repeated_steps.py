@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, find_steps
+from thermodata.diagnosis.steps.artefact import find_steps
 from thermodata.diagnosis.steps.repeating import as_artefacts, moved_by, repeating, single
+from thermodata.diagnosis.steps.step import Step
 from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, a_test, problem

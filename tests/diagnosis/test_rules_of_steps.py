@@ -11,7 +11,6 @@ import pytest
 
 from thermodata.diagnosis.steps.artefact import (
     Z_ALONE,
-    Step,
     _step_score,
     as_artefacts,
     find_steps,
@@ -21,6 +20,7 @@ from thermodata.diagnosis.steps.artefact import (
     tread_of_response,
 )
 from thermodata.diagnosis.steps.commanded import tells, through_zero
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
 from thermodata.diagnosis.verdict.investigate import _without_steps
 from thermodata.plugin import Float1D

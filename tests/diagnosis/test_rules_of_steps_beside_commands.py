@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import is_quick, smooth_but_for
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
@@ -67,7 +68,7 @@ def test_a_quick_step_as_a_pump_switches_is_told_with_it(over: int) -> None:
     [told] = as_artefacts([step], "um")
     assert "pump changes just then and makes no such step elsewhere: a probe or fixture slipped, or it acts" in told.why
     [alone] = as_artefacts(found((rough(300) + spread(over), on_from(200)), *cold), "um")
-    assert "no speed, feed, position or switch does that elsewhere: a probe or fixture slipped; to fit" in alone.why
+    assert "no speed, feed, position or switch does that elsewhere: a probe or fixture slipped, or a body" in alone.why
 
 
 def missing_quick(slip: float = 3.0, other: float = 0.0, at: int = 140) -> tuple[Float1D, Float1D]:

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.step import Step
 from thermodata.plugin import Float1D
 from thermodata.view.dataset import ChannelInfo
 

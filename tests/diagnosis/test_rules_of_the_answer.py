@@ -199,11 +199,14 @@ class TestAnswer:
         ]
         assert [c.locked_rmse_um_after for c in found.candidates] == [0.5, 0.5, None]
         assert [list(c.parameters) for c in found.candidates] == [["other.gain"], ["first.gain"], []]
-        assert "on the locked tests with all that is claimed from 1.00 to 0.50 um" in found.candidates[0].why
+        assert (
+            "on the locked tests with all that is claimed the error goes from 1.00 to 0.50 um"
+            in found.candidates[0].why
+        )
         assert "beside first:T_a, the error" in found.candidates[0].why
         assert found.unknown is None
         alone = self.answered(monkeypatch, spec, claim(FIRST))
-        assert "on the locked tests from 1.00 to 0.50 um" in alone.candidates[0].why
+        assert "on the locked tests the error goes from 1.00 to 0.50 um" in alone.candidates[0].why
         assert "larger" not in alone.candidates[0].why
 
     def test_a_claim_whose_gain_is_implausible_is_told_as_one(
@@ -346,24 +349,26 @@ class TestAnswer:
     @pytest.mark.parametrize(
         ("shown", "asked_in", "said"),
         [
-            ((1.0, 0.6), None, "on the locked tests from 1.00 to 0.60 um"),
+            ((1.0, 0.6), None, "on the locked tests the error goes from 1.00 to 0.60 um"),
             (
                 (1.0, 0.99),
                 None,
-                "on the locked tests from 1.00 to 0.99 um from their first samples on, and from 1.00 to 0.50 um with a "
+                "on the locked tests the error goes from 1.00 to 0.99 um from their first samples on, and from 1.00 "
+                "to 0.50 um with a "
                 "free offset a test",
             ),
             (
                 (1.0, 1.2),
                 frozenset({("c", "y")}),
-                "on the locked tests from 1.00 to 1.20 um from their first samples on, and where it acts from 0.50 to "
+                "on the locked tests the error goes from 1.00 to 1.20 um from their first samples on, and where it "
+                "acts from 0.50 to "
                 "1.00 um with a free offset a test: added as it stands the error rises by 100 % (0.50 -> 1.00 um), and "
                 "they bear it out only where the effects of the model may act otherwise than by their fitted lags",
             ),
             (
                 (1.0, 1.2),
                 frozenset(),
-                "on the locked tests, in none of which it acts enough to be asked, from 1.00 to 1.20 um",
+                "on the locked tests, in none of which it acts enough to be asked, the error goes from 1.00 to 1.20 um",
             ),
         ],
     )
@@ -559,8 +564,8 @@ class TestAnswer:
         assert (found.rmse_um, found.explainable) == pytest.approx((1.0, 0.91))
         assert first.p_value == pytest.approx(0.005)
         assert (
-            "(10 of 10 tests) the error falls (1.00 -> 0.30 um), its size from the other tests and the known effects "
-            "fitted to all, and it makes 10 of 10" in first.why
+            "(10 of 10 tests) the error falls (1.00 -> 0.30 um), with its size from the other tests and the known "
+            "effects fitted to all, and it makes 10 of 10" in first.why
         )
         assert "its gain differs between tests by 10 %" in first.why
         assert "chance does as well in at most 0.5 % of responses in which nothing is missing" in first.why
@@ -590,7 +595,9 @@ class TestAnswer:
         shown_alone = self.answered(monkeypatch, spec, claim(replace(FIRST, others=("other:T_a",)), OTHER))
         first = next(c for c in shown_alone.candidates if c.effect == "first")
         assert first.beside == []
-        assert "alone it takes the error on left-out tests 1.00 -> 0.30 um; it is judged beside others: " in first.why
+        assert (
+            "alone it takes the error on left-out tests from 1.00 to 0.30 um; it is judged beside others: " in first.why
+        )
 
     @pytest.mark.parametrize(("others", "before"), [((), 1.0), ((OTHER,), 3.0)])
     def test_what_falls_is_the_models_own_error_where_nothing_stands_beside_the_claim(

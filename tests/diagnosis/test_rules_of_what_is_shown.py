@@ -271,7 +271,7 @@ def test_tests_that_are_too_short_are_told_to_be_longer() -> None:
 @pytest.mark.parametrize(("tests", "told"), [(3, True), (4, False), (7, False), (8, False)])
 def test_what_more_tests_gave_elsewhere_is_told_of_few_tests_only(tests: int, told: bool) -> None:
     advice = to_find(tests, [], CHANNELS)
-    assert ("72 % with 3, 86 % with 8" in advice) is told
+    assert ("72 % with 3, 86 % with 8 and 80 % with 16 tests" in advice) is told
     assert ("until each acts in two at least" in advice) is (tests < 8)
 
 
@@ -282,6 +282,15 @@ def test_a_channel_that_is_logged_and_ranks_first_comes_before_a_new_sensor(drop
     assert ("T_nut is logged and ranks first" in advice) is named
     assert ("thermodata confirm" in advice) is named
     assert "log what is not logged yet" in advice
+
+
+def test_several_channels_that_rank_first_are_told_as_several() -> None:
+    advice = to_find(8, [], CHANNELS, scored("bend", channels=("T_a", "T_b"), after=0.4))
+    assert "T_a and T_b are logged and rank first, so run a test that moves them alone" in advice
+    decide = to_decide([candidate("bend", channels=("T_a", "T_b"))], CHANNELS)
+    assert "in which T_a and T_b move much (one side heated through by its own source while the others rest" in decide
+    both = to_decide([candidate("gain", channels=("T_a", "n"))], CHANNELS)
+    assert "in which T_a and n move much (heated through by its own source" in both
 
 
 UNKNOWN = Judgement("unknown", (), (), (), "because")

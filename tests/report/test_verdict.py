@@ -559,6 +559,18 @@ def test_noise_is_told_over_the_means_that_left_out_tests_are_compared_by(compar
     assert ("left-out tests are compared by" in text) is bool(said)
 
 
+@pytest.mark.parametrize(
+    ("left", "compared", "noise"),
+    [(0.0291, 120.0, True), (0.0293, 120.0, False), (0.0412, 60.0, True), (0.0412, None, True), (0.0414, 60.0, False)],
+)
+def test_what_is_left_is_held_against_noise_in_its_own_means(left: float, compared: float | None, noise: bool) -> None:
+    """1.5 times the noise; an error in means of 2 min was called noise for it was no more than that of 60 s."""
+    short = {"rmse_um": left, "noise_um": 0.0275, "noise_over_s": 60.0, "left_out_over_s": compared}
+    text = verdict_sentence(found("none", [], **short))
+    assert ("are left on left-out tests, and they are noise" in text) is noise
+    assert ("but more than white noise leaves in theirs (0.0275 um" in text) is (left == 0.0293)
+
+
 @pytest.mark.parametrize(("share", "likely"), [(0.049, False), (0.051, True)])
 def test_what_is_hardly_likely_is_no_suspect(share: float, likely: bool) -> None:
     text = verdict_sentence(found("unknown", [one("screw", probability=share)], rmse_um=1.4, response_um=5.1))

@@ -14,7 +14,7 @@ from thermodata.schema.diagnosis import Artefact, Diagnosis, WeakSpot
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult, Parameter, Score
 from thermodata.store import Store
-from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looks_of
 from thermodata.store.catalogue.models import (
     find_model,
     load_diagnosis,
@@ -26,6 +26,8 @@ from thermodata.store.catalogue.models import (
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.lifecycle import forget, gc
 from thermodata.store.trace.lineage import trace
+
+from .store_fakes import daq, write_log
 
 SPEC: dict[str, Any] = {
     "schema": "thermodata/model/1",
@@ -253,10 +255,47 @@ def test_looks_at_data_that_come_back_count_on(filled: Store, campaign: Path, te
 def test_looks_do_not_count_for_other_data_of_the_same_name(filled: Store, campaign: Path) -> None:
     count_locked_look(filled, "m1", [("shop", "one"), ("shop", "two")], "claim of lag:T_a")
     assert forget(filled, "shop")["looks"] == 2
-    one, two = (campaign.parent / "raw" / f"{test}_a.npz" for test in ("one", "two"))
-    two.write_bytes(one.read_bytes())
+    two = campaign.parent / "raw" / "two_a.npz"
+    was = two.read_bytes()
+    write_log(two, daq(seed=9))
     ingest(filled, campaign)
     assert [locked_looks(filled, "shop", test) for test in ("one", "two")] == [1, 0]
+    # a detour over other data resets none
+    count_locked_look(filled, "m2", [("shop", "two")], "claim of lag:T_b")
+    forget(filled, "shop")
+    two.write_bytes(was)
+    ingest(filled, campaign)
+    assert [locked_looks(filled, "shop", test) for test in ("one", "two")] == [1, 1]
+    assert [look.model for look in looks_of(filled, ["shop"])["shop", "two"]] == ["m1"]
+
+
+def test_looks_at_data_that_others_replaced_count_on(filled: Store, campaign: Path) -> None:
+    """In place, and forgotten then."""
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    two = campaign.parent / "raw" / "two_a.npz"
+    was = two.read_bytes()
+    write_log(two, daq(seed=9))
+    others = two.read_bytes()
+    ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "two") == 1, "they may be the same but for a byte"
+    count_locked_look(filled, "m2", [("shop", "two")], "claim of lag:T_b")
+    forget(filled, "shop")
+    two.write_bytes(was)
+    ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "two") == 1
+    two.write_bytes(others)
+    ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "two") == 2
+
+
+def test_looks_count_on_where_the_data_come_under_another_name(filled: Store, campaign: Path) -> None:
+    count_locked_look(filled, "m1", [("shop", "two")], "claim of lag:T_a")
+    text = campaign.read_text()
+    for log in (campaign.parent / "raw").glob("two*"):
+        log.rename(log.with_name(log.name.replace("two", "late")))
+    campaign.write_text(text.replace("id: two", "id: late"))
+    ingest(filled, campaign)
+    assert locked_looks(filled, "shop", "late") == 1
 
 
 def test_what_was_said_of_a_test_that_is_taken_out_stays_and_is_there_when_it_is_back(

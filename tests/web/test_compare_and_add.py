@@ -14,6 +14,8 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
+from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.remove import remove
 from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.glossary import IN_SAMPLE
 from thermodata.store import Store
@@ -76,6 +78,15 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     assert f"in-sample: {IN_SAMPLE}" in html.unescape(text)
     # undone is only left: both versions are there
     assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
+
+
+def test_it_is_no_fall_where_the_error_rose(writer: Client, lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    first = find_model(store, "baseline")
+    worse = remove(store, first.model, term_ids(first.spec.effects)[0])
+    text = writer.get(f"/compare?model={worse.model}").text
+    assert "How the error rose" in text
+    assert "How the error fell" not in text
 
 
 def test_what_fails_is_told_as_in_a_terminal(writer: Client) -> None:

@@ -46,6 +46,17 @@ def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> 
     assert set(RUNG_TARGET) == set(STUMBLES)
 
 
+def test_an_answer_that_is_older_than_the_data_says_so(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    client = client_of(lab, write=True)[0]
+    said = "This answer is older than the data"
+    assert said not in client.get("/missing").text
+    found = load_diagnosis(store, model)
+    save_diagnosis(store, model, found.model_copy(update={"data_version": "another"}))
+    assert said in client.get("/missing").text
+
+
 def test_each_look_at_a_locked_test_is_told_with_what_it_was_for(lab: Path) -> None:
     store = Store(lab / "thermodata.store")
     model = store.connect().execute("select model from model").fetchone()[0]

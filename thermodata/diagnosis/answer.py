@@ -24,6 +24,7 @@ from thermodata.diagnosis.sound import sound, told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
+from thermodata.diagnosis.tell.as_stored import as_fitted
 from thermodata.diagnosis.tell.listed import (
     alike_both_ways,
     candidate,
@@ -38,7 +39,7 @@ from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.as_modelled import as_modelled, refined
 from thermodata.diagnosis.verdict.investigate import Investigation, investigate
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
-from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, suspect
+from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, suspect
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
@@ -166,7 +167,7 @@ def _answer(
         "modelled_rmse_um": None if stands is None else stands.left,
         "locked_rmse_um": known,
         "put_right": told(asked_of.put_right.model_copy(update={"left_out": left_out})),
-        "fitted_rmse_um": _as_fitted(response, tests),
+        "fitted_rmse_um": as_fitted(response, tests),
         "started_on": started_with(response, tests),
         "responses": [
             ResponseLeft(response=r.name, left=left) for r, left in zip(fitted.responses, shares, strict=True)
@@ -236,7 +237,7 @@ def _diagnosis(
             problem,
             investigation.spots,
             likely,
-            plausible,
+            plausible or nearest([s for s, _ in shown[:1]], problem),
             doubt_of_heat(
                 alone.left if alone is not None else np.inf,
                 investigation.measure,
@@ -251,13 +252,6 @@ def _diagnosis(
         at_rest=[] if judgement.claims else _at_rest(investigation.at_rest, data),
         chance=ladder.chance(investigation.measure),
     )
-
-
-def _as_fitted(response: FittedResponse, tests: Sequence[TestData]) -> float | None:
-    """RMS residual over what counts of all open tests."""
-    parts = [response.residual(t)[response.mask(t)] for t in tests if response.can_predict(t)]
-    whole = np.concatenate([*parts, np.empty(0)])
-    return float(np.sqrt(np.mean(whole**2))) if len(whole) else None
 
 
 def _limit(one: Limit, terms: Sequence[str], investigation: Investigation) -> DetectionLimit:

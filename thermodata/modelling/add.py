@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.run import fit, load
+from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
@@ -41,7 +42,9 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
         names.append(name)
     before = make_result(old.fitted, old.data, parent.model).scores
     # what was found before the data changed may be mended
-    diagnosis = None if parent.stale else load_diagnosis(store, parent.model)
+    found = load_diagnosis(store, parent.model)
+    by_it = found if found is not None and any(c.id == name for c in found.candidates) else None
+    diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data)
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain:
         refined = with_second_lags(grown, old.data)
@@ -50,7 +53,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     added = [i for i in term_ids(grown.effects) if i not in had]
     own = [e for e, i in zip(grown.effects, term_ids(grown.effects), strict=True) if i in added]
     named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
-    notes = [*notes, *filter(None, [note_of_response(list(named), old.data.channels)])]
+    notes = [*notes, *since, *filter(None, [note_of_response(list(named), old.data.channels)])]
     result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed and c.id in names] if diagnosis is not None else []
     if diagnosis is None or not claims or diagnosis.data_version != old.data.data_version:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.history import chain_units, versions
+from thermodata.report.older import what_is_older
 from thermodata.report.parts import by_role, parts_of
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
@@ -52,6 +53,7 @@ def collect(store: Store, ref: str) -> ReportData:
     scores = [m.result.scores if m.model in lacking else _scores_today(store, m, loaded) for m in chain[:-1]]
     scores.append(result.scores)
     before = scores[-2] if len(chain) > 1 else stored.result.before or []
+    shown = None if last.removed and not last.added else reason
     conditions = written_conditions(r["spec"] for r in _rows(store, "select spec from campaign"))
     return ReportData(
         model=stored.model,
@@ -70,7 +72,7 @@ def collect(store: Store, ref: str) -> ReportData:
         versions=versions(chain, units, scores),
         units=units,
         diagnosis=diagnosis,
-        reason=None if last.removed and not last.added else reason,
+        reason=shown,
         reason_of_fit=asked is not None
         and reason is not None
         and is_fit_with_claims(stored.spec, loaded.data, chain[asked].spec, reason),
@@ -78,7 +80,7 @@ def collect(store: Store, ref: str) -> ReportData:
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, stored.spec.campaign_ids),
         first=() if chain[0].model in lacking else tuple(by_role(_first(store, chain, loaded))),
-        stale=stored.stale,
+        older=what_is_older(stored, loaded.data.data_version, diagnosis, shown),
         systems=tuple(see(loaded.fitted, loaded.data)),
         as_stored=tuple(dict.fromkeys(told)),
     )

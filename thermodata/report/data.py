@@ -111,8 +111,9 @@ class ReportData:
     units: response -> that of its errors; unit: of the first. versions: oldest first. looks: how often each locked
     test was opened, for whichever model. calibrations: rows of the catalogue's table.
     weak: weak spots by response. first: the tests as the first version foretells them, for the scale of residuals;
-    empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; stale: they changed
-    since the model was kept. as_stored: of each earlier version that can't be run, why, and what is told of it.
+    empty where this is it. All but diagnosis and reason is of one fit to the data as they are now; older: sentences on
+    what of the page is of other data than that. as_stored: of each earlier version that can't be run, why, and what is
+    told of it.
     """
 
     model: str
@@ -135,7 +136,7 @@ class ReportData:
     looks: dict[str, int] = field(default_factory=dict)
     weak: dict[str, list[WeakSpot]] = field(default_factory=dict)
     first: tuple[TestPart, ...] = ()
-    stale: bool = False
+    older: tuple[str, ...] = ()
     systems: tuple[Seen, ...] = ()
     as_stored: tuple[str, ...] = ()
     units: Mapping[str, str] = field(default_factory=dict)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
 from thermodata.report.data import Errors, ResponseError, Version
-from thermodata.report.words import base_role, pooled
+from thermodata.report.words import base_role, change, pooled
 from thermodata.schema.model import EffectSpec
 from thermodata.schema.result import Score
 from thermodata.view.response_units import response_units, told_together
@@ -71,6 +72,12 @@ def versions(
         words = {name: _in_words(spec, name) for name, spec in zip(ids, m.spec.effects, strict=True)}
         known = {name: _parted_by(spec) for name, spec in zip(ids, m.spec.effects, strict=True)}
     return tuple(made)
+
+
+def how_it_went(errors: Sequence[float]) -> str:
+    """'fell', 'rose' or 'changed', of the errors of versions, the first one first; 'stayed' where no one is another."""
+    ways = {told[0] for a, b in pairwise(errors) if a and (told := change(a, b))[0] in "+-"}
+    return {"": "stayed", "-": "fell", "+": "rose"}.get("".join(ways), "changed")
 
 
 def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:

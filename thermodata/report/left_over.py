@@ -36,9 +36,20 @@ def left_over(found: Diagnosis) -> str:
     if found.noise_um is None:
         return f"{left}, too little to ask about{as_fitted}"
     noise = f"noise ({number(found.noise_um)} um{_between(found)})"
-    if found.rmse_um <= NOISY * found.noise_um:
+    if found.rmse_um <= NOISY * noise_of_left_out(found):
         return f"{left}, and they are {noise}{as_fitted}"
+    if found.rmse_um <= NOISY * found.noise_um:
+        return (
+            f"{left}: as little as noise of shorter means, but more than white noise leaves in theirs "
+            f"({number(found.noise_um)} um{_between(found)}){as_fitted}"
+        )
     return f"{left}, more than {noise}, but no more than models leave of a machine that lacks nothing{as_fitted}"
+
+
+def noise_of_left_out(found: Diagnosis) -> float:
+    """White noise in the means that left-out tests are compared by, in the response's unit; 0 where none is known."""
+    over, compared, noise = found.noise_over_s, found.left_out_over_s, found.noise_um or 0.0
+    return noise * sqrt(over / compared) if over and compared and compared > LONGER * over else noise
 
 
 def as_of_nothing(found: Diagnosis) -> str:
@@ -74,7 +85,7 @@ def otherwise(found: Diagnosis) -> str:
 def _as_modelled(found: Diagnosis, modelled: float) -> str:
     """The same by left-out tests, with what may hide behind its effects."""
     told = any(c.as_modelled for c in found.candidates)
-    if told or modelled <= max(MORE * (found.rmse_um or 0.0), NOISY * (found.noise_um or 0.0)):
+    if told or modelled <= max(MORE * (found.rmse_um or 0.0), NOISY * noise_of_left_out(found)):
         return of_levels(found)
     instead = may_act_instead(found)
     return (
@@ -129,8 +140,8 @@ def _between(found: Diagnosis) -> str:
     said = f" between neighbouring means of {duration(over)}"
     if found.noise_um is None or compared is None or compared <= LONGER * over:
         return said
-    there = found.noise_um * sqrt(over / compared)
-    return f"{said}, {number(there)} um in the means of {duration(compared)} that left-out tests are compared by"
+    there = number(noise_of_left_out(found))
+    return f"{said}, {there} um in the means of {duration(compared)} that left-out tests are compared by"
 
 
 def on_left_out(found: Diagnosis) -> str:

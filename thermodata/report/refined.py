@@ -45,7 +45,7 @@ def told_with_errors(found: Diagnosis, advice: str = "") -> str:
 
 def _not_worth(one: Candidate) -> str:
     return (
-        f"{named(one)} goes with what is left as another mode of what the model has, but "
+        f"{named(one)} goes with what is left, but "
         f"{_rises_on_locked(one) or _rises_on_left_out(one)} with it, so adding it is not advised"
     )
 

@@ -65,6 +65,13 @@ def load_dataset(
     return Dataset(float(step_s), tests, union_of(tests), _version([(c, versions[c]) for c in wanted]))
 
 
+def data_version(store: Store, campaigns: Sequence[str]) -> str:
+    """Of the data of some campaigns as they are now: as their `Dataset` has it; '' where one of them is gone."""
+    with store.reader() as con:
+        versions = dict(con.execute("select campaign, data_version from campaign").fetchall())
+    return _version([(c, versions[c]) for c in campaigns]) if all(c in versions for c in campaigns) else ""
+
+
 def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
     """The channels of some tests, by name. A sensor that failed in one test of many is sound in the others."""
     each: dict[str, list[ChannelInfo]] = {}

@@ -53,7 +53,8 @@ class CandidateEffect:
     but one temperature of the air, the floor or the outside. of_motion: whether it reads nothing but motions.
     of_holder: whether it reads the temperature of what holds the probes, or of the tool, which warm with all in the
     working space. lesser: whether it is the part of an axis that moves the tool less as a rule, and `unread` has the
-    other."""
+    other. unmodelled: of a plain function, ids of what has a name by the same channels, and of whose heat the model has
+    nothing."""
 
     effect: Effect
     binding: Mapping[str, str]
@@ -68,6 +69,7 @@ class CandidateEffect:
     of_motion: bool = False
     of_holder: bool = False
     lesser: bool = False
+    unmodelled: tuple[str, ...] = ()
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -193,10 +195,20 @@ def candidates(
             )
     named = [c for c in found if c.family not in (GENERIC, CONTROL)]
     kins: dict[tuple[str, ...], list[Kin]] = {}
+    unmodelled: dict[tuple[str, ...], tuple[str, ...]] = {}
     for c in named:
         kins.setdefault(c.channels, []).append(c.kin)
+        if c.kin is None:
+            unmodelled[c.channels] = (*unmodelled.get(c.channels, ()), c.id)
     return [
-        replace(c, log_prior=UNNAMED, kin=c.kin or furthest(kins.get(c.channels, ()))) if _says_little(c, kins) else c
+        replace(
+            c,
+            log_prior=UNNAMED,
+            kin=c.kin or furthest(kins.get(c.channels, ())),
+            unmodelled=unmodelled.get(c.channels, ()),
+        )
+        if _says_little(c, kins)
+        else c
         for c in found
     ]
 

@@ -53,9 +53,12 @@ EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves 
 MOVES, QUARTER = 0.6, 0.25
 
 
-def mode_of(terms: Sequence[str]) -> str:
-    """terms: ids of the effects of the model."""
+def mode_of(terms: Sequence[str], unmodelled: Sequence[str] = ()) -> str:
+    """terms: ids of the effects of the model. unmodelled: ids of what it may be by a name, of whose heat the model has
+    nothing."""
     of = f"{' and '.join(terms)}, which the model has" if terms else "what the model has"
+    if unmodelled and not terms:
+        of = f"what the model reads at its place, though of the heat of {' and '.join(unmodelled)} it has nothing"
     return (
         f"it is taken for another mode of {of}: these tests can't tell a cause of its own from that (add it, or "
         "confirm it on locked tests, to see what it takes away)"
@@ -115,7 +118,7 @@ class Refinement:
             lambda term: term.family == one.family,
         ]
         found = next((some for is_it in alike if (some := [t.id for t in self.fitted.terms if is_it(t)])), [])
-        return mode_of(found)
+        return mode_of(found, one.unmodelled)
 
     def _acts_beside(self, scored: Scored) -> bool:
         """Whether what is known as the cause of other effects is surely missing as it acts by these channels: what the

@@ -7,10 +7,11 @@ from typing import Literal
 
 import numpy as np
 
+from thermodata.diagnosis.claims.broken import too_few, too_little, unlike
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import limit_of, may_be_confirmed, probability, sharpness
 from thermodata.diagnosis.question.present import CONTROL
-from thermodata.diagnosis.weigh.figures import HARDLY, from_to, way
+from thermodata.diagnosis.weigh.figures import HARDLY, from_to, short, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
@@ -88,7 +89,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             fall,
             "least",
             scored.drop >= fall or ((strong or sure) and scored.drop >= DOUBLES),
-            _too_little(scored, fall, unit, tests),
+            too_little(scored, fall, unit, tests, DOUBLES),
         ),
         Rule(
             "tests",
@@ -97,8 +98,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             better,
             "least",
             scored.better >= better,
-            f"it makes {round(scored.better * count)} of the {count} {tests} in which it acts more probable (limit "
-            f"{in_percent(better)})",
+            too_few(round(scored.better * count), count, better, tests),
         ),
         Rule(
             "gain",
@@ -109,9 +109,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             SPREAD_LIMIT,
             "most",
             strong or scored.spread <= SPREAD_LIMIT or scored.drop >= FORETOLD,
-            f"its gain differs between {tests} by {apart(scored.spread, SPREAD_LIMIT)} (limit "
-            f"{in_percent(SPREAD_LIMIT)}): a "
-            "cause acts alike everywhere",
+            unlike(scored.spread, SPREAD_LIMIT, count, tests),
         ),
         Rule(
             "others",
@@ -120,7 +118,7 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             LEAST_TESTS,
             "least",
             alone or count >= LEAST_TESTS,
-            f"it acts in one {tests[:-1]} only: no other foretells it",
+            f"it acts in one {tests[:-1]} only: no other foretells it" if count else f"it acts in no {tests[:-1]}",
         ),
         Rule(
             "worth",
@@ -130,8 +128,8 @@ def rules(scored: Scored, measure: Measure, unit: str) -> list[Rule]:
             worth,
             "least",
             strong or told >= worth or (sure and _does_much(scored, measure)),
-            f"it explains {told:.2g} {unit} where it acts, {_share(told, measure.spread)} of the response's "
-            f"{measure.spread:.2g} {unit} (limit {in_percent(WORTH_SHARE)})",
+            f"it explains {short(told)} {unit} where it acts, {_share(told, measure.spread)} of the response's "
+            f"{short(measure.spread)} {unit} (limit {in_percent(WORTH_SHARE)})",
             unit,
         ),
         *_of_a_difference(scored),
@@ -143,8 +141,8 @@ def _of_a_difference(scored: Scored) -> list[Rule]:
     less, each = min(scored.sides, default=0.0), " and ".join(f"{one:.0f}" for one in scored.sides)
     told = "log evidence of that one of its two temperatures which says less by itself"
     why = (
-        f"each of {' and '.join(scored.candidate.channels)} says as much by itself as their difference (log evidence "
-        f"{each}; {scored.evidence:.0f}): what they share acts"
+        f"each of {' and '.join(scored.candidate.channels)} says as much by itself as their difference does (log "
+        f"evidence {each}, and {scored.evidence:.0f}): what they share acts"
     )
     rule = Rule("difference", told, less, scored.evidence, "most", less < scored.evidence, why)
     return [rule] if scored.sides else []
@@ -152,22 +150,6 @@ def _of_a_difference(scored: Scored) -> list[Rule]:
 
 def _share(part: float, whole: float) -> str:
     return in_percent(part / whole, 1) if whole > 0 else "none"
-
-
-def _too_little(scored: Scored, fall: float, unit: str, tests: str) -> str:
-    """Why the error falls too little, its size from the other tests."""
-    if scored.drop < DOUBLES:
-        return (
-            f"its size from the other {tests}, the error more than doubles where it acts ("
-            f"{from_to(scored.error_before, scored.error_after, unit)}): {tests} go against each other"
-        )
-    count = int(scored.acts.sum())
-    where = f"in {f'the {count} {tests}' if count != 1 else f'the one {tests[:-1]}'} in which it acts the error"
-    if scored.drop <= 0:
-        return f"{where} does not fall, its size from the others (limit: a fall of {in_percent(fall)})"
-    if scored.drop < HARDLY:
-        return f"{where} hardly falls, its size from the others (limit: a fall of {in_percent(fall)})"
-    return f"{where} falls by {apart(scored.drop, fall)} only, its size from the others (limit {in_percent(fall)})"
 
 
 def _does_much(scored: Scored, measure: Measure) -> bool:
@@ -199,7 +181,7 @@ def _in_short(scored: Scored) -> str:
     by = f" by {in_percent(scored.drop)}" if scored.drop >= HARDLY else ""
     falls = f"where it acts the error {way(scored.error_before, scored.error_after)}{by}"
     beaten = scored.beaten and scored.candidate.around
-    more = ["an effect beside it is sharper, and leaves what is slow, as the air is"] if beaten else []
+    more = ["a sharper effect stands beside it, and leaves what is slow, as the air is"] if beaten else []
     if scored.candidate.passive:
         more.append("it reads a body that makes no heat, one beside the machine, or one whose place nobody declared")
     if scored.candidate.kin == "part":

@@ -7,7 +7,7 @@ bend where heat begins or ends, nor what comes back, nor what only the model doe
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -16,6 +16,7 @@ import numpy as np
 from thermodata.calibration.tread import tread_of
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.steps.commanded import POSITION, commands_of
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import (
     beyond_slopes,
     comes_back,
@@ -27,10 +28,10 @@ from thermodata.diagnosis.steps.sudden import (
     suddenly,
     time_of_step,
 )
+from thermodata.diagnosis.steps.who_made import BODY, which
 from thermodata.diagnosis.steps.windows import in_windows
 from thermodata.plugin import Float1D
 from thermodata.schema.diagnosis import Artefact
-from thermodata.view.dataset import TestData
 
 SIDE_S = 1200.0
 Z_LIMIT = 12.0
@@ -46,21 +47,6 @@ WITHIN = 0.7  # and within three intervals, beyond what the steeper of the slope
 SEEN = 0.3  # the same of the response, and its inverse at most: a model jumps, too, where its drivers do
 # loads, powers and flows go with them
 NOTHING_ELSEWHERE = "no speed, feed, position or switch does that elsewhere"
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A displacement that jumps and stays. at_s: on the test's clock [s]; size: in the response's unit; within_s: the
-    time that it takes [s]."""
-
-    test: TestData
-    at_s: float
-    size: float
-    z: float  # times the usual change, of lines through both sides
-    alone: float = 0.0  # times the most sudden other change of the test, where that tells
-    within_s: float = 0.0
-    beside: tuple[str, ...] = ()  # commands that change just then
-    bare: bool = False  # alone among what no command makes
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,14 +225,14 @@ def _stands_out(step: Step) -> str:
     return f"{step.z:.0f} times the usual change"
 
 
-def _made_by(step: Step) -> str:
-    slipped = "a probe or fixture slipped"
+def _made_by(step: Step, among: Sequence[Step]) -> str:
+    slipped, moved = "a probe or fixture slipped", f"a body that nobody logs moved ({BODY})"
     if not step.beside:
-        return f"{NOTHING_ELSEWHERE}: {slipped}"
+        return f"nothing logged goes with it, for {NOTHING_ELSEWHERE}: {slipped}, or {moved}; {which(step, among)}"
     verb, makes, it = ("change", "make", "they act") if len(step.beside) > 1 else ("changes", "makes", "it acts")
     return (
         f"{' and '.join(step.beside)} {verb} just then and {makes} no such step elsewhere: {slipped}, or {it} by what "
-        "was other there, as how warm a part is"
+        f"was other there, as how warm a part is, or {moved}; {which(step, among)}"
     )
 
 
@@ -262,8 +248,9 @@ def _to_write(step: Step) -> str:
     )
 
 
-def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
-    """How each is told. unit: of the response."""
+def as_artefacts(steps: list[Step], unit: str, among: Sequence[Step] | None = None) -> list[Artefact]:
+    """How each is told. unit: of the response. among: all that were found, also those that are no artefacts of their
+    own."""
     return [
         Artefact(
             kind="step",
@@ -272,7 +259,7 @@ def as_artefacts(steps: list[Step], unit: str) -> list[Artefact]:
             at_s=s.at_s,
             size_um=s.size,
             why=f"the displacement jumps by {s.size:+.1f} {unit} within {s.within_s:.0f} s, {_stands_out(s)}, "
-            f"and does not decay; {_made_by(s)}; {_to_write(s)}",
+            f"and does not decay; {_made_by(s, steps if among is None else among)}; {_to_write(s)}",
         )
         for s in steps
     ]

@@ -12,7 +12,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE, Step
+from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE
+from thermodata.diagnosis.steps.step import Step
+from thermodata.diagnosis.steps.who_made import BODY, evenly
 from thermodata.plugin import Bool1D
 from thermodata.schema.diagnosis import Artefact
 from thermodata.view.dataset import TestData
@@ -120,15 +122,16 @@ def _why(steps: Sequence[Step], unit: str) -> str:
         return (
             f"the displacement jumps {len(steps)} times, by {sizes} {unit} ({_where(steps)}), each time just as "
             f"{changes}, and does not decay: jumps that come again and again as an axis starts or stops point to "
-            "stick-slip or backlash of the machine, whatever their size, for a probe slips at any time. Nothing was "
-            "taken out for them"
+            "stick-slip or backlash of the machine, or to a body that moves with that axis and that nobody logs, "
+            "whatever their size, for a probe slips at any time. Nothing was taken out for them"
         )
+    by_clock = f"; {even}, as a programme has it" if (even := evenly(steps)) else ""
     ways, which = ("", "size and direction") if not (up and down) else (" to and fro", "size")
     return (
         f"the displacement jumps {len(steps)} times by the same amount{ways}, {sizes} {unit} ({_where(steps)}), and "
         f"does not decay; {NOTHING_ELSEWHERE}: steps of one {which} that repeat point to "
-        "stick-slip or backlash of the machine, for a probe that slips does so by another amount each time. Nothing "
-        "was taken out for them"
+        f"stick-slip or backlash of the machine, or to a body that nobody logs and that moves by one amount ({BODY}), "
+        f"for a probe that slips does so by another amount each time{by_clock}. Nothing was taken out for them"
     )
 
 

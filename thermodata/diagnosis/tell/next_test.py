@@ -11,6 +11,7 @@ from thermodata.diagnosis.question.problem import MIN_ROWS
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import counted
 from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.listed import listed
 from thermodata.schema.places import heat_at, is_around
 from thermodata.view.dataset import ChannelInfo
 
@@ -97,7 +98,7 @@ def to_tell_parts(
     named = [f"{name} ({at})" for at, name in parts.items()]
     of_motor = [at.rpartition(".")[2] in ("motor", "drive") for at in parts]
     how = _BY_LOAD if any(of_motor) and not all(of_motor) else _BY_PART
-    return f"{chosen.id} may be heat of {', '.join(named[:-1])} or {named[-1]}; to tell them: {how}"
+    return f"{chosen.id} may be heat of {listed(named, 'or')}; to tell them: {how}"
 
 
 def to_log(one: Scored, channels: Mapping[str, ChannelInfo]) -> str | None:
@@ -147,16 +148,19 @@ def _moved(one: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> str:
     if first is not None and is_around(first.at):
         how = _BY_DAY
     else:
-        how = _MOVED.get(first.quantity if first is not None else "temperature", _LOADED)
+        read = {channels[c].quantity for c in one.channels if c in channels}
+        several = len(one.channels) > 1 and read == {"temperature"}
+        quantity = "temperature_difference" if several else first.quantity if first is not None else "temperature"
+        how = _MOVED.get(quantity, _LOADED)
     verb = "moves" if len(one.channels) == 1 else "move"
-    return f"in which {' and '.join(one.channels)} {verb} much ({how})"
+    return f"in which {listed(one.channels)} {verb} much ({how})"
 
 
 def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelInfo]) -> str:
     """The advice where what ranks first acts in one test only. test: its name."""
     verb = "acts" if len(first.channels) == 1 else "act"
     return (
-        f"{first.id} ranks first, and {' and '.join(first.channels)} {verb} in {test} only, so no other test foretells "
+        f"{first.id} ranks first, and {listed(first.channels)} {verb} in {test} only, so no other test foretells "
         f"it: run another one {_moved(first, channels)}, and diagnose again"
     )
 
@@ -175,12 +179,10 @@ def to_find(
         add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
         if tests > FEW_TESTS:
             return f"{counted(tests, 'test')} took part; {add} at least: no other test foretells what acts in one alone"
-        all_at_once, one_each = (
-            ", ".join(f"{share} with {n}" for n, share in some) for some in (ALL_AT_ONCE, ONE_EACH)
-        )
+        all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
         return (
             f"{counted(tests, 'test')} took part; what they move counts more than how many they are: on simulated "
-            f"machines a missing cause was named on {all_at_once} tests where most of them work all parts, and on "
+            f"machines a missing cause was named in {all_at_once} tests where most of them work all parts, and in "
             f"{one_each} where each works one, for no other test foretells what acts in one alone. So {add} at least"
         )
     worst = spots[0].state if spots else "no state in particular"
@@ -191,10 +193,12 @@ def to_find(
     if first is not None and first.candidate.protocol is not None and first.drop >= WORTH_A_TEST:
         logged = f"do {first.candidate.protocol}; if nothing differs, "
     elif first is not None and first.drop >= WORTH_A_TEST:
-        names = ", ".join(first.candidate.channels)
+        of = first.candidate.channels
+        are, rank, them = ("is", "ranks", "it") if len(of) == 1 else ("are", "rank", "them")
         closed = first.looked is None
         opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
-        logged = f"{names} is logged and ranks first, so run a test that moves it alone{opened}; if it is not that, "
+        alone = f"run a test that moves {them} alone{opened}"
+        logged = f"{listed(of)} {are} logged and {rank} first, so {alone}; if it is not that, "
     if not logged and spots and spots[0].after_warm_start:
         return (
             f"{counted(tests, 'test')} took part, so more of the same will not tell: the model fails most in "

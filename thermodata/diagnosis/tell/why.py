@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.claims.probability import CLAIMED, limit_of, probability, sharpness
 from thermodata.diagnosis.claims.refinement import SURE
-from thermodata.diagnosis.claims.rules import also_missing, blunt, failed_rules, in_words, on_locked, rules
+from thermodata.diagnosis.claims.rules import LEAST_TESTS, also_missing, blunt, failed_rules, in_words, on_locked, rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell.stated import is_a_cause, is_judged_beside
 from thermodata.diagnosis.verdict.investigate import Investigation
@@ -19,7 +20,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import in_percent
-from thermodata.schema.listed import listed as in_a_row
+from thermodata.schema.listed import listed
 from thermodata.view.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
@@ -71,7 +72,7 @@ def why(
     if like is not None:
         numbers = f"it is one equation with {like.candidate.id} and told as that: {_numbers(like, told, investigation)}"
     elif alone is not None:
-        left = from_to(*_left_out(alone), unit)
+        left = from_to(*_left_out(alone), unit, "from", "to")
         own = _numbers(s, None, investigation, others)
         numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {own}"
     else:
@@ -102,7 +103,7 @@ def why(
     if not failed and by_name is not None:
         return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
-        return f"{numbers}; not claimed: it would be another mode of what the model has"
+        return f"{numbers}; not claimed: {would_be_a_mode(s.candidate)}"
     if is_judged_beside(s, member, chosen=bool(judgement.judged)):
         failed += [why for why in [blunt(s)] if why]
     if failed:
@@ -111,7 +112,7 @@ def why(
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
     if not judgement.refused and not is_judged_beside(s, member, chosen=bool(judgement.judged)):
-        chosen = in_a_row([j.scored.candidate.id for j in judgement.judged])
+        chosen = listed([j.scored.candidate.id for j in judgement.judged])
         were = "was" if len(judgement.judged) == 1 else "were"
         return f"{numbers}; not claimed: it keeps the rules by itself, and {chosen} {were} chosen without it"
     if judgement.refused:
@@ -120,19 +121,36 @@ def why(
     return f"{numbers}; not claimed: {judgement.reason}"
 
 
+def would_be_a_mode(one: CandidateEffect) -> str:
+    """Why what is no cause by its kin is none: of a plain function, what else it may be."""
+    if not one.unmodelled:
+        return "it would be another mode of what the model has"
+    return (
+        f"the model reads what sits there already, so {one.id}, which names no heat, may be another mode of that; or "
+        f"it is {' or '.join(one.unmodelled)}, of whose heat the model has nothing: confirm it by that name"
+    )
+
+
 def _numbers(s: Scored, told: Scored | None, investigation: Investigation, others: Sequence[str] = ()) -> str:
     """Where it acts, how far the error falls there, and in how many tests it says so."""
     unit, tests, count = investigation.problem.unit, investigation.measure.tests, int(s.acts.sum())
-    beside = f", beside {' and '.join(others)}," if others else ""
+    beside = f", beside {listed(others)}," if others else ""
     beside = ", beside the effects as the model has them, one lag each," if s.as_modelled else beside
     return (
         f"{where_it_acts(count, len(s.rows), tests)}{beside} the error "
         f"{way(s.error_before, s.error_after)} "
         # unlike the errors on left-out tests, for which the known effects are left out as well
-        f"({from_to(s.error_before, s.error_after, unit)}), its size from the other {tests} and the known effects "
+        f"({from_to(s.error_before, s.error_after, unit)}), with its size from the other {tests} and the known effects "
         f"fitted to all{_of_all(s, told, tests, unit)}, and it makes {round(s.better * count)} of {count} more "
-        f"probable; its gain differs between {tests} by {in_percent(s.spread)}"
+        f"probable; {gain_between(s, tests)}"
     )
+
+
+def gain_between(s: Scored, tests: str) -> str:
+    """'its gain differs between tests by 8 %': of one test nobody knows."""
+    if int(s.acts.sum()) < LEAST_TESTS:
+        return f"no other {tests[:-1]} tells its gain"
+    return f"its gain differs between {tests} by {in_percent(s.spread)}"
 
 
 def where_it_acts(count: int, of: int, tests: str) -> str:
@@ -189,8 +207,9 @@ def also_of_motor(s: Scored, claims: Sequence[Scored]) -> str:
     motors = [c for c in claims if _reads_motor(c) and sharpness(c) > sharpness(s)]
     if not motors:
         return ""
+    heats = "heats" if len(s.candidate.channels) == 1 else "heat"
     return (
-        f"; {' and '.join(s.candidate.channels)} heats the motor too, which is claimed as {motors[0].candidate.id}: it "
+        f"; {listed(s.candidate.channels)} {heats} the motor too, which is claimed as {motors[0].candidate.id}: it "
         "may be more of that heat and no cause of its own, which the same path as an air cut tells: add that one "
         "first, and ask again"
     )
@@ -214,7 +233,7 @@ def _on_locked(s: Scored, held: Confirmation, unit: str, *, together: bool) -> s
         return ""
     what = " with all that is claimed" if together else ""
     what += ", in none of which it acts enough to be asked," if held.asked == frozenset() else ""
-    figures = f"; on the locked tests{what} {from_to(held.before, held.after, unit, 'from', 'to')}"
+    figures = f"; on the locked tests{what} the error goes {from_to(held.before, held.after, unit, 'from', 'to')}"
     way_of = _in_one_way(s.looked) if s.looked is not None else ""
     shape = held.on(held.asked)
     if shape is not None and not Foretold(held.before, held.after, held.changed).falls:

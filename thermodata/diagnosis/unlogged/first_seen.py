@@ -32,8 +32,8 @@ def where(
     doubt: Doubt = "none",
 ) -> str:
     """A sentence or two; what the data can't say is said to be so. suspect: what is likely it, and is logged.
-    first: what ranks first, and is plausible. warm: the key of the test at whose warm start the model
-    fails most. doubt: whether any heat is missing."""
+    first: what ranks first, where it is plausible or nearest to it. warm: the key of the test at whose warm start the
+    model fails most. doubt: whether any heat is missing."""
     told = _when(found, [_test(t, heat) for t in strong], [_test(t, heat) for t in weak])
     said = [_capital(_body(heat)) if doubt == "none" else f"{_DOUBTED} {_body(heat)}", told]
     strongest, is_warm = name_of(strong[0], heat), strong[0].key == warm
@@ -46,7 +46,11 @@ def where(
     elif first is not None:
         found = [c for c in found if c.verdict == "with" or c.info.name not in first.cause.channels]
     look_at = _to_look_at(strong[0], strongest, first, is_warm)
-    return ". ".join([*said, *_place(found, look_at, suspect), *_direction(heat)])
+    # what ranks first may be the cause, whose heat comes by another way than one lag
+    # a heat that goes both ways is never on or off, and is compared with temperatures alone
+    channel = "channel" if heat.sign else "temperature"
+    none = f"No logged {channel} {'goes with it' if first is None else 'has just its course'}"
+    return ". ".join([*said, *_place(found, none, look_at, suspect), *_direction(heat)])
 
 
 def minutes(seconds: float) -> str:
@@ -98,9 +102,9 @@ def _runs(one: Companion) -> str:
     return f"{one.info.name} {'is off' if one.is_inverse else 'runs'} ({often})"
 
 
-def _place(found: Sequence[Companion], look_at: str, suspect: Suspect | None) -> list[str]:
-    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. look_at: what
-    is to be looked at where nothing goes with it."""
+def _place(found: Sequence[Companion], none: str, look_at: str, suspect: Suspect | None) -> list[str]:
+    """Where a sensor would see it; beside a suspect, where else, for nothing has to be logged that it is. none: that
+    nothing goes with it; look_at: what is to be looked at then."""
     near = _places([c for c in found if c.verdict == "with"])
     # the least alike first
     far = [p for p in _places([c for c in reversed(found) if c.verdict == "not"]) if p not in near]
@@ -113,7 +117,7 @@ def _place(found: Sequence[Companion], look_at: str, suspect: Suspect | None) ->
         )
     elif suspect is None:
         said.append(
-            "No logged channel goes with it, so the data can't say where it is"
+            f"{none}, so the data can't say where it is"
             # heat on its way through a machine looks unlike what is logged where it came from
             + (f"; least like it is what is logged near {_or(far)}" if far else "")
             + look_at
@@ -137,16 +141,20 @@ def _began_warm(test: str) -> str:
 
 
 def _to_look_at(strongest: TestData, name: str, first: First | None, is_warm: bool) -> str:
-    """What is logged and acts there, where that is plausible: else what is not logged, unless it began warm. name: of
+    """What ranks first of what is logged; and where it doesn't act, what is not logged, unless it began warm. name: of
     the test."""
-    if first is None or strongest.key not in first.acts_in:
-        return "" if is_warm else f"; note what runs in {name} and is not logged"
+    unlogged = "" if is_warm else f"note what runs in {name} and is not logged"
+    if first is None:
+        return unlogged and f"; {unlogged}"
     one = first.cause
+    if first.probability is not None:
+        ranks = f"{one.id} is the likeliest of what is logged ({in_percent(first.probability)})"
+    else:
+        ranks = f"{one.id} comes nearest of what is logged (where it acts the error goes {first.error})"
+    if strongest.key not in first.acts_in:
+        return f"; {ranks}, but hardly acts in {name}{unlogged and f': {unlogged}'}"
     names, verb = " and ".join(one.channels), "is" if len(one.channels) == 1 else "are"
-    return (
-        f"; {one.id} is the likeliest of what is logged ({in_percent(first.probability)}) and acts in {name}: "
-        f"{names} {verb} to be looked at before anything that is not logged"
-    )
+    return f"; {ranks} and acts in {name}: {names} {verb} to be looked at before anything that is not logged"
 
 
 def _direction(heat: MissingHeat) -> list[str]:

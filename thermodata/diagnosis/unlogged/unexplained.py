@@ -25,8 +25,8 @@ def characterise(
     doubt: Doubt = "none",
 ) -> Unknown:
     """How fast the autocorrelation decays, which hours of the day stand out, the states of the weak spots; and the
-    missing heat itself, estimated, unless nobody knows of any. suspect: what is likely it. first: what ranks first, and
-    is plausible. doubt: whether any heat is missing."""
+    missing heat itself, estimated, unless nobody knows of any. suspect: what is likely it. first: what ranks first,
+    where it is plausible or nearest to it. doubt: whether any heat is missing."""
     return Unknown(
         time_constants_h=_time_constants(problem),
         hours_of_day=_hours(problem),

@@ -34,8 +34,9 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.steps import repeating
-from thermodata.diagnosis.steps.artefact import Step, as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps, places_that_tell
 from thermodata.diagnosis.steps.of_model import steps_of_model
+from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -138,15 +139,10 @@ def investigate(
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
     if selection is not None:
         faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
+    of_steps = as_artefacts(steps, info.unit, found)
+    of_steps += repeating.as_artefacts(repeating.repeating(found), info.unit)
     artefacts = [
-        *first_of_each(
-            [
-                *known_faults,
-                *as_artefacts(steps, info.unit),
-                *repeating.as_artefacts(repeating.repeating(found), info.unit),
-                *faults,
-            ]
-        ),
+        *first_of_each([*known_faults, *of_steps, *faults]),
         *faulty_sensors(
             data, fitted.name, {n for term in fitted.terms for t in data.tests for n in term.bound.reads(t)}
         ),

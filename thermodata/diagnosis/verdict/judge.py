@@ -15,6 +15,7 @@ from thermodata.diagnosis.claims.rules import LEAST_TESTS, blunt, contradicts, f
 from thermodata.diagnosis.question.present import CONTROL, GENERIC
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.selection import Selection
+from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import in_percent
 
@@ -98,8 +99,8 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     plain = left > measure.noises and any(is_plain(s) for s in selection.dropped)
     if left <= measure.floor and not halved and not plain:
         why = (
-            f"the error on left-out tests, {left:.2g} {problem.unit}, is at the floor of "
-            f"{measure.floor:.2g} {problem.unit} (noise, and {in_percent(FLOOR_SHARE)} of the response)"
+            f"the error on left-out tests, {short(left)} {problem.unit}, is at the floor of "
+            f"{short(measure.floor)} {problem.unit} (noise, and {in_percent(FLOOR_SHARE)} of the response)"
         )
         return Judgement("none", (), (), judged, why, likely=_likely(own, ()))
     more_than_noise = left if left > measure.noises else 0.0
@@ -114,7 +115,7 @@ def concluded(problem: Problem, selection: Selection, measure: Measure, judged: 
     failed = failed_rules(best, measure, problem.unit) or [why for why in [blunt(best)] if why]
     because = f": the best, {best.candidate.id}, fails because {failed[0]}" if failed else ""
     why = (
-        f"{left:.2g} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
+        f"{short(left)} {problem.unit} remain on left-out tests, {_against(left, measure.floor)}, and nothing "
         f"logged may be named for them{because}"
     )
     return Judgement("unknown", (), kept, judged, why, likely=_likely([*own, *maybe], ()))
@@ -165,7 +166,7 @@ def _nearly(
 def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
     """Why no cause is missing. rest: the error of left-out tests, with what refines the model where something does."""
     return (
-        f"the error on left-out tests, {rest:.2g} {unit}, is {in_percent(rest / measure.spread)} of the response, "
+        f"the error on left-out tests, {short(rest)} {unit}, is {in_percent(rest / measure.spread)} of the response, "
         f"as lags "
         f"leave of a machine that lacks nothing (limit {in_percent(limit / measure.spread)}), and nothing logged "
         "may be named for it"
@@ -174,8 +175,8 @@ def _enough(rest: float, limit: float, unit: str, measure: Measure) -> str:
 
 def _against(left: float, floor: float) -> str:
     if left <= floor:
-        return f"no more than the floor of {floor:.2g}, but much of them goes with what is logged"
-    return f"above the floor of {floor:.2g}"
+        return f"no more than the floor of {short(floor)}, but much of them goes with what is logged"
+    return f"above the floor of {short(floor)}"
 
 
 def _nothing(verdict: Verdict, reason: str) -> Judgement:

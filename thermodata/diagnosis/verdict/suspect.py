@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
+
+import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import GOOD_SHARE, OF_NOTHING, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
-from thermodata.diagnosis.claims.rules import PLAUSIBLE, failed_rules
+from thermodata.diagnosis.claims.rules import DROP_LIMIT, PLAUSIBLE, failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
+from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.counted import apart, in_percent
 
@@ -38,20 +42,39 @@ class Suspect:
 
 @dataclass(frozen=True, slots=True)
 class First:
-    """The first of the list that refines nothing, where it is plausible, whatever rule it breaks. acts_in: the keys of
-    the tests in which it acts."""
+    """The first of the list, whatever rule it breaks: where it is plausible (then `probability` says so), or where
+    left-out tests are foretold so much better with it that it is nearest to what is missing. acts_in: the keys of the
+    tests in which it acts. error: where it acts, without and with it, in words."""
 
     cause: CandidateEffect
-    probability: float
+    probability: float | None
     acts_in: frozenset[tuple[str, str]]
+    error: str = ""
 
 
 def first(head: Scored | None, problem: Problem) -> First | None:
-    """None where it is not plausible, or no test was weighed for it."""
+    """The first that refines nothing; None where it is not plausible, or no test was weighed for it."""
     if head is None or not len(head.rows) or probability(head) < PLAUSIBLE:
         return None
-    acts_in = (b.test.key for b, acts in zip(problem.blocks, head.acts.tolist(), strict=False) if acts)
-    return First(head.candidate, probability(head), frozenset(acts_in))
+    return First(head.candidate, probability(head), _acts_in(head, problem))
+
+
+def nearest(heads: Sequence[Scored], problem: Problem) -> First | None:
+    """The first of the list that left-out tests are foretold better with, over all and by what a claim asks where it
+    acts: no claim, but not to be passed over either."""
+    for head in heads:
+        if (
+            len(head.rows)
+            and head.drop >= DROP_LIMIT
+            and np.mean(head.sse_after / head.rows) < np.mean(head.sse_before / head.rows)
+        ):
+            error = from_to(head.error_before, head.error_after, problem.unit)
+            return First(head.candidate, None, _acts_in(head, problem), error)
+    return None
+
+
+def _acts_in(head: Scored, problem: Problem) -> frozenset[tuple[str, str]]:
+    return frozenset(b.test.key for b, acts in zip(problem.blocks, head.acts.tolist(), strict=False) if acts)
 
 
 def suspect(judgement: Judgement, head: Scored | None, measure: Measure, unit: str) -> Suspect | None:

@@ -19,6 +19,7 @@ from thermodata.diagnosis.question.known_effects import is_warm
 from thermodata.diagnosis.question.present import TIME_UNITS
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
+from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect.places import holds
 from thermodata.errors import UsageError, unknown_name
@@ -92,7 +93,7 @@ class HeatingAndCoolingApart(ChangedEffect):
         """'spindle_bearing acts by another function in cooling than in heating (tau about 100 instead of 40 min)'."""
         found = scored.columns.points[scored.weighed.best[0]]
         said = [
-            f"{p.name} about {found[p.name]:.2g} instead of {self.term.params[p.name]:.2g} {p.unit}"
+            f"{p.name} about {short(found[p.name])} instead of {short(self.term.params[p.name])} {p.unit}"
             for p in self.effect.params
             if p.unit in TIME_UNITS
         ]

@@ -5,6 +5,11 @@ from __future__ import annotations
 HARDLY = 0.005  # of an error: a fall by less is one by 0 % in words
 
 
+def short(value: float) -> str:
+    """'0.2', '93', '120': two digits that count, and no power of ten up to a million."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
 def from_to(before: float, after: float, unit: str, begins: str = "", to: str = "->") -> str:
     """'0.95 -> 0.94 um', or 'from 0.95 to 0.94 um', with as many digits as tell the two, four at most."""
     texts = [(f"{before:.{digits}f}", f"{after:.{digits}f}") for digits in (2, 3, 4)]

@@ -10,6 +10,7 @@ from thermodata.schema.model import Model
 from thermodata.view.dataset import Dataset
 
 if TYPE_CHECKING:
+    from thermodata.schema.diagnosis import Diagnosis
     from thermodata.store.catalogue.models import StoredModel
 
 
@@ -25,6 +26,23 @@ def as_chosen(stored: StoredModel, data: Dataset) -> Model:
         return spec
     # those that are gone may come back
     return spec.model_copy(update={"in_sample_on": list(dict.fromkeys([*(spec.in_sample_on or ()), *took_part]))})
+
+
+def unasked(stored: StoredModel, diagnosis: Diagnosis | None, data: Dataset) -> list[str]:
+    """A note that names the verification tests that came after a diagnosis of a model, and are fitted with what is
+    chosen by it; none where it was asked of all of them."""
+    if diagnosis is None or diagnosis.data_version == data.data_version:
+        return []
+    asked = {(one.campaign, one.test) for c in diagnosis.candidates for one in c.left_out}
+    known = {*asked, *((s.campaign, s.test) for s in stored.result.scores)}
+    new = ["/".join(key) for key in resolve_roles(stored.spec, data).verify if key not in known]
+    if not asked or not new:
+        return []
+    it, verify = ("they are", "verify") if len(new) > 1 else ("it is", "verifies")
+    return [
+        f"{listed(new)} came after the diagnosis that this is chosen by; {it} fitted all the same (in-sample), and "
+        f"{verify} nothing of the choice: thermodata diagnose {stored.model} asks again, of all that there is now"
+    ]
 
 
 def came_since(spec: Model, data: Dataset) -> list[str]:

@@ -15,7 +15,7 @@ from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
-from thermodata.store.ingest.known.looks_of_gone import count_on, keep_looks
+from thermodata.store.ingest.known.looks_of_gone import count_on, keep_looks, keep_looks_at_changed
 from thermodata.store.ingest.known.mark_stale import is_fitted, mark_stale
 from thermodata.store.ingest.known.state import states, version_of
 
@@ -100,6 +100,10 @@ def commit(
         for t in (changed - {""} if is_fitted(con, campaign) else ())
         if version_of(planned.rows, t) != version_of(inventory.rows, t)
     }
+    before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
+    # what models said of a test that was taken out stays, as their fits do: it may come back
+    keep_looks(con, campaign, before - after)
+    others = keep_looks_at_changed(con, campaign, planned.rows, differing["file"] & before & after)
     for table in BY_TEST:
         gone = set(differing[table])
         if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
@@ -132,10 +136,8 @@ def commit(
     )
     then = states(inventory.rows, inventory.calibrations, differ)
     stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
-    before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
-    # what models said of a test that was taken out stays, as their fits do: it may come back
-    keep_looks(con, campaign, inventory.rows, before - after)
     count_on(con, campaign, planned.rows, after - before)
+    count_on(con, campaign, planned.rows, others, stay=True)
     return stale
 
 

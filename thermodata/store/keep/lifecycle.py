@@ -14,7 +14,7 @@ from thermodata.store.catalogue.create import LAYERS
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.commit import drop_results
 from thermodata.store.ingest.known.inventory import BY_TEST, read_inventory
-from thermodata.store.ingest.known.looks_of_gone import keep_looks, looked_at
+from thermodata.store.ingest.known.looks_of_gone import keep_looks
 from thermodata.store.ingest.known.mark_stale import mark_stale
 from thermodata.store.ingest.known.state import states
 
@@ -48,9 +48,7 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
         gone = tests if test is None else [test]
         stale: list[str] = []
         models: list[str] = []
-        # of what follows, the rows of these tests alone are asked for
-        looked = looked_at(con, campaign, gone)
-        was = read_inventory(con, None, campaign, looked if test is None else {test})
+        looks = keep_looks(con, campaign, gone)
         if test is None:
             models = [
                 r["model"] for r in fetch(con, "select model from model where list_contains(campaigns, ?)", [campaign])
@@ -63,13 +61,13 @@ def forget(store: Store, campaign: str, test: str | None = None, *, earlier: boo
                 for table in (*_OF_MODEL, "model"):
                     con.execute(f"delete from {table} where model = ?", [model])
         else:
+            was = read_inventory(con, None, campaign, {test})
             then = states(was.rows, was.calibrations, {test})
             stale = mark_stale(con, campaign, then, {test: None}, forgotten=True)
             for table in BY_TEST:
                 con.execute(f"delete from {table} where campaign = ? and test = ?", [campaign, test])
             drop_results(con, campaign, {test})
             con.execute("update campaign set data_version = data_version || '-' where campaign = ?", [campaign])
-        looks = keep_looks(con, campaign, was.rows, looked)
     return _answer(campaign, test, tests=gone, models=models, stale=stale, looks=looks)
 
 

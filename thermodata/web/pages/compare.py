@@ -18,7 +18,7 @@ from thermodata.plugin import Float1D
 from thermodata.report.data import Version
 from thermodata.report.glossary import IN_SAMPLE
 from thermodata.report.headline import capital
-from thermodata.report.history import chain_units, versions
+from thermodata.report.history import chain_units, how_it_went, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
 from thermodata.report.of_response import some_of
 from thermodata.schema.result import FitResult
@@ -155,8 +155,10 @@ def _versions(of: _Compared) -> dict[str, Any]:
     stored = model_chain(of.store, newest.model)
     chain = versions(stored, chain_units(of.store, stored))
     of_chain = told_together(newest.responses, response_units(of.store, newest.responses, newest.campaigns))
+    waterfall = _waterfall(chain)
     return {
-        "waterfall": _waterfall(chain),
+        "waterfall": waterfall,
+        "went": how_it_went([error for _, error, _ in waterfall]),
         "told_of_chain": some_of(of_chain, newest.responses),
         "lost": capital(lost_of_versions(chain, lambda v: f"{v.name} {chain.index(v) + 1}")),
         "undo": next((m for m in of.models if m.model == newest.parent), None),

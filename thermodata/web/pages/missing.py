@@ -16,6 +16,7 @@ from thermodata.report.headline import capital
 from thermodata.report.heat_charts import heat_charts
 from thermodata.report.log_faults import log_faults
 from thermodata.report.of_response import of_response, worst_of
+from thermodata.report.older import is_of_other_data
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
 from thermodata.report.words import heat_lines, in_unit, number
@@ -24,8 +25,9 @@ from thermodata.schema.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.looks import looks_of
-from thermodata.store.catalogue.models import load_diagnosis
+from thermodata.store.catalogue.models import find_model, load_diagnosis
 from thermodata.view.describe import channel_infos
+from thermodata.view.load import data_version
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.response_units import response_units, told_together, unit_of
 from thermodata.web.chosen import model_in
@@ -68,7 +70,8 @@ def show(request: Request) -> Response:
         return page(
             request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
         )
-    found = load_diagnosis(store, model.model)
+    found, stored = load_diagnosis(store, model.model), find_model(store, model.model)
+    campaigns = list(dict.fromkeys(stored.spec.campaign_ids))
     unit = unit_of(store, found.response, model.campaigns) if found else model.unit
     shown = told(found) if found else []
     heat = found.unknown.heat if found and found.unknown else None
@@ -87,6 +90,7 @@ def show(request: Request) -> Response:
         error_of=worst_of(together, model.responses),
         headline=in_unit(_headline(found), unit) if found else "What does it miss?",
         about=_about(found, model, unit) if found else "",
+        older=found is not None and is_of_other_data(found, stored.data_version, data_version(store, campaigns)),
         of_response=capital(of_response(found)) if found else "",
         told=shown,
         hides=in_unit(capital(could_hide(found)), unit) if found else "",
