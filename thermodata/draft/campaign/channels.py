@@ -26,9 +26,9 @@ from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.row_units import UNIT_OF
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
