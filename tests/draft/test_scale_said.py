@@ -171,3 +171,90 @@ def test_a_factor_alone_above_several_columns_is_told(tmp_path: Path, say: Say, 
     path.write_text("\n".join([head, names, *rows, ""]), encoding="utf-8")
     said = say("preview", path)
     assert ("'Gain 10', of which column is not told: nothing is scaled" in said.out + said.err) is told
+
+
+NEEDED = {"unit": '"0.1 um"', "instead_of": "um"}
+
+
+def _by_hand(folder: Path, channel: str, more: str = "", **answer: str) -> Path:
+    """A campaign that somebody wrote, whose channel dZ may say what its scale is."""
+    keys = "".join(f", {key}: {value}" for key, value in answer.items())
+    path = folder / "campaign.yaml"
+    path.write_text(
+        "schema: thermodata/campaign/1\nid: rig\nmachine: {id: '1'}\n"
+        f"sources:\n  log: {{reader: table, files: '{{test}}.{channel}'}}\n"
+        "channels:\n  T_front: {source: log, signal: T_front, quantity: temperature, unit: degC}\n"
+        "  dZ: {source: log, signal: dZ, quantity: displacement, axis: Z, at: tcp, relative_to: table"
+        f"{keys}}}\n{more}tests:\n  - {{id: run1, kind: other, role: calibration}}\n",
+        encoding="utf-8",
+    )
+    return path
+
+
+LINEAR = "calibrations:\n  scale_dZ: {kind: linear, gain: 0.1}\n"
+SIGN = "calibrations:\n  sign_z: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}\n"
+DERIVED = "  dZ_um: {derive: dZ * 0.1, quantity: displacement, axis: Z, at: tcp}\n"
+
+
+@pytest.mark.parametrize(
+    ("answer", "more", "lost"),
+    [
+        ({}, "", True),
+        ({"calibration": "sign_z"}, SIGN, True),
+        ({"unit": '"0.01 um"', "instead_of": "um"}, "", True),
+        (NEEDED, "", False),
+        ({"calibration": "scale_dZ"}, LINEAR, False),
+        ({"scaled": "true"}, "", False),
+        ({}, DERIVED, False),
+    ],
+)
+def test_counts_whose_scale_a_campaign_leaves_open_are_a_loss(
+    tmp_path: Path, say: Say, answer: dict[str, str], more: str, lost: bool
+) -> None:
+    _mat(tmp_path, dZ_gain=0.1)
+    said = say("--store", tmp_path / "store", "ingest", _by_hand(tmp_path, "mat", more, **answer))
+    assert (said.code, "'dZ_gain = 0.1', which the campaign file leaves open" in said.out + said.err) == (
+        3 * lost,
+        lost,
+    )
+    assert ('unit: "0.1 um", instead_of: um' in said.out + said.err) is lost
+
+
+@pytest.mark.parametrize(
+    ("values", "code", "told"),
+    [
+        (COUNTS, 3, True),
+        (COUNTS.astype(float), 3, True),
+        (np.round(COUNTS * 0.1, 1), 0, False),  # in steps of the factor
+        (COUNTS * 0.0137, 0, True),  # fractions of no step: a filter's
+        (np.minimum(COUNTS, 3) * 100.0, 0, True),  # what is set
+    ],
+)
+def test_values_tell_whether_they_are_counts(
+    tmp_path: Path, say: Say, values: np.ndarray[tuple[int], np.dtype[np.float64]], code: int, told: bool
+) -> None:
+    _mat(tmp_path, dZ=values, dZ_gain=0.1)
+    said = say("--store", tmp_path / "store", "ingest", _by_hand(tmp_path, "mat"))
+    assert (said.code, "which the campaign file leaves open" in said.out + said.err) == (code, told)
+
+
+def test_a_line_that_applies_a_factor_and_an_offset_gives_the_readings(tmp_path: Path, say: Say) -> None:
+    counts = np.round((WARM + 40) * 100).astype(np.int32)
+    own = {"unit": "degC", "scale": "0.01", "offset": "-40"}
+    schema = pa.schema(
+        [pa.field("t [s]", pa.float64()), pa.field("T_front", pa.int32(), metadata=own), pa.field("dZ", pa.float64())]
+    )
+    pq.write_table(pa.table([np.arange(N) * 60.0, counts, COUNTS + 0.5], schema=schema), tmp_path / "run1.parquet")
+    assert say("init", tmp_path).code in (0, 3)
+    (line,) = [x for x in (tmp_path / "campaign.yaml").read_text("utf-8").splitlines() if "T_front:" in x]
+    assert "'scale = 0.01' and 'offset = -40': are these in the values? then scaled: true" in line
+    assert "raw counts" not in line  # the scale answers that
+    path = _by_hand(
+        tmp_path, "parquet", "calibrations:\n  scale_T_front: {kind: linear, gain: 0.01, offset: -40}\n", unit="um"
+    )
+    text = path.read_text("utf-8")
+    assert say("--store", tmp_path / "store", "ingest", path).code == 3
+    path.write_text(text.replace("unit: degC", "unit: degC, calibration: scale_T_front"), "utf-8")
+    assert say("--store", tmp_path / "store", "ingest", path).code == 0
+    read = say("--store", tmp_path / "store", "sql", "--csv", "select value from sample where channel='T_front'").out
+    assert np.allclose([float(x) for x in read.split()[1:]], WARM, atol=0.006)

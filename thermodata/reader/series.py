@@ -3,6 +3,7 @@ it."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -11,9 +12,11 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
 from thermodata.reader.interleaved import Parting, series_columns, words_of
+from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
 from thermodata.reader.unit_words import holds_units
 from thermodata.schema.counted import counted
 from thermodata.schema.listed import with_dots
+from thermodata.schema.quantity import normal_unit
 
 SERIES = "series"  # the property of a signal that says which it is of
 NEVER = "none"  # declared: rows are of one series
@@ -93,14 +96,14 @@ class Declaration:
 class Series:
     """How the rows of one stream are taken apart. tags: the signals whose words name a series, together; held: the
     signals that had a value in each series; streams: of each; named: a signal's name by series and name; units: of the
-    series whose one column of numbers has its unit in a column beside it: (that column, the unit)."""
+    series whose one column of numbers has its unit in a column beside it: what that says."""
 
     stream: str
     tags: tuple[str, ...]
     held: Mapping[str, frozenset[str]]
     streams: Mapping[str, str]
     named: Named = slash
-    units: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    units: Mapping[str, UnitColumn] = field(default_factory=dict)
 
     def note(self) -> str:
         """What was done, for whoever reads the recording's notes."""
@@ -117,7 +120,8 @@ class Series:
                 name=self.named(one, s.name),
                 stream=self.streams[one],
                 unit=s.unit if s.unit or s.dtype == "str" else self.unit(one),
-                properties={**s.properties, SERIES: one},
+                dtype="float64" if self._is_converted(one, s.name) else s.dtype,
+                properties={**s.properties, SERIES: one, **self.unit_of(one, s.name)},
             )
             for one, held in self.held.items()
             for s in mine
@@ -127,7 +131,37 @@ class Series:
 
     def unit(self, series: str) -> str | None:
         """The unit that the rows of a series name for their one number."""
-        return self.units[series][1] if series in self.units else None
+        return self.units[series].unit if series in self.units else None
+
+    def _is_converted(self, series: str, name: str) -> bool:
+        """Whether rows of a series have the values of a signal in several units."""
+        return series in self.units and self.units[series].of == name and bool(self.units[series].others)
+
+    def unit_of(self, series: str, name: str) -> dict[str, str]:
+        """Of the column that says the unit of a series, the signal that it is of."""
+        said = self.units.get(series)
+        return {UNIT_OF: self.named(series, said.of)} if said is not None and said.column == name else {}
+
+    def in_its_unit(self, series: str, block: Block, rows: Int1D) -> tuple[Block, Int1D, dict[str, int]]:
+        """(a block with the numbers of a series in its one unit, the rows of it that have them, how many rows are in a
+        unit that does not convert). rows: of the series, shape (k,)."""
+        said = self.units.get(series)
+        if said is None or said.of not in block.values:
+            return block, rows, {}
+        values = block.values[said.of]
+        values = values.astype(np.float64) if said.others else values
+        made, lost, foreign = in_unit(words_of(said.column, block.values[said.column][rows]), values[rows], said.unit)
+        whole = values.astype(made.dtype)
+        whole[rows] = made
+        return replace(block, values={**block.values, said.of: whole}), rows[~lost], foreign
+
+    def not_in_its_unit(self, series: str, word: str, count: int) -> str:
+        """What is said of rows of a series that are lost for their unit."""
+        rows = counted(count, "row")
+        return (
+            f"{rows} of '{series}' in another unit than '{self.unit(series)}': {word[:20]}, not read; try: give the "
+            "values of each unit a name of their own"
+        )
 
     def rows(self, block: Block) -> dict[str, Int1D]:
         """Which rows of a block each series has, also those that the first look did not meet ('' names none)."""
@@ -145,6 +179,7 @@ class TakenApart:
     series: Series
     where: str
     unmet: dict[str, int] = field(default_factory=dict)
+    foreign: dict[tuple[str, str], int] = field(default_factory=dict)
 
     def split(self, item: Block | Loss) -> Iterator[Block | Loss]:
         """The blocks of each series in a block of the stream; all else as it is."""
@@ -156,12 +191,9 @@ class TakenApart:
                 self._count(f"row of '{one}'" if one else "row of no series", rows.size)
                 continue
             held = self.series.held[one]
-            if one in self.series.units:
-                column, unit = self.series.units[one]
-                same = np.array([word in ("", unit) for word in words_of(column, item.values[column][rows])], bool)
-                if not same.all():
-                    self._count(f"row of '{one}' in another unit than '{unit}'", int((~same).sum()))
-                    rows = rows[same]
+            item, rows, foreign = self.series.in_its_unit(one, item, rows)
+            for word, count in foreign.items():
+                self.foreign[one, word] = self.foreign.get((one, word), 0) + count
             values = {self.series.named(one, k): v[rows] for k, v in item.values.items() if k in held}
             flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
             at = None if item.at is None else item.at[rows]
@@ -172,6 +204,7 @@ class TakenApart:
 
     def rest(self) -> Iterator[Loss]:
         """What was counted."""
+        yield from (Loss(self.where, reason=self.series.not_in_its_unit(*k, n)) for k, n in self.foreign.items())
         for what, count in self.unmet.items():
             things, _, whose = what.partition(" ")
             told = f"{counted(count, things)} {whose}" if things in _THINGS else f"{count} {what}"
@@ -225,32 +258,28 @@ def find_series(
         return Found(None, doubts)
     made = Series(block.stream, tags, held, streams, named, _units(block, names, held, tags))
     own = made.note() if declared.columns else f"{made.note()}; {declared.declined()}"
-    return Found(made, (own, *doubts))
+    units = (replace(u, column=named(one, u.column), of=named(one, u.of)).note() for one, u in made.units.items())
+    return Found(made, (own, *filter(None, units), *doubts))
 
 
 def _units(
     block: Block, names: Array, held: Mapping[str, frozenset[str]], tags: Sequence[str]
-) -> dict[str, tuple[str, str]]:
-    """The unit that the rows of each series name, of those with one column of numbers; what names the series itself is
-    none: machine A is no ampere. FormatError where one has several."""
+) -> dict[str, UnitColumn]:
+    """What the rows of each series say of their unit, of those with one column of numbers: the usual one, and others
+    that convert to it. What names the series itself is none: machine A is no ampere."""
     texts = [k for k, v in block.values.items() if v.dtype.kind == "O" and k not in tags]
     column = next((k for k in texts if holds_units(k, words_of(k, block.values[k]))), None)
-    units: dict[str, tuple[str, str]] = {}
+    units: dict[str, UnitColumn] = {}
     if column is None:
         return units
     for one, some in held.items():
-        found = sorted(set(words_of(column, block.values[column][names == one])) - {""})
-        if sum(block.values[k].dtype.kind in "iuf" for k in some if k in block.values) != 1 or not found:
+        numbers = [k for k in some if k in block.values and block.values[k].dtype.kind in "iuf"]
+        found = Counter(word for word in words_of(column, block.values[column][names == one]) if word)
+        if len(numbers) != 1 or not found:
             continue
-        if len(found) > 1:
-            raise FormatError(
-                f"'{one}' has several units",
-                where=f"column '{column}'",
-                expected="one",
-                got=" and ".join(found[:3]),
-                hint="give the values of each unit a name of their own",
-            )
-        units[one] = column, found[0]
+        usual = found.most_common(1)[0][0]
+        others = [w for w in found if normal_unit(w) != normal_unit(usual) and converts_here(w, usual)]
+        units[one] = UnitColumn(column, numbers[0], usual, tuple(others))
     return units
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from thermodata.plugin import Block, Signal
 from thermodata.reader.interleaved import words_of
-from thermodata.reader.text.names.unit_column import UNIT_OF, UnitColumn, converts_here
+from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here
 from thermodata.schema.quantity import normal_unit
 
 
@@ -30,7 +30,7 @@ class UnitsMet:
     def note(self, told: Sequence[str]) -> str | None:
         """What is told of units that were converted and are not told yet. told: the notes of the first look."""
         own = f"'{self.said.column}' says the unit of "
-        before = [note for note in told if note.startswith(own)]
+        before = [note for note in told if own in note]
         late = [word for word in self._converted if not any(f"'{word}'" in note for note in before)]
         return replace(self.said, others=tuple(late)).note()
 

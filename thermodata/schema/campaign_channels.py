@@ -47,6 +47,7 @@ class Channel(Strict):
     quantity: what it is; its canonical unit follows
     unit: of the raw values, where the file does not say it
     instead_of: the unit that the file states, where that is wrong and `unit` is right
+    scaled: true: the values have the factor and the offset that the file states beside them
     axis: of a displacement: the machine's axis
     at: dotted place on the machine: spindle.bearing.front
     relative_to: place that a displacement is measured against
@@ -66,6 +67,7 @@ class Channel(Strict):
     quantity: Quantity
     unit: str | None = None
     instead_of: str | None = None
+    scaled: bool | None = Field(default=None, exclude_if=lambda scaled: scaled is None)
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     at: At | None = None
     relative_to: At | None = None

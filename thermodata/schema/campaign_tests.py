@@ -74,6 +74,7 @@ class ChannelOverride(Strict):
     signal: its name in the file
     unit: of the raw values
     instead_of: the unit that the file states, where that is wrong
+    scaled: true: the values have the factor and the offset that the file states beside them
     axis: of a displacement
     at: dotted place
     relative_to: place it is measured against
@@ -87,6 +88,7 @@ class ChannelOverride(Strict):
     signal: str | None = None
     unit: str | None = None
     instead_of: str | None = None
+    scaled: bool | None = Field(default=None, exclude_if=lambda scaled: scaled is None)
     axis: Literal["X", "Y", "Z", "A", "B", "C"] | None = None
     at: At | None = None
     relative_to: At | None = None

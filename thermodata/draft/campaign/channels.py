@@ -19,16 +19,16 @@ from thermodata.draft.signals.head_said import with_head
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
-from thermodata.draft.signals.scale_said import with_scale_asked
+from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
 from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.row_units import UNIT_OF
 from thermodata.reader.series import SERIES
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.names.unit_column import UNIT_OF
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
@@ -220,6 +220,9 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     note = note if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
     said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    if (scaled := as_scaled(values, own_signals.values())) is not None:
+        # what values ask that are counts, the scale answers
+        said = min(said, guess(called(signal), usual, signal.dtype, scaled), key=lambda g: len(g.questions))
     said = replace(said, sure=False) if where else said
     if any(heads):
         said, note = with_head(said, signal, note, heads)

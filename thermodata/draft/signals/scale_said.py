@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
+from thermodata.draft.signals.values import Values
 from thermodata.plugin import Signal
-from thermodata.reader.text.cells.number import of_either_mark
-from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
+from thermodata.reader.text import split_unit
+from thermodata.reader.text.preamble.stated_scale import line_that_applies, stated_scales
 from thermodata.schema.listed import with_count
-from thermodata.schema.unit_scale import with_power_of_ten
-
-_TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
 
 _FILES = 3  # that are shown
-_LEAST, _MOST = 1e-12, 1e12
 
 
 def with_scale_asked(found: Guess, signals: Mapping[str, Signal]) -> Guess:
@@ -26,29 +22,50 @@ def with_scale_asked(found: Guess, signals: Mapping[str, Signal]) -> Guess:
         return found
     files: dict[str, list[str]] = {}
     for file, signal in signals.items():
-        files.setdefault("" if signal.scaling is not None else "; ".join(_asked(signal, found.unit)), []).append(file)
+        files.setdefault("; ".join(_asked(signal, found.unit)), []).append(file)
     several = len(files) > 1
     asked = [f"in {with_count(of, _FILES)} {told}" if several else told for told, of in files.items() if told]
     return replace(found, sure=False, questions=(*found.questions, "; ".join(asked))) if asked else found
 
 
+def as_scaled(values: Values | None, signals: Iterable[Signal]) -> Values | None:
+    """A sample in the scale that all files state alike; None where they state none."""
+    scales = {_scale(s) for s in signals}
+    if values is None or len(scales) != 1 or (scale := scales.pop()) in (None, (1.0, 0.0)):
+        return None
+    factor, offset = scale
+    ends = [x * factor + offset for x in (values.low, values.high)]
+    median, first, second = (x * factor + offset for x in (values.median, values.first, values.second))
+    return replace(
+        values,
+        low=min(ends),
+        high=max(ends),
+        median=median,
+        step=values.step * abs(factor),
+        whole=False,
+        first=first,
+        second=second,
+        counts=False,
+    )
+
+
+def _scale(signal: Signal) -> tuple[float, float] | None:
+    """Factor and offset; None where several are stated."""
+    stated = stated_scales(signal)
+    factors, offsets = ([s.number for s in stated if s.kind == kind] for kind in ("factor", "offset"))
+    if len(factors) > 1 or len(offsets) > 1:
+        return None
+    return (*factors, 1.0)[0], (*offsets, 0.0)[0]
+
+
 def _asked(signal: Signal, unit: str | None) -> Iterator[str]:
-    for key, text in signal.properties.items():
-        said = f"the file says '{key} = {text}': is that in the values?"
-        number = of_either_mark(text.strip())
-        if number is not None and number and not _LEAST < abs(number) < _MOST:
-            continue  # 'inf', or what nobody measures by
-        of = stated_of(key)
-        if of is not None and not is_called(signal.name, of[0]):
-            continue  # of another signal
-        word = key if of is None else of[1]
-        if FACTOR.fullmatch(word) and number is not None and number not in (0.0, 1.0):
-            own = with_power_of_ten(abs(number), unit or "?")
-            way = f'unit: "{own}"' + (f", instead_of: {unit}" if unit else "") if own else None
-            yield f"{said} where they still need it: {way or f'a calibration of kind linear or scale, gain {number:g}'}"
-            if number < 0:
-                yield "it turns the sign, which is kept as it stands in the file"
-        elif OFFSET.fullmatch(word) and number:
-            yield f"{said} where they still need it: a calibration of kind linear"
-        elif TURNED.fullmatch(word) and _TURNS.fullmatch(text.strip()):
-            yield f"{said} their sign is kept as it stands in the file"
+    stated = stated_scales(signal)
+    numbers = [s for s in stated if s.kind != "sign"]
+    if numbers:
+        said, is_that = " and ".join(map(str, numbers)), "are these" if len(numbers) > 1 else "is that"
+        way = line_that_applies(numbers, split_unit(signal.name)[0], unit)
+        yield f"the file says {said}: {is_that} in the values? then scaled: true; where they still need it: {way}"
+    if any(s.kind == "factor" and s.number < 0 for s in numbers):
+        yield "it turns the sign, which is kept as it stands in the file"
+    for turned in (s for s in stated if s.kind == "sign"):
+        yield f"the file says {turned}: is that in the values? their sign is kept as it stands in the file"

@@ -14,12 +14,13 @@ import numpy as np
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.repeated_hour import repeated_hour
+from thermodata.reader.row_units import UNIT_OF
 from thermodata.reader.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
-from thermodata.reader.text.names.unit_column import UNIT_OF, in_one_unit
+from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, lone_scales, scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.preamble.ways_said import WAY, ways_said

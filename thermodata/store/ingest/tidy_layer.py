@@ -35,6 +35,7 @@ from thermodata.store.tidy.overrule import idle, met
 from thermodata.store.tidy.plan import SCHEDULE, TestPlan
 from thermodata.store.tidy.series import Member, TestSeries
 from thermodata.store.tidy.source_clock import Clock, Span, span
+from thermodata.store.tidy.unscaled import tell_unscaled
 from thermodata.store.tidy.writer import write_member
 
 Columns = list[tuple[str, bool]]
@@ -110,6 +111,7 @@ def tidy_tests(
                 _add_rows(layer, test, calibrations, now)
                 _note_courses(note, test)
                 _note_verdicts(note, test)
+            tell_unscaled(store, plan)
             note.overruled = met(campaign.overrule, [event_of(r) for rows in test.events.values() for r in rows])
         note.losses += [loss_row(p, test=plan.test.id) for p in plan.problems]
         note.notes += plan.notes

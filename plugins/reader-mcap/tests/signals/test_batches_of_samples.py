@@ -53,6 +53,86 @@ def test_each_sample_stands_at_its_own_time(tmp_path: Path, write: Any, read: An
     assert not any("[0]" in s.name or "dt" in s.name for s in recording.signals)
 
 
+SEVERAL: dict[str, Any] = {
+    "fields with values": lambda ks: {
+        "t": [at(k) for k in ks],
+        "T": {"values": [20.0 + k for k in ks], "unit": "degC"},
+        "dZ": {"values": ks, "unit": "um"},
+    },
+    "times in a field": lambda ks: {
+        "time": {"values": [at(k) for k in ks], "unit": "s"},
+        "T": {"values": [20.0 + k for k in ks], "unit": "degC"},
+        "dZ": {"values": ks, "unit": "um"},
+    },
+    "times of a header": lambda ks: {
+        "header": {"stamps": [at(k) for k in ks]},
+        "T": {"values": [20.0 + k for k in ks], "unit": "degC"},
+        "dZ": {"values": ks, "unit": "um"},
+    },
+    "step of a header": lambda ks: {
+        "header": {"t0": at(ks[0]), "dt": 6.0},
+        "T": {"values": [20.0 + k for k in ks], "unit": "degC"},
+        "dZ": {"values": ks, "unit": "um"},
+    },
+    "times of each": lambda ks: {
+        "T": {"t": [at(k) for k in ks], "values": [20.0 + k for k in ks], "unit": "degC"},
+        "dZ": {"t": [at(k) for k in ks], "values": ks, "unit": "um"},
+    },
+    "objects": lambda ks: [
+        {"t": at(k), "T": {"values": 20.0 + k, "unit": "degC"}, "dZ": {"values": k, "unit": "um"}} for k in ks
+    ],
+    "objects inside": lambda ks: {
+        "rig": "B",
+        "samples": [{"ts": at(k, 1e6), "T": {"values": 20.0 + k}, "dZ": {"values": k}} for k in ks],
+    },
+}
+
+
+@pytest.mark.parametrize("form", SEVERAL)
+def test_arrays_of_several_fields_stand_at_the_times_of_their_samples(
+    tmp_path: Path, write: Any, read: Any, form: str
+) -> None:
+    uneven = [[0], [1, 2, 3], [4, 5], [6, 7, 8, 9, 10, 11, 12], [13, 14]]
+    sent = [("/daq", T0 + STEP * ks[-1] + 3_000_000, SEVERAL[form](ks)) for ks in uneven]
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", sent))
+    assert not losses
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(15), atol=1000)
+    before = "/daq.samples" if form == "objects inside" else "/daq"
+    assert values[f"{before}.dZ.values"] == list(range(15))
+    assert values[f"{before}.T.values"] == [20.0 + k for k in range(15)]
+    assert any("holds several samples" in n and "wrong" not in n for n in recording.notes)
+    if form != "objects inside":
+        assert {s.name: s.unit for s in recording.signals if s.dtype != "str"} == {
+            "/daq.T.values": "degC",
+            "/daq.dZ.values": "um",
+        }
+
+
+def test_clocks_of_their_own_make_rows_of_their_own(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        half = [k + 0.5 for k in ks[::2]]
+        return {"T": {"t": [at(k) for k in ks], "v": ks}, "dZ": {"t": [at(k) for k in half], "v": half}}
+
+    _, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(4, made)))
+    assert not losses
+    dz = np.array(values["/daq.dZ.v"], float)
+    good = np.isfinite(dz)
+    np.testing.assert_allclose(times["/daq"][good], T0 + STEP * dz[good], atol=1000)
+    assert int(good.sum()) == 12
+    assert (np.diff(times["/daq"]) > 0).all()
+
+
+def test_a_sample_alone_may_stand_without_brackets(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        return {"t": [at(k) for k in ks], "dZ": ks} if len(ks) > 1 else {"t": at(ks[0]), "dZ": ks[0]}
+
+    sent = [("/daq", T0 + STEP * ks[-1] + 3, made(ks)) for ks in ([0, 1], [2, 3, 4], [5], [6, 7], [8])]
+    _, times, values, _, losses = read(write(tmp_path / "a.mcap", sent))
+    assert not losses
+    assert values["/daq.dZ"] == list(range(9))
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(9), atol=1000)
+
+
 def test_what_a_message_holds_once_stands_with_its_first_sample(tmp_path: Path, write: Any, read: Any) -> None:
     made = batches(4, lambda ks: {"t0": at(ks[0]), "dt": 6.0, "dZ": ks, "T": float(ks[0]), "xyz": [1.0, 2.0, 3.0]})
     _, times, values, _, _ = read(write(tmp_path / "a.mcap", made))
@@ -75,6 +155,10 @@ def test_a_clock_of_the_samples_that_is_far_from_the_log_is_told(tmp_path: Path,
         lambda ks: {"t0": at(ks[0]), "dt": 30.0, "position": [1.0 * k for k in ks]},  # the time between messages
         lambda ks: {"t": [0, 6, 12, 18, 24], "dZ": ks},  # of which nothing says when
         lambda ks: {"names": ["a", "b", "c", "d", "e"], "dZ": ks},
+        lambda ks: {"t": [0, 6, 12, 18, 24], "dZ": {"values": ks}},
+        lambda ks: {"dt": 6.0, "zones": [1.0 * k for k in ks], "dZ": ks[0]},
+        lambda ks: {"probes": [{"name": n, "t": at(k), "um": k} for n, k in zip("abcde", ks, strict=True)]},
+        lambda ks: {"sensors": [{"t": at(ks[-1]), "um": k} for k in ks]},  # read at one time
     ],
 )
 def test_the_nearest_others_stay_as_they_are(tmp_path: Path, write: Any, read: Any, made: Any) -> None:

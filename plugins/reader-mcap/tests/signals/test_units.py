@@ -133,3 +133,31 @@ def test_what_channel_and_message_say_alike_is_converted_once(tmp_path: Path, re
     assert not losses
     np.testing.assert_allclose(values["/daq.value"], UM)
     assert sum("is converted" in n for n in recording.notes) == 1
+
+
+@pytest.mark.parametrize(("late", "read_as"), [("degF", "converted"), ("bar", "lost")])
+def test_a_unit_that_changes_within_what_a_sensor_sends_is_of_that_sensor_alone(
+    tmp_path: Path, write: Any, read: Any, late: str, read_as: str
+) -> None:
+    """One topic, whose messages name their sensor and their unit; one of them is set otherwise halfway."""
+    sent = [
+        ("/meas", T0 + 5_000_000_000 * k + d, {"name": name, "value": value, "unit": unit})
+        for k in range(120)
+        for d, (name, value, unit) in enumerate(
+            [
+                ("T_front", 20 + k / 8, "degC") if k < 80 else ("T_front", (20 + k / 8) * 1.8 + 32, late),
+                ("disp_z", k / 1000, "mm"),
+            ]
+        )
+    ]
+    recording, _, values, _, losses = read(write(tmp_path / "a.mcap", sent))
+    units = {s.name: s.unit for s in recording.signals if s.dtype != "str"}
+    assert units == {"/meas/T_front.value": "degC", "/meas/disp_z.value": "mm"}
+    assert values["/meas/disp_z.value"] == [k / 1000 for k in range(120)]
+    many = 120 if read_as == "converted" else 80
+    np.testing.assert_allclose(values["/meas/T_front.value"], [20 + k / 8 for k in range(many)])
+    if read_as == "converted":
+        assert not losses
+        assert any("'degF' is converted to 'degC'" in n for n in recording.notes)
+    else:
+        assert ["40 rows of 'T_front' in another unit than 'degC': bar" in loss.reason for loss in losses] == [True]

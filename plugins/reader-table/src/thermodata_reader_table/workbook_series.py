@@ -10,6 +10,7 @@ from thermodata.reader.series import SERIES, Declaration, find_series
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata_reader_table.workbook_sheet import Stream
+from thermodata_reader_table.workbook_units import in_one_unit
 
 
 def taken_apart(
@@ -30,10 +31,12 @@ def taken_apart(
     )
     series = found.series
     if series is None:
-        return [stream], list(found.notes), []
+        stream, said, lost = in_one_unit(stream, where)
+        return [stream], [*found.notes, *said], lost
     parts: list[Stream] = []
     losses: list[Loss] = []
-    for one, rows in series.rows(Block(stream.name, t_ns, stream.values)).items():
+    whole = Block(stream.name, t_ns, stream.values)
+    for one, rows in series.rows(whole).items():
         if one not in series.held:
             losses.append(
                 Loss(
@@ -43,12 +46,14 @@ def taken_apart(
                 )
             )
             continue
+        read, rows, foreign = series.in_its_unit(one, whole, rows)
+        losses += [Loss(where, reason=series.not_in_its_unit(one, word, count)) for word, count in foreign.items()]
         called = {k: named(one, k) for k in stream.values if k in series.held[one]}
         parts.append(
             Stream(
                 series.streams[one],
                 replace(stream.times, t_ns=t_ns[rows]),
-                {new: stream.values[k][rows] for k, new in called.items()},
+                {new: read.values[k][rows] for k, new in called.items()},
                 {
                     new: stream.units[k] or (None if stream.values[k].dtype == object else series.unit(one))
                     for k, new in called.items()
@@ -58,7 +63,7 @@ def taken_apart(
                 {new: stream.empty[k][rows] for k, new in called.items() if k in stream.empty},
                 stream.sheet,
                 frozenset(new for k, new in called.items() if k in stream.percent),
-                {new: {**stream.said[k], SERIES: one} for k, new in called.items()},
+                {new: {**stream.said[k], SERIES: one, **series.unit_of(one, k)} for k, new in called.items()},
             )
         )
     return parts, list(found.notes), losses

@@ -3,39 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from thermodata.plugin import Block, Loss
 from thermodata.reader.header_words import UNIT_WORDS
 from thermodata.reader.interleaved import bare_header, words_of
+from thermodata.reader.row_units import UnitColumn, converts_here, in_unit
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.unit_words import holds_units, may_be_a_machine
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import converts, is_unit, linear_conversion, normal_unit
+from thermodata.schema.quantity import is_unit, normal_unit
 
-UNIT_OF = "unit_of"  # property of a signal: the one whose unit it says
 _SHOWN = 4
 _NOT_MEASURED = np.uint16(Flag.NOT_MEASURING)
-
-
-@dataclass(frozen=True, slots=True)
-class UnitColumn:
-    """column: that says it; of: the name of what it is of; unit: of the first row; others: that other rows have, as a
-    logger that chose its range, which are converted."""
-
-    column: str
-    of: str
-    unit: str
-    others: tuple[str, ...] = ()
-
-    def note(self) -> str | None:
-        """What is told of rows in several units."""
-        if not self.others:
-            return None
-        shown = ", ".join(f"'{unit}'" for unit in self.others)
-        return f"'{self.column}' says the unit of '{self.of}' row by row: {shown} is converted to '{self.unit}'"
 
 
 def unit_column(kinds: Mapping[str, str | None], cells: Mapping[str, Sequence[str]]) -> UnitColumn | None:
@@ -87,11 +68,6 @@ def _units_in(cells: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def converts_here(word: str, unit: str) -> bool:
-    """Whether values in the one are converted to the other: letters alone may be machines."""
-    return (len(word) > 1 or len(unit) > 1) and is_unit(word) and converts(word, unit)
-
-
 def in_one_unit(
     items: Iterator[Block | Loss], said: UnitColumn, where: str, *, whole: bool = False
 ) -> Iterator[Block | Loss]:
@@ -102,18 +78,10 @@ def in_one_unit(
         if isinstance(item, Loss) or said.column not in item.values:
             yield item
             continue
-        words = np.array(words_of(said.column, item.values[said.column]), object).astype(str)
-        values, lost = item.values[said.of], np.zeros(words.size, bool)
-        for word in np.unique(words).tolist():
-            if not word or normal_unit(word) == normal_unit(said.unit):
-                continue
-            rows = words == word
-            if values.dtype.kind == "f" and converts_here(word, said.unit):
-                factor, offset = linear_conversion(word, said.unit)
-                values = np.where(rows, values * factor + offset, values)
-                continue
-            others[word] = others.get(word, 0) + int(rows.sum())
-            lost |= rows
+        words = words_of(said.column, item.values[said.column])
+        values, lost, foreign = in_unit(words, item.values[said.of], said.unit)
+        for word, count in foreign.items():
+            others[word] = others.get(word, 0) + count
         kept = np.arange(lost.size) if whole else np.flatnonzero(~lost)
         every = dict(item.flags or {})
         if whole and lost.any():
@@ -125,5 +93,9 @@ def in_one_unit(
                 item.stream, item.t_ns[kept], of_rows, flags or None, None if item.at is None else item.at[kept]
             )
     for word, count in others.items():
-        reason = f"{count} rows in another unit than '{said.unit}', as '{said.column}' says: {word[:20]}"
-        yield Loss(where, reason=reason)
+        yield Loss(where, reason=lost_for_unit(said, word, count))
+
+
+def lost_for_unit(said: UnitColumn, word: str, count: int) -> str:
+    """What is said of rows in a unit that does not convert."""
+    return f"{count} rows in another unit than '{said.unit}', as '{said.column}' says: {word[:20]}"

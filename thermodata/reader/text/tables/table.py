@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from thermodata.reader.row_units import UnitColumn
 from thermodata.reader.series import Series
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.cells.delimiter import fields
@@ -16,7 +17,6 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.file.lines import Sample, last_line_is_whole
 from thermodata.reader.text.names.header import told_alike
-from thermodata.reader.text.names.unit_column import UnitColumn
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.begin import Begin

@@ -132,9 +132,14 @@ def _come_again(every: Sequence[Sequence[str]]) -> bool:
     return 0 < len(counts) <= MOST_ELEMENTS and counts.total() >= again * len(counts)
 
 
+def is_name_key(key: str) -> bool:
+    """Whether a field of an object is called as what names it."""
+    return key.lower() in _KEYS
+
+
 def _keys(value: Sequence[Any]) -> list[str]:
     first = value[0] if value and isinstance(value[0], Mapping) else {}
-    return [str(k) for k in first if str(k).lower() in _KEYS]
+    return [str(k) for k in first if is_name_key(str(k))]
 
 
 def _of_elements(value: Sequence[Any], key: str) -> list[str] | None:

@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
+from thermodata.reader.row_units import UnitColumn
 from thermodata.reader.series import Declaration, Series
-from thermodata.reader.text.names.unit_column import UnitColumn
 from thermodata_reader_mcap.container.attachments import extras
 from thermodata_reader_mcap.container.data_section import is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions
@@ -22,8 +22,9 @@ from thermodata_reader_mcap.encodings.decoder import Decoder
 from thermodata_reader_mcap.encodings.field_paths import Path
 from thermodata_reader_mcap.encodings.named_elements import NamedDecoder, Naming
 from thermodata_reader_mcap.encodings.topic import Topic, time_name
-from thermodata_reader_mcap.signals.batches_of_samples import Samples, find_samples, parted
+from thermodata_reader_mcap.signals.batches_of_samples import Samples, parted
 from thermodata_reader_mcap.signals.chunk_survey import WHOLE, chosen_of, survey
+from thermodata_reader_mcap.signals.find_samples import find_samples
 from thermodata_reader_mcap.signals.options import LOG, PUBLISH, SCALES, Options, options
 from thermodata_reader_mcap.signals.several_senders import senders
 from thermodata_reader_mcap.signals.stamps_apart import apart, first_stamp, rushed, unit_of
@@ -51,7 +52,7 @@ class Plan:
     naming: dict[str, Naming]
     units: tuple[UnitColumn, ...]
     sent: UnitsOfChannels
-    samples: dict[str, Samples]
+    samples: dict[str, tuple[Samples, ...]]
     start_ns: int | None
     relative: bool
     complete: bool
@@ -88,7 +89,7 @@ def plan(view: memoryview, name: str, source: Source) -> Plan:
     if said.damaged:
         notes.append("the summary at the end of the file is damaged; it was not needed")
     batches = {k: b for k, b in met.batches.items() if isinstance(k, Channel)}
-    samples: dict[str, Samples] = {}
+    samples: dict[str, tuple[Samples, ...]] = {}
     if chosen_options.time == LOG:  # else it is declared when each message was
         samples, more = find_samples(batches)
         notes += more

@@ -8,10 +8,11 @@ from dataclasses import replace
 
 from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import bare_header
+from thermodata.reader.row_units import UNIT_OF, UnitColumn
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.time_header import is_time_header
-from thermodata.reader.text.names.unit_column import UNIT_OF, UnitColumn, unit_column, unit_column_note
+from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.encodings.decoder import Decoder

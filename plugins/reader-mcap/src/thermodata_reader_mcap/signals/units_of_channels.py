@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.reader.text.names.unit_column import converts_here
+from thermodata.reader.row_units import converts_here
 from thermodata.reader.unit_words import is_surely_unit
 from thermodata.schema.quantity import linear_conversion, normal_unit
 from thermodata_reader_mcap.container.definitions import Channel

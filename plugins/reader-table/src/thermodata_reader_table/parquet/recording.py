@@ -9,8 +9,11 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
+from thermodata.reader.row_units import UNIT_OF, UnitColumn
 from thermodata.reader.series import TakenApart
+from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at
+from thermodata.reader.typed_units import unit_in_rows
 from thermodata.reader.zone import NAT
 from thermodata.schema.counted import counted
 from thermodata_reader_table.parquet.columns import values_of
@@ -29,14 +32,18 @@ def describe(path: Path, source: Source) -> Recording:
     apart = series_of(table)
     found = table.stamps(1000)
     good = found.t_ns[found.t_ns != NAT]
-    told = related_columns(table) if apart.series is None else Related()
+    told, (unit, unit_note) = (Related(), (None, None)) if apart.series else of_one_series(table)
     signals = tuple(
         Signal(
             n,
             STREAM,
-            table.units[i],
-            table.dtype(i),
-            properties={**table.said[i], **told.properties(n)},
+            unit.unit if unit is not None and unit.of == n else table.units[i],
+            "float64" if unit is not None and unit.of == n and unit.others else table.dtype(i),
+            properties={
+                **table.said[i],
+                **told.properties(n),
+                **({UNIT_OF: unit.of} if unit is not None and unit.column == n else {}),
+            },
             held=n in told.stands,
         )
         for i, n in enumerate(table.names)
@@ -49,7 +56,7 @@ def describe(path: Path, source: Source) -> Recording:
         "absolute" if found.absolute else "relative",
         start,
         True,
-        (*table.notes, *found.notes, *apart.notes, *told.notes),
+        (*table.notes, *found.notes, *apart.notes, *told.notes, *filter(None, [unit_note])),
     )
 
 
@@ -60,7 +67,9 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     table = Table(path, source)
     series = series_of(table).series
     if series is None:
-        yield from _rows(table, related_columns(table))
+        told, (unit, _) = of_one_series(table)
+        rows = _rows(table, told, unit)
+        yield from rows if unit is None else in_one_unit(rows, unit, path.name)
         return
     apart = TakenApart(series, path.name)
     for item in _rows(table, Related()):
@@ -68,19 +77,21 @@ def blocks(path: Path, source: Source) -> Iterator[Block | Loss]:
     yield from apart.rest()
 
 
-def related_columns(table: Table) -> Related:
-    """What the columns of a table, which is of one series, say of each other in its first rows."""
+def of_one_series(table: Table) -> tuple[Related, tuple[UnitColumn | None, str | None]]:
+    """What the columns of a table, which is of one series, say of each other in its first rows; and which of them says
+    the unit of another, with a note."""
     columns = table.columns()
     rows = rows_looked_at(len(columns))
     head = next(table.batches(rows), None)
     if head is None:
-        return Related()
+        return Related(), (None, None)
     with damage_as_format_error(table.path):
         values = {name: values_of(head.column(i), dtype) for i, name, dtype in columns}
         empty = _empty(head, columns)
     t_ns = table.stamps(rows).t_ns
     by_cells = table.time is not None
-    return related(table.source.table, values, empty, t_ns, table.path.name, told_by_cells=by_cells)
+    told = related(table.source.table, values, empty, t_ns, table.path.name, told_by_cells=by_cells)
+    return told, unit_in_rows(values, {name: table.units[i] for i, name, _ in columns})
 
 
 def _empty(batch: Any, columns: Sequence[tuple[int, str, str]]) -> dict[str, Bool1D]:
@@ -92,7 +103,7 @@ def _empty(batch: Any, columns: Sequence[tuple[int, str, str]]) -> dict[str, Boo
     }
 
 
-def _rows(table: Table, told: Related) -> Iterator[Block | Loss]:
+def _rows(table: Table, told: Related, unit: UnitColumn | None = None) -> Iterator[Block | Loss]:
     source, path = table.source, table.path
     times = table.stamps().t_ns
     at = missing = 0
@@ -108,6 +119,8 @@ def _rows(table: Table, told: Related) -> Iterator[Block | Loss]:
         with damage_as_format_error(path):
             values = {name: values_of(batch.column(i), dtype)[good] for i, name, dtype in columns}
             empty = {name: nothing[good] for name, nothing in _empty(batch, columns).items()}
+        if unit is not None and unit.others:  # what is converted is whole no more
+            values[unit.of] = values[unit.of].astype(np.float64)
         values, flags = relating.over(values, {}, empty)
         yield Block(STREAM, t_ns[good], values, flags or None, at=rows)
     if missing:
