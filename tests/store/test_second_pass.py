@@ -126,3 +126,31 @@ def test_a_log_that_ends_an_hour_before_the_other_is_told(tmp_path: Path, minute
     written(tmp_path / "nc_a.csv", datetime(2026, 10, 25, 1, 30), 90, "T_m")
     written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 23, 30), minutes, "T_f", "Z")
     assert any("may be of the second pass" in str(x["reason"]) for x in made(tmp_path).losses) is told
+
+
+def set_back(path: Path, first: datetime, at: int, by_min: int, zone: str = "") -> None:
+    """A log of five hours whose clock somebody sets back after some minutes."""
+    rows = [first + timedelta(minutes=i - (by_min if i >= at else 0)) for i in range(300)]
+    path.write_text("time;T_m\n" + "".join(f"{t:%Y-%m-%d %H:%M:%S}{zone};{20 + i / 10}\n" for i, t in enumerate(rows)))
+
+
+@pytest.mark.parametrize(
+    ("began", "clock", "told"),
+    [
+        (datetime(2026, 10, 26, 5), "", True),  # summer time until the operator sets it on Monday
+        (datetime(2026, 10, 26, 5), ", offset: -3600 s", False),
+        (datetime(2026, 10, 26, 5), ", offset: 0 s", False),
+        (datetime(2026, 10, 26, 6), "", False),  # it was right until somebody set it
+        (datetime(2026, 10, 26, 9), "", False),  # another log, which tells nothing
+    ],
+)
+def test_a_clock_that_was_right_once_it_was_set_is_told_by_a_log_that_ran_with_it(
+    tmp_path: Path, began: datetime, clock: str, told: bool
+) -> None:
+    set_back(tmp_path / "nc_a.csv", datetime(2026, 10, 26, 7), 140, 60)
+    written(tmp_path / "daq_a.csv", began, 300, "T_f", "Z")
+    summary = made(tmp_path, more=f", clock: {{resets: allow{clock}}}")
+    said = [str(x["reason"]) for x in summary.losses if "was set back by 60 min" in str(x["reason"])]
+    assert bool(said) is told
+    assert all("clock: {resets: allow, offset: -3600 s}" in s for s in said)
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 26, 5 if "-3600" in clock else 6)

@@ -20,6 +20,7 @@ from thermodata.store.tidy.keys import channel_text
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.second_pass import choose_passes
 from thermodata.store.tidy.series import TestSeries
+from thermodata.store.tidy.set_late import tell_clocks_set_late
 from thermodata.store.tidy.source_clock import Clock, Span, bases, first_ns, is_relative
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ def clocks_of(
 ) -> dict[str, Clock]:
     """The clocks of a test's sources. known: estimates of earlier runs by their key, for estimating reads data."""
     choose_passes(plan)
+    tell_clocks_set_late(store, plan)
     base, notes = bases(plan)
     plan.notes += notes
     clocks: dict[str, Clock] = {}

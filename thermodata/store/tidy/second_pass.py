@@ -63,8 +63,8 @@ def _later(
     joined = [k for k, (a, b) in passes.items() if any(_joins((a, b), other) for other in siblings)]
     if len(joined) == 1:
         return joined[0], "its other files join it"
-    others = {s.name: [recorded(r) for r in s.raws] for s in plan.sources.values() if s is not source and _is_known(s)}
-    for tells in (_overlap, _go_together):
+    others = {s.name: [recorded(r) for r in s.raws] for s in plan.sources.values() if s is not source and is_known(s)}
+    for tells in (_overlap, go_together):
         fits = [k for k, own in passes.items() if any(tells(own, x) for spans in others.values() for x in spans)]
         if len(fits) == 1:
             by = next(n for n, spans in others.items() if any(tells(passes[fits[0]], x) for x in spans))
@@ -80,7 +80,7 @@ def _compare_ends(plan: TestPlan, source: SourcePlan, zone: str) -> None:
     begin, end = (f(recorded(r)[i] for r in source.raws) for i, f in enumerate((min, max)))
     hour = repeated_hour(zone, end)
     for other in plan.sources.values() if hour is not None else ():
-        if other is source or hour is None or not _is_known(other):
+        if other is source or hour is None or not is_known(other):
             continue
         there = (min(recorded(r)[0] for r in other.raws), max(recorded(r)[1] for r in other.raws))
         if abs(there[0] - begin) <= NEAR_NS and abs(there[1] - end - hour.shift_ns) <= NEAR_NS:
@@ -96,7 +96,7 @@ def _says(raw: RawStream, what: str) -> bool:
     return any(note.startswith(what) for note in raw.notes)
 
 
-def _is_known(source: SourcePlan) -> bool:
+def is_known(source: SourcePlan) -> bool:
     """Whether its times hang on no pass, and on no zone that nobody says."""
     doubtful = any(_says(r, ALL) or any(NO_ZONE in n for n in r.notes) for r in source.raws)
     return bool(source.raws) and source.is_dated and not doubtful
@@ -112,8 +112,10 @@ def _overlap(own: tuple[int, int], other: tuple[int, int]) -> bool:
     return own[0] <= other[1] and other[0] <= own[1]
 
 
-def _go_together(own: tuple[int, int], other: tuple[int, int]) -> bool:
-    return any(abs(a - b) <= NEAR_NS for a, b in zip(own, other, strict=True))
+def go_together(own: tuple[int, int], other: tuple[int, int], *, both: bool = False) -> bool:
+    """Whether two logs, each (first, last), begin or end together; both: whether they do both."""
+    near = [abs(a - b) <= NEAR_NS for a, b in zip(own, other, strict=True)]
+    return all(near) if both else any(near)
 
 
 def _joins(own: tuple[int, int], sibling: tuple[int, int]) -> bool:
