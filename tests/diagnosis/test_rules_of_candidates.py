@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates, grid
+from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.claims.refinement import mode_of
 from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.why import would_be_a_mode
 from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import PlainEffect
 
@@ -195,6 +196,38 @@ def test_a_table_that_nothing_turns_makes_no_heat(quantity: str, at: str, turns:
     assert "table_bearing:T_table" in {c.id for c in candidates(effects(), bearing, (), "dZ")}, (
         "where it is at a bearing"
     )
+
+
+@pytest.mark.parametrize(("stood", "body"), [(1.0, True), (0.55, True), (0.45, False), (0.0, False), (None, False)])
+def test_a_table_that_is_as_warm_where_nothing_turns_it_makes_no_heat(stood: float | None, body: bool) -> None:
+    """stood: how far its temperature moves in tests in which nothing turns it; None: it turns in all."""
+    table = ChannelInfo("T_table", "temperature", "degC", at="table")
+    head = ChannelInfo("n_A", "rotational_speed", "rpm", at="rotary.a")
+    channels = {c.name: c for c in (CHANNELS["dZ"], table, head)}
+    turning, resting = (1.0, 8.0), (stood or 0.0, 0.1)
+    tests = [
+        _turned(i, channels, *own)
+        for i, own in enumerate([turning, turning, *([] if stood is None else 2 * [resting])])
+    ]
+    found = {c.id: c.passive for c in candidates(effects(), channels, (), "dZ", at_rest=warm_at_rest(channels, tests))}
+    assert ("table_bearing:T_table" in found) is not body
+    assert found["lag:T_table"] is body
+
+
+def test_a_table_that_turns_in_no_test_makes_no_heat() -> None:
+    table = ChannelInfo("T_table", "temperature", "degC", at="table")
+    part = ChannelInfo("T_bearing", "temperature", "degC", at="table.bearing")
+    channels = {c.name: c for c in (table, part, ChannelInfo("n_A", "rotational_speed", "rpm", at="rotary.a"))}
+    assert warm_at_rest(channels, [_turned(0, channels, 1.0, 0.0)]) == {"T_table"}, "of its bearing nothing is said"
+    assert warm_at_rest(channels, []) == frozenset()
+
+
+def _turned(i: int, channels: dict[str, ChannelInfo], warm: float, rpm: float) -> TestData:
+    """A test in which the table's temperature moves so far while it turns so fast."""
+    t_s, wave = 60.0 * np.arange(50), np.sin(np.linspace(0.0, 6.0, 50))
+    values = {"T_table": 20.0 + warm * wave, "T_bearing": 20.0 + warm * wave, "n_A": np.full(50, rpm)}
+    valid = {name: np.ones(50, dtype=np.bool_) for name in values}
+    return TestData("c", f"t{i}", "mixed", "calibration", t_s, values, valid, valid["n_A"], channels=channels)
 
 
 def test_a_switch_beside_what_the_model_reads_is_no_mode_of_it() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
 from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.candidates.warm_at_rest import is_at_table, turns
 from thermodata.diagnosis.question.present import (
     CONTROL,
     GENERIC,
@@ -34,8 +35,6 @@ InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a 
 STATIC = "static"
 # parts of a body that make heat
 HEATED_PARTS = ("bearing", "motor")
-TABLE = "table"  # turning or not
-TURNS = (TABLE, "rotary")
 # a distributed machine also acts with these multiples of an effect's time constant
 SLACK_FACTORS = (0.2, 5.0)
 # a plain lag of a channel that a named effect explains as well says less: a twentieth of its prior probability
@@ -132,9 +131,10 @@ def candidates(
     present: Iterable[Present],
     response: str,
     telling: Container[str] = (),
+    at_rest: Container[str] = (),
 ) -> list[CandidateEffect]:
     """What could be missing. present: what the model has. telling: positions that make steps where they
-    go from one place to another. Every channel is asked as a plain lag too, whatever named effects it drives: a name
+    go from one place to another. at_rest: temperatures of tables that are as warm where nothing turns them. Every channel is asked as a plain lag too, whatever named effects it drives: a name
     must earn its place. Artefacts are looked for within tests, not here."""
     own = tuple(present)
     plain = [p for p in own if is_plain(p.effect, library)]
@@ -170,7 +170,7 @@ def candidates(
             if refines(effect) and not (alone or model.has_one_of(refines(effect), names)):
                 continue
             kin = kin_of(effect, family, names, model, library, usable)
-            nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable)]
+            nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, at_rest)]
             if not nameless and len(bodies) == len(names):
                 continue
             passive = placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names))
@@ -219,22 +219,17 @@ def _follows(channel: ChannelInfo) -> bool:
     return channel.quantity == "temperature" and follows
 
 
-def _is_body(name: str, channels: Mapping[str, ChannelInfo]) -> bool:
+def _is_body(name: str, channels: Mapping[str, ChannelInfo], at_rest: Container[str]) -> bool:
     """Whether it reads the temperature of a body, as a table's, of which a part that makes heat has a sensor of its
-    own, or a table that nothing turns: what such a body does beyond that comes from elsewhere, as from the coolant that
-    washes it."""
+    own, or a table that nothing turns, or turns in vain: what such a body does beyond that comes from elsewhere, as
+    from the coolant that washes it."""
     own = channels[name]
     if own.quantity != "temperature" or own.at is None:
         return False
-    if own.at.lower() == TABLE and not any(_turns(c) for c in channels.values()):
+    if is_at_table(own) and (name in at_rest or not any(turns(c) for c in channels.values())):
         return True
     heated = (f"{own.at}.{part}" for part in HEATED_PARTS)
     return any(c.quantity == "temperature" and holds(h, c.at) for h in heated for c in channels.values() if c.at)
-
-
-def _turns(channel: ChannelInfo) -> bool:
-    """Whether it is what turns a table, or what that takes."""
-    return is_motion(channel.quantity) and any(holds(place, channel.at) for place in TURNS)
 
 
 def _is_around(channel: ChannelInfo) -> bool:

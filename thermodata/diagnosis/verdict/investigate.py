@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from thermodata.diagnosis.candidates.basis import Means, sharing
-from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
+from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.at_rest import AtRest, at_rest
 from thermodata.diagnosis.claims.detection import Limit, limits
 from thermodata.diagnosis.claims.measure import Measure
@@ -34,9 +34,10 @@ from thermodata.diagnosis.sensors.logging_faults import (
     wrong_parameters,
 )
 from thermodata.diagnosis.steps import repeating
-from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps, places_that_tell
+from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.steps.of_model import steps_of_model
 from thermodata.diagnosis.steps.step import Step
+from thermodata.diagnosis.verdict.asked import of_library
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, concluded, judge
 from thermodata.diagnosis.verdict.on_locked import Lock
 from thermodata.diagnosis.verdict.selection import Member, Selection, any_stands_out, first_ranking, select
@@ -108,7 +109,7 @@ def investigate(
     faults = _faults(fitted, data, fine, base)
     whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
     problem = sharing(_without_steps(fitted, whole, steps, fine.step_s), means)
-    asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
+    asked = of_library(fitted, data, tests, library, fine)
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
     by_condition = gains_by_condition(fitted, among, data.tests)
@@ -171,7 +172,7 @@ def causes_of(
     """The sound causes that a response misses, as they are judged beside each other; refinements are none."""
     problem, fine = weighed(fitted, data, tests)
     problem = sharing(problem, means)
-    asked = candidates(library, data.channels, present(fitted), fitted.name, places_that_tell(fine))
+    asked = of_library(fitted, data, tests, library, fine)
     _, judgement, _ = _judged(fitted, problem, asked, seed)
     return [j.scored for j in judgement.judged if j.refines is None]
 
