@@ -133,9 +133,10 @@ def candidates(
     telling: Container[str] = (),
     at_rest: Container[str] = (),
 ) -> list[CandidateEffect]:
-    """What could be missing. present: what the model has. telling: positions that make steps where they
-    go from one place to another. at_rest: temperatures of tables that are as warm where nothing turns them. Every channel is asked as a plain lag too, whatever named effects it drives: a name
-    must earn its place. Artefacts are looked for within tests, not here."""
+    """What could be missing. present: what the model has. telling: positions that make steps where they go from one
+    place to another. at_rest: temperatures of tables that are as warm where nothing turns them. Every channel is asked
+    as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are looked for within
+    tests, not here."""
     own = tuple(present)
     plain = [p for p in own if is_plain(p.effect, library)]
     # a plain function is no other effect than what it stands for
