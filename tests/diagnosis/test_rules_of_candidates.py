@@ -198,7 +198,7 @@ def test_a_table_that_nothing_turns_makes_no_heat(quantity: str, at: str, turns:
     )
 
 
-@pytest.mark.parametrize(("stood", "body"), [(1.0, True), (0.55, True), (0.45, False), (0.0, False), (None, False)])
+@pytest.mark.parametrize(("stood", "body"), [(1.0, True), (0.8, True), (0.7, False), (0.0, False), (None, False)])
 def test_a_table_that_is_as_warm_where_nothing_turns_it_makes_no_heat(stood: float | None, body: bool) -> None:
     """stood: how far its temperature moves in tests in which nothing turns it; None: it turns in all."""
     table = ChannelInfo("T_table", "temperature", "degC", at="table")

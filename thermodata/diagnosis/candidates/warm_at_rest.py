@@ -13,9 +13,7 @@ from thermodata.view.dataset import ChannelInfo, TestData
 TABLE = "table"  # turning or not
 TURNS = (TABLE, "rotary")
 STANDS = 0.05  # of the most that a command does: less is rest
-AS_WARM = (
-    0.5  # of how far a table's temperature moves where it turns, that it moves where it stands: then it turns in vain
-)
+AS_WARM = 0.75  # of how far a table's temperature moves where it turns: it moves so far where it stands, too
 
 
 def turns(channel: ChannelInfo) -> bool:
