@@ -109,6 +109,7 @@ def heating_and_cooling_apart(
         _candidate(term)
         for term in fitted.terms
         if is_free(term)
+        and term.bound.spec.gain_by is None
         and term.bound.spec.phases is None
         and term.bound.spec.calibrate_on is None
         and all(_warms_with_work(term, t) and acting(t, [COOLING]) is not None for t in every if term.bound.covers(t))

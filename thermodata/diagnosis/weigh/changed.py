@@ -79,8 +79,8 @@ class ChangedEffect(CandidateEffect, ABC):
 
 
 def is_free(term: FittedTerm) -> bool:
-    """Whether one gain is fitted to all tests. What was identified on tests of its own has no gain for the others, and
-    an ARX function has none."""
+    """Whether its gains are fitted to all tests. What was identified on tests of its own has no gain for the others,
+    and an ARX function has none."""
     spec = term.bound.spec
     free = any(g.name not in spec.fixed for g in term.effect.gains)
-    return spec.gain_by is None and not term.held and free and bool(term.effect.needs) and spec.method != "arx"
+    return not term.held and free and bool(term.effect.needs) and spec.method != "arx"
