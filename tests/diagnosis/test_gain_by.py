@@ -138,6 +138,25 @@ def test_a_cause_and_another_gain_are_both_found(spec: Model) -> None:
     assert offered.refinement
 
 
+def test_the_gains_that_are_told_are_those_of_the_next_version(spec: Model) -> None:
+    """Something slow that nobody logs is missing too, which effects that may act slower take up."""
+    tools = by_tool({"T1": 1.0, "T2": 0.5, "T3": 0.2})
+
+    def add(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
+        unlogged = 0.5 * of_nut(channels, t)
+        channels["T_nut_X"] = 22 + np.random.default_rng(1).normal(0, 0.02, len(t))
+        return tools(channels, t) + unlogged
+
+    data = with_conditions(make_data(add), tool=TOOLS)
+    offered = one(diagnosis(data, spec))
+    assert offered is not None
+    said = re.search(r"\(T1 (\S+), T2 (\S+), T3 (\S+) times\)", offered.why)
+    assert said is not None
+    groups = response_of(data, with_candidate(spec, ID, data.channels)).terms[0].groups
+    gains = np.array([groups[tool].gains["gain"] for tool in ("T1", "T2", "T3")])
+    assert [float(g) for g in said.groups()] == pytest.approx(gains / gains[0], abs=0.006)
+
+
 def test_a_value_of_one_test_is_said_to_be_foretold_by_none(spec: Model) -> None:
     """T3 stands in one open test, and in the locked one."""
     tools = ("T1", "T2", "T1", "T2", "T1", "T3", "T3")

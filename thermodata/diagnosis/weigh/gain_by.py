@@ -6,18 +6,13 @@ is asked is the term's contribution as it is fitted, a column for each value of 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
-from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import known
-from thermodata.diagnosis.question.known_effects import owners
-from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.weigh.scored import ACTS, Scored
 from thermodata.errors import unknown_name
@@ -25,7 +20,7 @@ from thermodata.modelling.model_file.said_conditions import refuse_unsaid
 from thermodata.modelling.terms.bound import OF_TESTS, group_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
-from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
+from thermodata.plugin import Effect, Gain
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData
 
@@ -89,14 +84,24 @@ class GainByCondition(ChangedEffect):
     def added_to(self, spec: Model) -> Model:
         return with_gain_by(spec, self.term.id, self.by)
 
-    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+    def in_words(self, scored: Scored) -> str:
+        """Without gains: beside effects that may act faster and slower, what an effect does in all is hardly known."""
+        return self._told([f"{' and '.join(self.alike)} part the tests alike"] if self.alike else [])
+
+    def in_version(self, version: Callable[[], FittedResponse], tests: Sequence[TestData]) -> str | None:
         """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
-        times = _relative_gains(self, scored, fitted, problem, noise)
-        values = [g.name for g in self.effect.gains]
+        term = next((t for t in version().terms if t.id == self.term.id), None)
+        times = {} if term is None else _times(term, [g.name for g in self.effect.gains], tests)
+        if not times:
+            return None
         apart = "; " if self.term.bound.spec.gains_by else ", "  # a value of several conditions has commas
-        said = apart.join(f"{value} {share:.2g}" for value, share in zip(values, times, strict=True))
-        alike = f"; {' and '.join(self.alike)} part the tests alike" if self.alike else ""
-        return f"{self.term.id} acts with another gain for each {self.by} ({said} times{alike})"
+        said = apart.join(f"{value} {share:.2g}" for value, share in times.items())
+        alike = [f"{' and '.join(self.alike)} part the tests alike"] if self.alike else []
+        return self._told([f"{said} times", *alike])
+
+    def _told(self, more: Sequence[str]) -> str:
+        said = f" ({'; '.join(more)})" if more else ""
+        return f"{self.term.id} acts with another gain for each {self.by}{said}"
 
 
 def gains_by_condition(
@@ -188,40 +193,14 @@ def _unforetold(
     )
 
 
-def _relative_gains(
-    candidate: GainByCondition, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise
-) -> Float1D:
-    """The gain of each value by the largest, shape (values,): how much of the effect as fitted stands in all that it
-    does in the tests of the value, by least squares. Its own gains and what is added to them can't be told apart."""
-    more = beside(problem, [scored])
-    theta = known(more, noise).mean(np.arange(len(more.blocks)))
-    number = next(i for i, t in enumerate(fitted.terms) if t is candidate.term)
-    base, spare = (np.array(o, dtype=np.int64) for o in owners(fitted))
-    first = more.blocks[0]
-    all_of_it = np.concatenate(
-        [_of_effect(first.base.shape[1], base, number), _of_effect(first.slack.shape[1], spare, number)]
-    )
-    as_fitted = np.flatnonzero(base == number)[: len(candidate.term.effect.gains)]
-    values = [g.name for g in candidate.effect.gains]
-    found = np.zeros((2, len(values)))
-    for block in more.blocks:
-        value = _value(candidate.term, candidate.by, block.test)
-        if value in values:
-            one = block.base[:, as_fitted] @ _of_first(candidate.term, block.test)
-            does = np.hstack([block.base, block.slack])[:, all_of_it] @ theta[all_of_it]
-            found[:, values.index(value)] += one @ does, one @ one
-    times = found[0] / np.where(found[1] > 0, found[1], 1.0)
-    largest = times[int(np.argmax(np.abs(times)))]
-    return np.asarray(times / largest if largest else times)
-
-
-def _of_first(term: FittedTerm, test: TestData) -> Float1D:
-    """The first gains as a share of those that the effect has in a test, shape (gains,): 1 where one serves all."""
-    values = term.values(test)
-    own = [1.0 if values is None else values.gains[g.name] or 1.0 for g in term.effect.gains]
-    return np.asarray(np.array([term.gains[g.name] or 1.0 for g in term.effect.gains]) / np.array(own))
-
-
-def _of_effect(columns: int, owned: Int1D, number: int) -> Bool1D:
-    """Which columns belong to an effect: its own, and those behind all known ones, which are added to it."""
-    return np.concatenate([owned == number, np.ones(columns - len(owned), bool)])
+def _times(term: FittedTerm, values: Sequence[str], tests: Sequence[TestData]) -> dict[str, float]:
+    """What the effect does in the same tests with the gains of each value, by the value with which it does most."""
+    known = [t for t in tests if term.bound.covers(t) and term.bound.has(t)]
+    does = {}
+    for value in values:
+        if (own := term.groups.get(value)) is not None and known:
+            gains = np.array([own.gains[g.name] for g in term.effect.gains])
+            does[value] = np.concatenate([term.bound.columns(t, own.params) @ gains for t in known])
+    most = max(does.values(), key=np.linalg.norm, default=np.zeros(0))
+    size = float(most @ most)
+    return {value: float(one @ most) / size for value, one in does.items()} if size else {}
