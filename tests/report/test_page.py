@@ -17,7 +17,7 @@ from thermodata.report.glossary import ERRORS
 from thermodata.report.headline import error_sentence, headline, sentences
 from thermodata.report.page import render, what_is_left
 from thermodata.schema.candidate import LeftOut
-from thermodata.schema.result import Check
+from thermodata.schema.result import Check, Parameter
 
 from .conftest import diagnosis
 
@@ -51,6 +51,22 @@ def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportDa
 def test_the_headline_says_what_was_missing_what_else_it_could_be_and_one_error(data: ReportData) -> None:
     assert headline(data) == "Missing in dZ was feed_screw (T_nut_Z), not told from feed_motor (T_motor_Z)"
     assert error_sentence(data) == "The error on locked tests falls: 4.60 -> 0.950 um (-79 %)"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "told"),
+    [(146.7, None, "147 …"), (None, 9.5, "… 9.50"), (1.5, 2.5, "1.50 … 2.50"), (None, None, "not determined")],
+)
+def test_an_interval_is_told_as_the_fit_tells_it(
+    low: float | None, high: float | None, told: str, data: ReportData
+) -> None:
+    """At one end, too, and what these tests set no end to."""
+    given = {"ambient_frame.tau": Parameter(value=2.0, unit="min", low=low, high=high)}
+    open_ = Check(name="not_determined:ambient_frame.tau", value=2.0, threshold=None, passed=False, advice="longer")
+    page = body(render(dataclasses.replace(data, parameters=given, checks=[open_])))
+    row = re.search(r"<td>tau</td>.*?</tr>", page)
+    assert row is not None
+    assert re.sub("<[^>]+>", "", row[0]).endswith(told)
 
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
