@@ -88,6 +88,22 @@ def test_logs_without_displacement_are_predicted(ask: Say, logs: Path) -> None:
     assert np.ptp(first["predicted"]) > 5.0
 
 
+def test_a_hotter_log_is_said_to_be_beyond_the_fit(ask: Say, logs: Path) -> None:
+    assert json.loads(ask("predict", "baseline", logs, "--json").out)["beyond"] == []
+    path = logs / "run_2.csv"
+    head, *rows = csv.reader(path.open())
+    at = head.index("T_bearing [degC]")
+    first = float(rows[0][at])
+    with path.open("w", newline="") as file:
+        hot = ([*r[:at], str(first + 4 * (float(r[at]) - first)), *r[at + 1 :]] for r in rows)
+        csv.writer(file).writerows([head, *hot])
+    (one,) = json.loads(ask("predict", "baseline", logs, "--json").out)["beyond"]
+    assert (one["test"], one["effect"], one["drivers"]) == ("run_2", "spindle_bearing", ["T_bearing"])
+    text = ask("predict", "baseline", logs).out
+    assert "beyond the tests that the model is fitted to" in text
+    assert "run_2: spindle_bearing (T_bearing) goes to" in text
+
+
 def test_one_log_is_predicted_as_its_test(ask: Say, refused: Callable[..., str], logs: Path) -> None:
     whole = {t["test"]: t for t in json.loads(ask("predict", "baseline", logs, "--json").out)["tests"]}
     (one,) = json.loads(ask("predict", "baseline", logs / "run_10.csv", "--json").out)["tests"]

@@ -96,7 +96,7 @@ def test_a_gain_by_tool_from_raw_files_to_the_next_version(store: Path, say: Cal
     assert not [c for c in again["candidates"] if c["id"].startswith("gain_by:")]
     refused = say("--store", store, "add", added["model"], ID)
     assert refused.code == 2
-    assert "several gains already" in refused.err
+    assert "a gain for each of them already" in refused.err
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from thermodata.effect.lag import lag
 from thermodata.errors import UsageError
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.model import EffectSpec, Model
@@ -137,6 +138,25 @@ def test_a_cause_and_another_gain_are_both_found(spec: Model) -> None:
     assert offered.refinement
 
 
+def test_the_gains_that_are_told_are_those_of_the_next_version(spec: Model) -> None:
+    """Something slow that nobody logs is missing too, which effects that may act slower take up."""
+    tools = by_tool({"T1": 1.0, "T2": 0.5, "T3": 0.2})
+
+    def add(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
+        unlogged = 0.5 * of_nut(channels, t)
+        channels["T_nut_X"] = 22 + np.random.default_rng(1).normal(0, 0.02, len(t))
+        return tools(channels, t) + unlogged
+
+    data = with_conditions(make_data(add), tool=TOOLS)
+    offered = one(diagnosis(data, spec))
+    assert offered is not None
+    said = re.search(r"\(T1 (\S+), T2 (\S+), T3 (\S+) times\)", offered.why)
+    assert said is not None
+    groups = response_of(data, with_candidate(spec, ID, data.channels)).terms[0].groups
+    gains = np.array([groups[tool].gains["gain"] for tool in ("T1", "T2", "T3")])
+    assert [float(g) for g in said.groups()] == pytest.approx(gains / gains[0], abs=0.006)
+
+
 def test_a_value_of_one_test_is_said_to_be_foretold_by_none(spec: Model) -> None:
     """T3 stands in one open test, and in the locked one."""
     tools = ("T1", "T2", "T1", "T2", "T1", "T3", "T3")
@@ -201,13 +221,50 @@ def test_machines_part_the_tests_too(spec: Model) -> None:
 @pytest.mark.parametrize(
     "changed",
     [{"gain_by": "conditions.tool"}, {"fixed": {"gain": -3.0}}, {"calibrate_on": ["t0", "t1", "t2"]}],
-    ids=["has several", "is fixed", "identified first"],
+    ids=["has them", "is fixed", "identified first"],
 )
 def test_a_gain_that_is_not_one_free_gain_is_not_asked_about(changed: dict[str, Any], spec: Model) -> None:
     effect = spec.effects[0].model_copy(update=changed)
     data = with_conditions(make_data(), tool=TOOLS)
     assert asked(data, spec) == [ID]
     assert asked(data, spec.model_copy(update={"effects": [effect]})) == []
+
+
+MACHINES = ("A", "B", "B", "A", "B", "B", "A")  # A has T1 and, locked, T2
+
+
+def on_machines(data: Dataset) -> Dataset:
+    """With tools, and two machines."""
+    tests = with_conditions(data, tool=TOOLS).tests
+    return replace(data, tests=tuple(replace(t, machine=m) for t, m in zip(tests, MACHINES, strict=True)))
+
+
+def with_a_gain_by(spec: Model, by: str | list[str]) -> Model:
+    return spec.model_copy(update={"effects": [spec.effects[0].model_copy(update={"gain_by": by}), *spec.effects[1:]]})
+
+
+def test_a_gain_for_each_machine_is_parted_by_tool_within_the_machines() -> None:
+    """Of B the tools differ, so a gain for each machine leaves what a tool does."""
+    data = on_machines(make_data(by_tool({"T1": 1.0, "T2": 0.6, "T3": 0.3})))
+    spec = with_a_gain_by(base(), "machine")
+    found = diagnosis(data, spec)
+    assert found.verdict == "refine"
+    head = found.candidates[0]
+    assert (head.id, head.gain_by, head.refinement) == (ID, "conditions.tool", True)
+    said = re.search(r"conditions.tool \(A, T1 1; B, T2 (\S+); B, T3 (\S+) times\)", head.why)
+    assert said is not None
+    assert [float(g) for g in said.groups()] == pytest.approx([0.6, 0.3], abs=0.02)
+    more = with_candidate(spec, ID, data.channels)
+    assert more.effects[0].gain_by == ["machine", "conditions.tool"]
+    assert set(response_of(data, more).terms[0].groups) == {"A, T1", "B, T2", "B, T3"}
+
+
+def test_what_parts_no_further_than_the_gains_is_not_asked(spec: Model) -> None:
+    data = on_machines(make_data())
+    assert asked(data, with_a_gain_by(spec, "machine")) == [ID]
+    assert asked(data, with_a_gain_by(spec, "conditions.tool")) == []
+    with pytest.raises(UsageError, match="for each of them already"):
+        with_candidate(with_a_gain_by(spec, "tool"), ID, data.channels)
 
 
 def test_an_effect_of_some_tests_is_parted_within_these(spec: Model) -> None:

@@ -26,6 +26,25 @@ def test_a_sound_fit_passes_its_checks(world: Dataset, spec: Spec) -> None:
     assert [c.name for c in fit_model(spec(*EFFECTS), world).checks() if not c.passed] == []
 
 
+@pytest.mark.parametrize(
+    ("effect", "parameters"),
+    [
+        ({}, 2),
+        ({"fixed": {"tau": 20.0}}, 1),
+        ({"fixed": {"tau": 20.0, "gain": 1.5}}, 0),
+        ({"gain_by": "test"}, 6),
+        ({"gain_by": "test", "one_gain": True}, 6),
+        ({"gain_by": "test", "shared": "none"}, 10),
+    ],
+)
+def test_only_what_is_fitted_wants_samples(
+    effect: dict[str, object], parameters: int, world: Dataset, spec: Spec
+) -> None:
+    """Five tests are fitted; the nut's two are always, but no exponent where a temperature drives."""
+    fitted = fit_model(spec({"effect": "spindle_bearing", **effect}, "feed_screw"), world)
+    assert _check(fitted, "effective_samples").threshold == 5 * (parameters + 2)
+
+
 def test_twins_are_named(world: Dataset, spec: Spec) -> None:
     twin = ChannelInfo("T_twin", "temperature", "degC", "spindle.motor")
     tests = tuple(

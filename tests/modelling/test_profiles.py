@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -150,6 +151,20 @@ def test_the_curve_has_its_least_error_at_the_fitted_value(spec: Spec) -> None:
     assert list(values) == sorted(values)
     assert values[int(np.argmin(errors))] == pytest.approx(curve.value)
     assert errors[0] > min(errors) < errors[-1]
+
+
+def test_a_version_of_add_is_asked_on_all_tests_that_it_was_fitted_to(spec: Spec) -> None:
+    """A verification test took part in the choice, and acts by a slower lag."""
+    tests = [_test(seed, 4.0, 6.0, 0.3, {60.0 if seed < 4 else 90.0: 3.0}) for seed in (2, 3, 4)]
+    tests[2] = replace(tests[2], role="verification")
+    data = Dataset(60.0, tuple(tests), CHANNELS)
+    model = spec({"effect": "lag", "drivers": {"u": "T"}}, response={"channel": "y"})
+    fitted = fit_model(model.model_copy(update={"in_sample": True}), data)
+    curve = profiles_of(fitted, data).curves[0]
+    assert min(curve.curve, key=lambda point: point[1])[0] == pytest.approx(curve.value, rel=1e-3)
+    told = fitted.parameters()["lag.tau"]
+    ends = (curve.low, curve.high) if curve.quadratic else (curve.profile_low, curve.profile_high)
+    assert ends == pytest.approx((told.low, told.high), rel=1e-3)
 
 
 def test_at_a_bound_the_profile_tells_the_other_end(spec: Spec) -> None:

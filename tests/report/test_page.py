@@ -5,6 +5,7 @@ import json
 import os
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from thermodata.report.glossary import ERRORS
 from thermodata.report.headline import error_sentence, headline, sentences
 from thermodata.report.page import render, what_is_left
 from thermodata.schema.candidate import LeftOut
-from thermodata.schema.result import Check
+from thermodata.schema.result import Check, Parameter
 
 from .conftest import diagnosis
 
@@ -51,6 +52,22 @@ def test_a_page_holds_everything_and_asks_the_network_for_nothing(data: ReportDa
 def test_the_headline_says_what_was_missing_what_else_it_could_be_and_one_error(data: ReportData) -> None:
     assert headline(data) == "Missing in dZ was feed_screw (T_nut_Z), not told from feed_motor (T_motor_Z)"
     assert error_sentence(data) == "The error on locked tests falls: 4.60 -> 0.950 um (-79 %)"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "told"),
+    [(146.7, None, "147 …"), (None, 9.5, "… 9.50"), (1.5, 2.5, "1.50 … 2.50"), (None, None, "not determined")],
+)
+def test_an_interval_is_told_as_the_fit_tells_it(
+    low: float | None, high: float | None, told: str, data: ReportData
+) -> None:
+    """At one end, too, and what these tests set no end to."""
+    given = {"ambient_frame.tau": Parameter(value=2.0, unit="min", low=low, high=high)}
+    open_ = Check(name="not_determined:ambient_frame.tau", value=2.0, threshold=None, passed=False, advice="longer")
+    page = body(render(dataclasses.replace(data, parameters=given, checks=[open_])))
+    row = re.search(r"<td>tau</td>.*?</tr>", page)
+    assert row is not None
+    assert re.sub("<[^>]+>", "", row[0]).endswith(told)
 
 
 def test_without_a_parent_the_headline_is_the_verdict(blind: ReportData) -> None:
@@ -156,6 +173,42 @@ def test_a_row_is_mostly_the_level_of_tests_that_make_most_of_it(
 def test_an_effect_that_nobody_claims_says_so(data: ReportData) -> None:
     added = dataclasses.replace(data, reason=diagnosis("none"))
     assert headline(added) == "feed_screw was added to baseline, and no diagnosis claims it"
+
+
+@pytest.mark.parametrize(
+    ("added", "given", "offered"),
+    [
+        ("coolant", {"effect": "coolant"}, True),
+        ("coolant_2", {"effect": "coolant"}, True),
+        ("coolant_heat", {"effect": "coolant"}, False),
+        ("lag(T_tank)", {"effect": "lag", "drivers": ["T_tank"]}, True),
+        ("lag(T_oil)", {"effect": "lag", "drivers": ["T_tank"]}, False),
+        ("screw by conditions.tool", {"effect": "screw", "gain_by": "conditions.tool"}, True),
+        ("screw by machine and conditions.tool", {"effect": "screw", "gain_by": "conditions.tool"}, True),
+        ("screw by machine", {"effect": "screw", "gain_by": "conditions.tool"}, False),
+        ("screw_heating, screw_cooling", {"effect": "screw", "phases": ["heating", "cooling"]}, True),
+        ("coolant, sun", {"effect": "coolant"}, False),
+    ],
+)
+def test_what_was_offered_as_a_refinement_is_told_so(
+    added: str, given: dict[str, Any], offered: bool, data: ReportData
+) -> None:
+    reason = diagnosis("none")
+    first = reason.candidates[0].model_copy(update={"claimed": False, "refinement": True, **given})
+    version = dataclasses.replace(data.versions[-1], added=added)
+    reason = reason.model_copy(update={"candidates": [first, *reason.candidates[1:]]})
+    said = headline(dataclasses.replace(data, reason=reason, versions=(data.versions[0], version)))
+    assert ("a refinement that its diagnosis offered" in said) is offered
+    assert ("no diagnosis claims it" in said) is not offered
+
+
+def test_further_rows_are_not_said_to_explain_less(data: ReportData) -> None:
+    """What refines comes first, and what gives most of the rest may stand below."""
+    reason = diagnosis()
+    rows = [reason.candidates[0].model_copy(update={"rank": i, "id": f"c{i}"}) for i in range(1, 9)]
+    page = body(render(dataclasses.replace(data, reason=reason.model_copy(update={"candidates": rows}))))
+    assert "2 more</summary>" in page
+    assert "explain less" not in page
 
 
 def test_noise_is_named_with_its_averaging_time_beside_what_is_systematic(data: ReportData) -> None:

@@ -120,10 +120,10 @@ def test_what_the_model_as_it_stands_lacks_is_told_first(verdict: Any) -> None:
     given = {"rmse_um": 0.5, "noise_um": 0.1, "modelled_rmse_um": 3.0}
     text = verdict_sentence(found(verdict, [second], **given))
     assert text.startswith(
-        "the open tests show no missing effect, but as the model has its effects, one lag each, it leaves 3.00 um on "
-        "left-out tests, and 0.600 um with mode (T), another mode of them or a cause that they hide: add it, "
+        "as the model has its effects, one lag each, it leaves 3.00 um on left-out tests, and 0.600 um with mode (T), "
+        "another mode of them or a cause that they hide: add it, "
     )
-    assert "; where its effects may act otherwise, 0.500 um are left on left-out tests, more than noise" in text
+    assert "; where its effects may act otherwise, the open tests show no missing effect: 0.500 um are left on " in text
     assert "refined by" not in text
     alone = verdict_sentence(found("none", [one("mode")], **given))
     assert "as the model has them it leaves 3.00 um, and no effect that is logged takes 30 % of that away" in alone

@@ -16,9 +16,10 @@ from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.glossary import PREDICTED_LEVEL
 from thermodata.report.table import table
-from thermodata.report.words import duration
+from thermodata.report.words import duration, number
 
 if TYPE_CHECKING:
+    from thermodata.modelling.predictions.beyond import Beyond
     from thermodata.modelling.predictions.predict import Predicted
     from thermodata.view.dataset import Dataset
 
@@ -64,6 +65,7 @@ def predict_command(
     from thermodata.cli.progress import progress_line
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
+    from thermodata.modelling.predictions.beyond import beyond
     from thermodata.modelling.run import load
     from thermodata.store.catalogue.stale import stale_line
 
@@ -86,6 +88,7 @@ def predict_command(
             pyarrow.csv.write_csv(as_table(made, unit_in_names=True), sys.stdout.buffer)
         return 3 if left_out else 0
     rows = [_row(p) for p in made]
+    further = beyond(loaded.fitted, loaded.data, made)
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
@@ -93,9 +96,10 @@ def predict_command(
         "file": None if out is None or not made else str(out),
         "tests": [{**row, "t_s": p.t_s, "predicted": p.predicted} for row, p in zip(rows, made, strict=True)],
         "left_out": left_out,
+        "beyond": further,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, out))
+    session.answer(payload, lambda: _text(rows, made, further, out))
     return 3 if left_out else 0
 
 
@@ -115,7 +119,7 @@ def _row(p: Predicted) -> dict[str, Any]:
     }
 
 
-def _text(rows: list[dict[str, Any]], made: list[Predicted], out: Path | None) -> str:
+def _text(rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyond], out: Path | None) -> str:
     if not made:
         return "no test can be predicted"
     several = {key for key in ("response", "unit") if len({r[key] for r in rows}) > 1}
@@ -136,7 +140,17 @@ def _text(rows: list[dict[str, Any]], made: list[Predicted], out: Path | None) -
     scored = any(r["rmse"] is not None for r in rows)
     columns += [("rmse", f"RMSE, where measured{unit}")] if scored else []
     text = table(shown, columns) + (f"\n\n{PREDICTED_LEVEL}" if scored else "")
+    if further:
+        head = "beyond the tests that the model is fitted to, where nothing says that an effect goes on in proportion"
+        text += "\n".join(["", "", head, *(f"  {_beyond(one)}" for one in further)])
     return text if out is None else f"{text}\n\n{out}"
+
+
+def _beyond(one: Beyond) -> str:
+    """'T11: coolant_heat (T_tank * on) goes to -61.3 um, in these tests to -44.0 um at most'."""
+    drivers = f" ({', '.join(one.drivers)})" if one.drivers else ""
+    most = f"to {number(one.fitted)} {one.unit} at most" if one.fitted else "nowhere to that side"
+    return f"{one.test}: {one.effect}{drivers} goes to {number(one.reaches)} {one.unit}, in these tests {most}"
 
 
 def _pair(text: str) -> tuple[str, str | float]:

@@ -25,6 +25,7 @@ from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
 from thermodata.diagnosis.tell.as_stored import as_fitted
+from thermodata.diagnosis.tell.in_version import told_by_versions
 from thermodata.diagnosis.tell.listed import (
     alike_both_ways,
     candidate,
@@ -152,10 +153,12 @@ def _answer(
             offers=judgement.verdict == "none",
         )
         judgement = refined(judgement, stands, investigation.measure)
-    made = None if confirmation is None else confirmation.fitted
+    made, fits = None if confirmation is None else confirmation.fitted, fits_of(())
 
     def refit(some: Sequence[CandidateEffect]) -> FittedResponse:
-        return made if made is not None else fits_of(()).of(some)
+        return made if made is not None else fits.of(some)
+
+    judgement = told_by_versions(judgement, fits.of, usable)
 
     version = left_with_named(investigation, judgement, refit, data, usable)
     investigation = told_alike(investigation, judgement, version)

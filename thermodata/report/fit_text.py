@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from thermodata.modelling.compare.differences import TestDifference
+    from thermodata.report.data import ReportData
     from thermodata.schema.diagnosis import WeakSpot
     from thermodata.schema.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak
@@ -50,7 +51,7 @@ def check_text(check: Check) -> str:
     return f"{check.name}{value}{limit}: {check.advice}"
 
 
-def span(result: FitResult, name: str) -> str:
+def span(result: FitResult | ReportData, name: str) -> str:
     """The interval of a parameter: '0.9 … 1.2', '0.9 …' where these tests set no upper end, 'not determined' where they
     set none within its bounds, or '-' where it is held or its uncertainty is not known."""
     ends = (result.parameters[name].low, result.parameters[name].high)

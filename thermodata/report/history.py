@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from thermodata.store import Store
     from thermodata.store.catalogue.models import StoredModel
 
+UNNAMED_TERMS = ("lag", "static")
+"""Effects that are told by their channels: their names say nothing."""
+
 
 def versions(
     chain: Sequence[StoredModel], units: Mapping[str, str], scored: Sequence[list[Score]] | None = None
@@ -136,7 +139,7 @@ def _parted_by(spec: EffectSpec) -> str:
 
 def _in_words(spec: EffectSpec, term: str) -> str:
     """An effect's name says what it is; a plain lag is told by its channel."""
-    if spec.effect not in ("lag", "static"):
+    if spec.effect not in UNNAMED_TERMS:
         return term
     acts = f" in {' and '.join(spec.phases)}" if spec.phases else ""
     return f"{spec.effect}({', '.join(d if isinstance(d, str) else d.at for d in spec.drivers.values())}){acts}"

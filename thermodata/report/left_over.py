@@ -96,14 +96,14 @@ def _as_modelled(found: Diagnosis, modelled: float) -> str:
 
 
 def offered(found: Diagnosis) -> str:
-    """'but as the model has its effects, one lag each, it leaves 1.2 um ...': what is offered for the model as it
+    """'as the model has its effects, one lag each, it leaves 1.2 um ...': what is offered for the model as it
     stands, and what may hide behind its effects; '' where nothing is."""
     one = next((c for c in found.candidates if c.as_modelled), None)
     if one is None:
         return ""
     instead = may_act_instead(found, but=[one.id])
     return (
-        f"but as the model has its effects, one lag each, it leaves {number(found.modelled_rmse_um)} um on left-out "
+        f"as the model has its effects, one lag each, it leaves {number(found.modelled_rmse_um)} um on left-out "
         f"tests, and {number(one.rmse_um_after)} um with {named(one)}, another mode of them or a cause that they hide: "
         f"add it, thermodata add {found.model[:8]} {one.rank}{f'; or {instead}' if instead else ''}"
     )

@@ -17,6 +17,7 @@ from thermodata.report.could_hide import could_hide
 from thermodata.report.data import ReportData, TestPart
 from thermodata.report.error_rows import error_rows, headline_error
 from thermodata.report.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
+from thermodata.report.fit_text import span
 from thermodata.report.glossary import HOW, NOISE
 from thermodata.report.headline import capital, headline, sentences
 from thermodata.report.heat_charts import heat_charts
@@ -105,7 +106,12 @@ def render(data: ReportData) -> str:
         mixed=len({data.unit_of(name) for name in data.responses}) > 1,
         tests=[_test(data, part, f"test{i}") for i, part in enumerate(data.tests)],
         parameters=[
-            {"effect": key.rpartition(".")[0] or key, "name": key.rpartition(".")[2], **p.model_dump()}
+            {
+                "effect": key.rpartition(".")[0] or key,
+                "name": key.rpartition(".")[2],
+                "span": span(data, key),
+                **p.model_dump(),
+            }
             for key, p in data.parameters.items()
         ],
         checks=[c for c in data.checks if not c.passed],

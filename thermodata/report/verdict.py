@@ -126,10 +126,10 @@ def _verdict(found: Diagnosis) -> str:
         doubt = clock_in_doubt(found)
         named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
         colon = "; " if doubt else ": "
-        if mend := offered(found):
-            colon = f", {mend}; where its effects may act otherwise, "
-        none = f"the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
-        return "; ".join(filter(None, [none, open_still]))
+        mend = offered(found)
+        beside = "where its effects may act otherwise, " if mend else ""
+        none = f"{beside}the open tests show no missing effect{named}{doubt}{colon}{left_over(found)}"
+        return "; ".join(filter(None, [mend, none, open_still]))
     return {
         "effect": "missing: an effect that the data point to",
         "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",

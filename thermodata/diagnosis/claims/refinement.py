@@ -78,7 +78,7 @@ class Refinement:
         if not self.fitted.terms:
             return None
         if isinstance(scored.candidate, ChangedEffect):
-            return scored.candidate.in_words(scored, self.fitted, self.problem, self.noise)
+            return scored.candidate.in_words(scored)
         kin, most = scored.candidate.kin, scored.drop >= MOST
         effect = scored.candidate.effect
         if (refines(effect) and told_by(effect) is None) or kin == "same":

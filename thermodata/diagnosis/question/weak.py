@@ -107,7 +107,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
 
     Only what occurred is said: the level that stood for most of the window, else from where to where it went."""
     words: list[str] = []
-    turning, spindles = False, False
+    turning, rests = False, list[str]()  # of spindles
     for name, info in test.channels.items():
         values = test.values.get(name)
         if values is None:
@@ -120,8 +120,8 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             largest = float(np.nanmax(np.abs(values)))
             low, high = _levels(np.abs(part), largest)
             of_spindle = info.quantity == "rotational_speed" and (info.at is None or is_spindle(info.at))
-            spindles = spindles or of_spindle
-            if of_spindle and high < _AT_REST_RPM:
+            if of_spindle and (high < _AT_REST_RPM or high <= 0.01 * largest):
+                rests.append(_when(np.abs(part) <= max(_AT_REST_RPM, 0.01 * largest), t_s))
                 continue
             if (
                 info.quantity in ("current", "voltage")
@@ -131,7 +131,7 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             if high > 0.01 * largest:
                 turning = turning or of_spindle
                 span = _figure(high) if low == high else f"{_figure(low)} to {_figure(high)}"
-                when = _when(np.abs(part), high, largest, t_s) if low == high else ""
+                when = _when(_stood(np.abs(part), high, largest), t_s) if low == high else ""
                 words.append(f"{name} {span} {info.unit}{when}")
         elif info.quantity == "state" and (share := float(part.mean())) > _HARDLY:
             words.append(f"{name} on" if share > 1 - _HARDLY else f"{name} on {100 * share:.0f} % of the time")
@@ -139,8 +139,8 @@ def describe_state(test: TestData, start: int, stop: int) -> str:
             rise = float(part[-1] - part[0])
             if abs(rise) > 0.3:
                 words.append(f"{name} {'rising' if rise > 0 else 'falling'}")
-    if spindles and not turning:
-        words.insert(0, "spindle at rest")
+    if rests and not turning:
+        words.insert(0, f"spindle at rest{next(filter(None, rests), '')}")
     return ", ".join(words) if words else "idle"
 
 
@@ -157,10 +157,14 @@ def _levels(sizes: Float1D, largest: float) -> tuple[float, float]:
     return low if low > 0.01 * largest else 0.0, high
 
 
-def _when(sizes: Float1D, level: float, largest: float, t_s: Float1D) -> str:
+def _stood(sizes: Float1D, level: float, largest: float) -> Bool1D:
+    """Where a level stood. largest: of the whole test."""
+    return np.asarray(np.abs(sizes - level) <= max(_ALIKE * float(sizes.max()), 0.01 * largest))
+
+
+def _when(stood: Bool1D, t_s: Float1D) -> str:
     """' from 12 min on', of a level that stood for most of a window and not for all of it; '' where it stood for all.
     t_s: from the test's start."""
-    stood = np.abs(sizes - level) <= max(_ALIKE * float(sizes.max()), 0.01 * largest)
     share = float(stood.mean())
     if share >= 1 - _HARDLY:
         return ""

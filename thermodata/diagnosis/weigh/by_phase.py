@@ -14,10 +14,8 @@ from typing import cast
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
-from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import is_warm
 from thermodata.diagnosis.question.present import TIME_UNITS
-from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.scored import Scored
@@ -89,7 +87,7 @@ class HeatingAndCoolingApart(ChangedEffect):
     def added_to(self, spec: Model) -> Model:
         return with_phases(spec, self.term.id, self.phases)
 
-    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+    def in_words(self, scored: Scored) -> str:
         """'spindle_bearing acts by another function in cooling than in heating (tau about 100 instead of 40 min)'."""
         found = scored.columns.points[scored.weighed.best[0]]
         said = [
@@ -110,6 +108,7 @@ def heating_and_cooling_apart(
         _candidate(term)
         for term in fitted.terms
         if is_free(term)
+        and term.bound.spec.gain_by is None
         and term.bound.spec.phases is None
         and term.bound.spec.calibrate_on is None
         and all(_warms_with_work(term, t) and acting(t, [COOLING]) is not None for t in every if term.bound.covers(t))

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import SpecError
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
+from thermodata.view.dataset import TestData
 
 # what else a gain may be, as a share of the one gain: by machine, wear or preload; soft (`evidence.BEYOND`)
 TIMES = (0.1, 3.0)
@@ -74,13 +73,17 @@ class ChangedEffect(CandidateEffect, ABC):
         return self.term.id
 
     @abstractmethod
-    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+    def in_words(self, scored: Scored) -> str:
         """How it acts otherwise, as found beside all that was chosen."""
+
+    def in_version(self, version: Callable[[], FittedResponse], tests: Sequence[TestData]) -> str | None:
+        """The same by a version that has it, fitted to these tests; None where that tells no more."""
+        return None
 
 
 def is_free(term: FittedTerm) -> bool:
-    """Whether one gain is fitted to all tests. What was identified on tests of its own has no gain for the others, and
-    an ARX function has none."""
+    """Whether its gains are fitted to all tests. What was identified on tests of its own has no gain for the others,
+    and an ARX function has none."""
     spec = term.bound.spec
     free = any(g.name not in spec.fixed for g in term.effect.gains)
-    return spec.gain_by is None and not term.held and free and bool(term.effect.needs) and spec.method != "arx"
+    return not term.held and free and bool(term.effect.needs) and spec.method != "arx"

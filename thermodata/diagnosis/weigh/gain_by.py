@@ -6,18 +6,13 @@ is asked is the term's contribution as it is fitted, a column for each value of 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import UNNAMED, InTest
-from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import known
-from thermodata.diagnosis.question.known_effects import owners
-from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.weigh.beside import beside
 from thermodata.diagnosis.weigh.changed import TIMES, ChangedEffect, EffectOfModel, is_free
 from thermodata.diagnosis.weigh.scored import ACTS, Scored
 from thermodata.errors import unknown_name
@@ -25,7 +20,7 @@ from thermodata.modelling.model_file.said_conditions import refuse_unsaid
 from thermodata.modelling.terms.bound import OF_TESTS, group_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
-from thermodata.plugin import Bool1D, Effect, Float1D, Gain, Int1D
+from thermodata.plugin import Effect, Gain
 from thermodata.schema.model import Model
 from thermodata.view.dataset import TestData
 
@@ -50,8 +45,8 @@ class GainOfEach(EffectOfModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GainByCondition(ChangedEffect):
-    """An effect of the model with a gain for each value of a condition. by: as `gain_by` of a model file has it. alike:
-    conditions that part the tests in the same way."""
+    """An effect of the model with a gain for each value of a condition, within each of the values that it has a gain
+    for already. by: as `gain_by` of a model file has it. alike: conditions that part the tests in the same way."""
 
     by: str
     alike: tuple[str, ...] = ()
@@ -74,10 +69,11 @@ class GainByCondition(ChangedEffect):
 
     def in_test(self, test: TestData) -> InTest:
         """Zero but for the value that the test has."""
-        values, value = [g.name for g in self.effect.gains], group_of(test, self.by)
+        values, value = [g.name for g in self.effect.gains], _value(self.term, self.by, test)
         columns = np.zeros((len(test.t_s), len(values)))
-        if value in values and self.term.bound.covers(test) and self.term.bound.has(test):
-            gains = np.array([self.term.gains[g.name] for g in self.term.effect.gains])
+        fitted = self.term.values(test) if value in values else None
+        if value in values and fitted is not None and self.term.bound.covers(test) and self.term.bound.has(test):
+            gains = np.array([fitted.gains[g.name] for g in self.term.effect.gains])
             columns[:, values.index(value)] = self.term.columns(test) @ np.where(gains == 0, 1.0, gains)
         return lambda p: columns
 
@@ -88,31 +84,43 @@ class GainByCondition(ChangedEffect):
     def added_to(self, spec: Model) -> Model:
         return with_gain_by(spec, self.term.id, self.by)
 
-    def in_words(self, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise) -> str:
+    def in_words(self, scored: Scored) -> str:
+        """Without gains: beside effects that may act faster and slower, what an effect does in all is hardly known."""
+        return self._told([f"{' and '.join(self.alike)} part the tests alike"] if self.alike else [])
+
+    def in_version(self, version: Callable[[], FittedResponse], tests: Sequence[TestData]) -> str | None:
         """'spindle_bearing acts with another gain for each conditions.tool (T1 1, T2 0.6 times)': times the largest."""
-        times = _relative_gains(self, scored, fitted, problem, noise)
-        values = [g.name for g in self.effect.gains]
-        said = ", ".join(f"{value} {share:.2g}" for value, share in zip(values, times, strict=True))
-        alike = f"; {' and '.join(self.alike)} part the tests alike" if self.alike else ""
-        return f"{self.term.id} acts with another gain for each {self.by} ({said} times{alike})"
+        term = next((t for t in version().terms if t.id == self.term.id), None)
+        times = {} if term is None else _times(term, [g.name for g in self.effect.gains], tests)
+        if not times:
+            return None
+        apart = "; " if self.term.bound.spec.gains_by else ", "  # a value of several conditions has commas
+        said = apart.join(f"{value} {share:.2g}" for value, share in times.items())
+        alike = [f"{' and '.join(self.alike)} part the tests alike"] if self.alike else []
+        return self._told([f"{said} times", *alike])
+
+    def _told(self, more: Sequence[str]) -> str:
+        said = f" ({'; '.join(more)})" if more else ""
+        return f"{self.term.id} acts with another gain for each {self.by}{said}"
 
 
 def gains_by_condition(
     fitted: FittedResponse, tests: Sequence[TestData], every: Sequence[TestData]
 ) -> list[GainByCondition]:
-    """Each effect with one gain, by each condition that parts the tests in which it acts: where it rests, any gain is
-    as good. tests: those that are weighed. every: all of the data, which a model with the condition must be able to
-    score; locked ones are read for their conditions only."""
+    """Each effect, by each condition that parts the tests in which it acts further than its gains are parted already:
+    where it rests, any gain is as good. tests: those that are weighed. every: all of the data, which a model with the
+    condition must be able to score; locked ones are read for their conditions only."""
     found = []
     for term in fitted.terms:
         if not is_free(term):
             continue
         mine = _where_it_acts(term, [t for t in tests if term.bound.covers(t)])
         parted: dict[tuple[int, ...], list[str]] = {}
+        already = len({term.bound.group(t) for t in mine})
         for by in _conditions([t for t in every if term.bound.covers(t)]):
-            groups = [str(group_of(t, by)) for t in mine]
+            groups = [_value(term, by, t) for t in mine]
             values = list(dict.fromkeys(groups))
-            if 2 <= len(values) <= MOST_VALUES and len(mine) > len(values):
+            if already < len(values) <= MOST_VALUES and len(mine) > len(values):
                 parted.setdefault(tuple(values.index(g) for g in groups), []).append(by)
         found += [_candidate(term, by[0], tuple(by[1:]), mine, every) for by in parted.values()]
     return found
@@ -125,8 +133,17 @@ def named(fitted: FittedResponse, term: str, by: str, tests: Sequence[TestData])
     if term not in terms:
         raise unknown_name("effect", term, list(terms), where=f"candidate '{gain_by_id(term, by)}'")
     mine = [t for t in tests if terms[term].bound.covers(t)]
-    refuse_unsaid(by, mine, f"candidate '{gain_by_id(term, by)}'")
+    for name in (*terms[term].bound.spec.gains_by, by):
+        refuse_unsaid(name, mine, f"candidate '{gain_by_id(term, by)}'")
     return _candidate(terms[term], by, (), mine, tests)
+
+
+def _value(term: FittedTerm, by: str, test: TestData) -> str:
+    """Of a test, within the values that the term has a gain for already: 'M1, T2'; '' where the test says none."""
+    own = term.bound.spec
+    if any(group_of(test, name) is None for name in (*own.gains_by, by)):
+        return ""
+    return replace(term.bound, spec=own.model_copy(update={"gain_by": [*own.gains_by, by]})).group(test)
 
 
 def _where_it_acts(term: FittedTerm, tests: Sequence[TestData]) -> list[TestData]:
@@ -147,26 +164,28 @@ def _candidate(
 ) -> GainByCondition:
     groups: dict[str, list[TestData]] = {}
     for test in tests:
-        groups.setdefault(str(group_of(test, by)), []).append(test)
+        groups.setdefault(_value(term, by, test), []).append(test)
     return GainByCondition(
         cast(Effect, GainOfEach(term, tuple(groups))),
         term.binding,
         term.family,
         log_prior=UNNAMED,
         kin="itself",
-        unforetold=_unforetold(by, groups, every),
+        unforetold=_unforetold(term, by, groups, every),
         term=term,
         by=by,
         alike=alike,
     )
 
 
-def _unforetold(by: str, groups: Mapping[str, Sequence[TestData]], every: Sequence[TestData]) -> str | None:
+def _unforetold(
+    term: FittedTerm, by: str, groups: Mapping[str, Sequence[TestData]], every: Sequence[TestData]
+) -> str | None:
     single = {value: some[0] for value, some in groups.items() if len(some) == 1}
     if not single:
         return None
     listed = ", ".join(f"{value} ({test.test})" for value, test in single.items())
-    locked = [t.test for t in every if t.role == "locked" and group_of(t, by) in single]
+    locked = [t.test for t in every if t.role == "locked" and _value(term, by, t) in single]
     ask = f", or ask the locked {' and '.join(locked)} (thermodata confirm)" if locked else ""
     return (
         f"{by} has values that stand in one test only: {listed}; no other test foretells their gain. Run another test "
@@ -174,33 +193,14 @@ def _unforetold(by: str, groups: Mapping[str, Sequence[TestData]], every: Sequen
     )
 
 
-def _relative_gains(
-    candidate: GainByCondition, scored: Scored, fitted: FittedResponse, problem: Problem, noise: Noise
-) -> Float1D:
-    """The gain of each value by the largest, shape (values,): how much of the effect as fitted stands in all that it
-    does in the tests of the value, by least squares. Its own gains and what is added to them can't be told apart."""
-    more = beside(problem, [scored])
-    theta = known(more, noise).mean(np.arange(len(more.blocks)))
-    number = next(i for i, t in enumerate(fitted.terms) if t is candidate.term)
-    base, spare = (np.array(o, dtype=np.int64) for o in owners(fitted))
-    first = more.blocks[0]
-    all_of_it = np.concatenate(
-        [_of_effect(first.base.shape[1], base, number), _of_effect(first.slack.shape[1], spare, number)]
-    )
-    as_fitted = np.flatnonzero(base == number)[: len(candidate.term.effect.gains)]
-    values = [g.name for g in candidate.effect.gains]
-    found = np.zeros((2, len(values)))
-    for block in more.blocks:
-        value = group_of(block.test, candidate.by)
-        if value in values:
-            one = block.base[:, as_fitted].sum(axis=1)
-            does = np.hstack([block.base, block.slack])[:, all_of_it] @ theta[all_of_it]
-            found[:, values.index(value)] += one @ does, one @ one
-    times = found[0] / np.where(found[1] > 0, found[1], 1.0)
-    largest = times[int(np.argmax(np.abs(times)))]
-    return np.asarray(times / largest if largest else times)
-
-
-def _of_effect(columns: int, owned: Int1D, number: int) -> Bool1D:
-    """Which columns belong to an effect: its own, and those behind all known ones, which are added to it."""
-    return np.concatenate([owned == number, np.ones(columns - len(owned), bool)])
+def _times(term: FittedTerm, values: Sequence[str], tests: Sequence[TestData]) -> dict[str, float]:
+    """What the effect does in the same tests with the gains of each value, by the value with which it does most."""
+    known = [t for t in tests if term.bound.covers(t) and term.bound.has(t)]
+    does = {}
+    for value in values:
+        if (own := term.groups.get(value)) is not None and known:
+            gains = np.array([own.gains[g.name] for g in term.effect.gains])
+            does[value] = np.concatenate([term.bound.columns(t, own.params) @ gains for t in known])
+    most = max(does.values(), key=np.linalg.norm, default=np.zeros(0))
+    size = float(most @ most)
+    return {value: float(one @ most) / size for value, one in does.items()} if size else {}

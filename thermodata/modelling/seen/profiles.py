@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from thermodata.modelling.fit.joint import fitted_problem
+from thermodata.modelling.inputs.roles import fitted_keys
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.terms.usable import usable_tests
@@ -48,10 +49,12 @@ class Profiles:
 
 
 def profiles_of(fitted: FittedModel, data: Dataset) -> Profiles:
-    """Of every response, on the tests that it was fitted to."""
+    """Of every response, on the tests that it was fitted to: verification tests that took part in the choice too."""
     curves, said = list[Curve](), list[str]()
+    keys = fitted_keys(fitted.spec, fitted.roles)
+    known = {t.key: t for t in data.tests}
+    open_tests = [known[key] for key in keys if key in known]
     for response in fitted.responses:
-        open_tests = [t for t in data.tests if t.key in response.calibrate]
         tests, _ = usable_tests(response.bound, open_tests)
         curves += _curves(response, tests)
         said += [check.advice for check in told_apart(response, tests) if not check.passed]

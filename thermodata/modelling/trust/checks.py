@@ -45,7 +45,7 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     matrix = np.concatenate(blocks, axis=1) if blocks else np.zeros((design.n, 0))
     residual = design.y - matrix @ np.array(gains) if gains else design.y
     rows = [
-        *_samples(residual, design, len(gains) + sum(len(t.effect.params) for t in response.terms)),
+        *_samples(residual, design, sum(_fitted(t) for t in response.terms)),
         *_conditioning(matrix, names),
         *_lost(response, tests),
         *_orders(response),
@@ -62,6 +62,19 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
     return {"checks": tuple(rows), "noise": noise}
+
+
+def _fitted(term: FittedTerm) -> int:
+    """How many parameters and gains of a term the data set: not what the model file fixes, nor what changes nothing,
+    and once what groups share."""
+    spec, groups = term.bound.spec, len(term.groups)
+    # of an ARX function the file's gain stands for its coefficients
+    fixed = {} if spec.method == "arx" else spec.fixed
+    held = {*fixed, *next(iter(term.groups.values())).silent} if groups else fixed
+    params = [p for p in term.effect.params if p.name not in held and p.upper > p.lower]
+    gains = sum(g.name not in fixed for g in term.effect.gains)
+    of_gains = gains + groups - 1 if spec.one_gain else gains * groups
+    return of_gains + sum(1 if spec.shares(p.name) else groups for p in params)
 
 
 def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:

@@ -110,8 +110,8 @@ def _reaching(effect: EffectSpec) -> EffectSpec:
 
 
 def with_gain_by(spec: Model, term: str, by: str) -> Model:
-    """A new model: the same, and one effect of it with a gain for each value of `by`. UsageError where the model has no
-    such effect, or the effect has several gains already."""
+    """A new model: the same, and one effect of it with a gain for each value of `by`, within each of those that it has
+    one for already. UsageError where the model has no such effect, or the effect has a gain for each value of `by`."""
     old, where = _line(spec, term), f"model '{spec.name}', effect '{term}'"
     if not by:
         raise UsageError(
@@ -120,9 +120,10 @@ def with_gain_by(spec: Model, term: str, by: str) -> Model:
             expected="conditions.NAME, machine or campaign",
             hint=f"name it: {gain_by_id(term, 'conditions.NAME')}",
         )
-    if old.gain_by is not None:
-        raise UsageError("the effect has several gains already", where=where, got=f"gain_by: {old.gain_by}")
-    effects = [e if e is not old else e.model_copy(update={"gain_by": by}) for e in spec.effects]
+    if by.removeprefix("conditions.") in old.gains_by:
+        raise UsageError("the effect has a gain for each of them already", where=where, got=f"gain_by: {old.gain_by}")
+    more = [*old.gains_by, by] if old.gains_by else by
+    effects = [e if e is not old else e.model_copy(update={"gain_by": more}) for e in spec.effects]
     return spec.model_copy(update={"effects": effects, **_CHOSEN_NOW})
 
 
