@@ -12,8 +12,10 @@ import pytest
 from click.testing import CliRunner
 
 from thermodata.cli.app import cli
+from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.named import fit_named
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.schema.diagnosis import Diagnosis
@@ -101,6 +103,27 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     again = run.fit(store, Model.model_validate(find_model(store, model).spec)).model
     assert again != model
     assert stale_line(store, again) is None
+
+
+def test_advice_on_a_model_that_was_fitted_again_names_that_fit(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec
+) -> None:
+    store, model, edit = edited
+    fewer = run.fit(store, spec(*EFFECTS[:1])).model
+    edit("role: verification", "role: calibration")
+    with pytest.raises(UsageError, match=f"thermodata fit {fewer}; thermodata fit {model}"):
+        run.compare_against(store, [fewer], model)
+    now = fit_named(store, model).model
+    with pytest.raises(UsageError) as refused:
+        run.compare_against(store, [fewer], model)
+    assert f"thermodata fit {fewer};" in str(refused.value), "only what is left to do"
+    assert f"fit {model}" not in str(refused.value)
+    of_fewer = fit_named(store, fewer).model
+    with pytest.raises(UsageError, match=f"thermodata compare {of_fewer} --against {now}"):
+        run.compare_against(store, [fewer], model)
+    assert run.compare_against(store, [of_fewer], now)
+    assert f"{now} is it" in str(stale_line(store, model))
+    assert "thermodata fit" not in str(stale_line(store, model))
 
 
 def test_a_model_whose_data_are_set_back_is_as_it_was_fitted(
