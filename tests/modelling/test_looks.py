@@ -12,7 +12,7 @@ from thermodata.store.catalogue.looks import count_locked_look, locked_looks
 from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset
 
-from .conftest import Spec
+from .conftest import EFFECTS, Spec
 from .test_run import stored
 
 
@@ -74,10 +74,20 @@ def test_a_diagnosis_that_tells_the_same_is_no_look(world: Dataset, spec: Spec, 
     store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
     model = run.fit(store, spec("ambient_frame")).model
     claims = [c for c in diagnose(store, model).candidates if c.claimed]
-    assert len(claims) == 1
+    assert claims
     path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
     ingest(store, path)
     assert [c.id for c in diagnose(store, model).candidates if c.claimed] == [c.id for c in claims]
     assert locked_looks(store, "c", "t7") == 1
-    confirm_choice(store, model, claims[0].id)
-    assert locked_looks(store, "c", "t7") == 1, "the diagnosis told it"
+
+
+def test_what_a_diagnosis_of_a_stale_model_opened_for_one_claim_is_no_look_for_it(
+    world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
+    model = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"))).model
+    path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
+    ingest(store, path)
+    (claim,) = [c.id for c in diagnose(store, model).candidates if c.claimed]
+    assert locked_looks(store, "c", "t7") == 1
+    assert confirm_choice(store, model, claim)[0].looks == 1
