@@ -68,6 +68,15 @@ def model_rows(store: Store) -> list[ModelRow]:
     return [_row(r, json.loads(r["spec"]).get("effects", []), often[_label(r)] > 1) for r in rows]
 
 
+def role_in_model(store: Store, model: str, campaign: str, test: str) -> str | None:
+    """Of a test, such as 'verification (in-sample)'; None where the model was not predicted in it."""
+    with store.reader() as con:
+        row = con.execute(
+            "select max(role) from score_row where model = ? and campaign = ? and test = ?", [model, campaign, test]
+        ).fetchone()
+    return row[0] if row else None
+
+
 def _label(r: dict[str, Any]) -> str:
     return f"{r['name']} {r['version']}"
 
