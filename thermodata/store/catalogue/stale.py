@@ -40,6 +40,22 @@ def stale_line(store: Store, model: str) -> str | None:
     )
 
 
+def results_gone(store: Store, stored: StoredModel) -> list[str]:
+    """The campaign/test that a model was fitted to or checked on and has no results of any more: they were forgotten,
+    whether the test came back or not."""
+    with store.reader() as con:
+        rows = fetch(
+            con,
+            "select campaign, payload from finding where model = ? and kind = ? order by rowid",
+            [stored.model, STALE],
+        )
+    there = {(s.campaign, s.test) for s in stored.result.scores}
+    found = [
+        (row["campaign"], one["test"]) for row in rows if {GONE, BACK} & {*(one := json.loads(row["payload"]))["what"]}
+    ]
+    return ["/".join(key) for key in dict.fromkeys(found) if key not in there]
+
+
 def fitted_again(store: Store, stored: StoredModel) -> str | None:
     """The id of the same model fitted to the data as they are now; None where nobody did."""
     with store.reader() as con:
