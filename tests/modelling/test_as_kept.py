@@ -12,10 +12,14 @@ import pytest
 from click.testing import CliRunner
 
 from thermodata.cli.app import cli
+from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.named import fit_named
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
+from thermodata.report.fit_text import history_text
+from thermodata.report.history import history_rows
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
 from thermodata.store import Store
@@ -103,6 +107,27 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     assert stale_line(store, again) is None
 
 
+def test_advice_on_a_model_that_was_fitted_again_names_that_fit(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec
+) -> None:
+    store, model, edit = edited
+    fewer = run.fit(store, spec(*EFFECTS[:1])).model
+    edit("role: verification", "role: calibration")
+    with pytest.raises(UsageError, match=f"thermodata fit {fewer}; thermodata fit {model}"):
+        run.compare_against(store, [fewer], model)
+    now = fit_named(store, model).model
+    with pytest.raises(UsageError) as refused:
+        run.compare_against(store, [fewer], model)
+    assert f"thermodata fit {fewer};" in str(refused.value), "only what is left to do"
+    assert f"fit {model}" not in str(refused.value)
+    of_fewer = fit_named(store, fewer).model
+    with pytest.raises(UsageError, match=f"thermodata compare {of_fewer} --against {now}"):
+        run.compare_against(store, [fewer], model)
+    assert run.compare_against(store, [of_fewer], now)
+    assert f"{now} is it" in str(stale_line(store, model))
+    assert "thermodata fit" not in str(stale_line(store, model))
+
+
 def test_a_model_whose_data_are_set_back_is_as_it_was_fitted(
     edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
 ) -> None:
@@ -138,6 +163,25 @@ def test_a_test_that_came_back_is_without_its_results_until_the_model_is_fitted_
     assert "gone for a while: t0" in str(stale_line(store, model))
     assert run.fit(store, find_model(store, model).spec).model == model
     assert stale_line(store, model) is None
+
+
+def test_a_history_says_which_tests_its_errors_are_without(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, edit = edited
+    assert [row["gone"] for row in history_rows(store, model)] == [[]]
+    assert "forgotten" not in history_text(history_rows(store, model))
+    edit("kind: spectrum", "kind: mixed")
+    assert [row["gone"] for row in history_rows(store, model)] == [[]], "stale, and with all its errors"
+    forget(store, "c", "t0")
+    said = f"c/t0 was forgotten after the fit of {model}: errors are without it"
+    assert history_text(history_rows(store, model)).startswith(said)
+    ingest(store, tmp_path / "campaign.yaml")
+    (row,) = history_rows(store, model)
+    assert row["gone"] == ["c/t0"], "back, and its errors are not"
+    assert history_text([row]).startswith(said)
+    (again,) = history_rows(store, fit_named(store, model).model)
+    assert again["gone"] == []
 
 
 def test_what_was_found_out_on_other_data_goes_where_they_are_set_back(

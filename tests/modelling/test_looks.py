@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from thermodata.diagnosis.run import confirm_choice
+from thermodata.diagnosis.run import confirm_choice, diagnose
 from thermodata.modelling import run
 from thermodata.report.collect import collect
 from thermodata.report.page import locked_note
-from thermodata.store.catalogue.looks import count_locked_look
+from thermodata.store.catalogue.looks import count_locked_look, locked_looks
+from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset
 
-from .conftest import Spec
+from .conftest import EFFECTS, Spec
 from .test_run import stored
 
 
@@ -48,3 +49,45 @@ def test_a_report_counts_the_looks_of_all_models_as_confirm_does(world: Dataset,
     assert locked_note(collect(store, other)) == "Locked tests: none was opened."
     looks = [confirm_choice(store, model, "lag:T_bearing")[0].looks for model in (first, other)]
     assert (looks, collect(store, other).looks, collect(store, first).looks) == ([1, 2], {"c/t7": 2}, {"c/t7": 2})
+
+
+def test_errors_that_were_shown_are_no_look_when_a_word_of_a_test_changed(
+    world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
+    model = run.fit(store, spec("ambient_frame")).model
+    first, _ = confirm_choice(store, model, "lag:T_bearing")
+    path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
+    assert model in ingest(store, path).stale
+    again, known = confirm_choice(store, model, "lag:T_bearing")
+    assert (again.tests, known) == (first.tests, False)
+    assert (first.looks, again.looks) == (1, 1)
+    raw = tmp_path / "raw" / "t0.csv"
+    raw.write_text(raw.read_text().replace("0.1", "0.3"))
+    ingest(store, path)
+    other, _ = confirm_choice(store, model, "lag:T_bearing")
+    assert other.tests != first.tests
+    assert other.looks == 2, "other errors are a look"
+
+
+def test_a_diagnosis_that_tells_the_same_is_no_look(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
+    model = run.fit(store, spec("ambient_frame")).model
+    claims = [c for c in diagnose(store, model).candidates if c.claimed]
+    assert claims
+    path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
+    ingest(store, path)
+    assert [c.id for c in diagnose(store, model).candidates if c.claimed] == [c.id for c in claims]
+    assert locked_looks(store, "c", "t7") == 1
+
+
+def test_what_a_diagnosis_of_a_stale_model_opened_for_one_claim_is_no_look_for_it(
+    world: Dataset, spec: Spec, tmp_path: Path
+) -> None:
+    store, path = stored(world, tmp_path), tmp_path / "campaign.yaml"
+    model = run.fit(store, spec(*(e for e in EFFECTS if e != "feed_screw"))).model
+    path.write_text(path.read_text().replace("kind: spectrum", "kind: mixed"))
+    ingest(store, path)
+    (claim,) = [c.id for c in diagnose(store, model).candidates if c.claimed]
+    assert locked_looks(store, "c", "t7") == 1
+    assert confirm_choice(store, model, claim)[0].looks == 1

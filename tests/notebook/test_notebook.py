@@ -18,6 +18,7 @@ from thermodata.cli import main
 from thermodata.errors import UsageError
 from thermodata.notebook.fitted import Fit
 from thermodata.notebook.opened import OpenStore
+from thermodata.notebook.stale import StaleModelWarning
 from thermodata.view.store_view import FlaggedValuesWarning
 
 from ..cli.conftest import write_campaign
@@ -218,3 +219,36 @@ def test_a_response_in_place_of_a_model_is_told_where_it_goes(store: OpenStore) 
     assert told.value.hint == "diagnose(response='dZ')"
     with pytest.raises(UsageError, match="no model"):
         store.diagnose("nobody")
+
+
+def test_of_a_model_whose_data_changed_every_answer_says_so(made: Path, tmp_path: Path) -> None:
+    shutil.copytree(made, tmp_path / "lab")
+    store = thermodata.open(tmp_path / "lab" / "thermodata.store")
+    first = store.model().parent
+    assert first is not None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", StaleModelWarning)
+        assert first.stale is None
+        first.predict("small"), store.compare(first), first.scores, first.history()
+    path = tmp_path / "lab" / "campaign.yaml"
+    path.write_text(path.read_text().replace("kind: mixed", "kind: spectrum"))
+    assert main(["--store", str(store.path), "ingest", str(path), "--json"]) == 0
+    assert str(first.stale).startswith(f"stale: the data of baseline {first.id} changed")
+    for asked in (
+        first.diagnose,
+        first.residual_tests,
+        first.history,
+        first.contributions,
+        lambda: first.scores,
+        lambda: first.predict("small"),
+        lambda: store.predict("small", first.id),
+        lambda: store.compare(first),
+        lambda: store.history(first.id),
+    ):
+        with pytest.warns(StaleModelWarning) as told:
+            asked()
+        assert [str(w.message) for w in told if w.category is StaleModelWarning] == [first.stale]
+        assert {w.filename for w in told if w.category is StaleModelWarning} == {__file__}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", StaleModelWarning)
+        assert store.fit(first.id).stale is None

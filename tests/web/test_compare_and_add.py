@@ -76,6 +76,21 @@ def test_adding_makes_a_version_on_the_same_scale_and_the_one_before_stays(write
     }
     assert re.search(r"verification [\d.]+ → [\d.]+ \(in-sample\) ", text)
     assert f"in-sample: {IN_SAMPLE}" in html.unescape(text)
+    # and so say the list of tests and the page of the test
+    newest = model_rows(store)[0].model
+    listed = re.findall(
+        r"<tr>\s*<td class=\"name\"><a[^>]*>(\w+)</a></td>\s*<td data-th=\"role\">(.*?)</td>", writer.get("/").text
+    )
+    assert {test: "in-sample" in role for test, role in listed if test != "day2"} == {
+        "heat1": False,
+        "heat2": False,
+        "day1": True,
+    }
+    assert f"in-sample: {IN_SAMPLE}" in html.unescape(writer.get("/").text)
+    for model, said in ((newest, True), (first.model, False)):
+        page = writer.get(f"/test?campaign=small&test=day1&model={model}").text
+        assert ("in-sample" in page) == said
+        assert f"compare {model}" in html.unescape(writer.get(f"/?model={model}").text)
     # undone is only left: both versions are there
     assert "in-sample" not in writer.get(f"/compare?model={first.model}").text
 

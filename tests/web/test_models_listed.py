@@ -8,10 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from thermodata.cli import main
+from thermodata.modelling.named import newest_model
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.model import Model
 from thermodata.schema.result import FitResult, Score
-from thermodata.store.catalogue.models import save_diagnosis, save_fit
+from thermodata.store import Store
+from thermodata.store.catalogue.models import find_model, save_diagnosis, save_fit
 from thermodata.view.models import model_rows
 
 from ..view.conftest import Builder
@@ -87,6 +90,23 @@ def test_every_model_can_be_ticked_and_twins_are_told_apart(client: Client) -> N
     assert all(model[:6] in label for model, label, _ in ticks)
     assert all(re.fullmatch(r"1 effect, \d{4}-\d\d-\d\d \d\d:\d\d", about) for _, _, about in ticks)
     assert f"<summary>{MODELS - 12} older models</summary>" in page
+
+
+def test_pages_take_the_model_that_commands_take_where_none_is_named(lab: Path) -> None:
+    at = ["--store", str(lab / "thermodata.store"), "fit"]
+    other = lab / "other.yaml"
+    other.write_text((lab / "baseline.yaml").read_text().replace("name: baseline", "name: other"))
+    store, client = Store(lab / "thermodata.store"), client_of(lab)[0]
+    for path in (other, lab / "baseline.yaml"):  # the second one was fitted before
+        assert main([*at, str(path), "--json"]) == 0
+        last = newest_model(store)
+        assert find_model(store, last).name == path.stem
+        for page in ("/", "/missing", "/report", "/test?campaign=small&test=day1"):
+            assert (
+                re.findall(r'<option value="(\w+)" selected>', client.get(page).text.split('name="model"')[1])[0]
+                == last
+            ), page
+        assert f'value="{last}" checked' in client.get("/compare").text
 
 
 def test_a_ticked_model_is_never_folded_up(client: Client) -> None:

@@ -17,6 +17,7 @@ from thermodata.diagnosis.locked.confirm import Confirmation, Fits, confirm
 from thermodata.diagnosis.locked.copies import copies
 from thermodata.diagnosis.locked.held import as_held, held
 from thermodata.diagnosis.locked.left_on_locked import left_on_locked, shape_left_on_locked
+from thermodata.diagnosis.locked.seen import claimed, not_seen, of_response, shown_again, told_again
 from thermodata.diagnosis.locked.turned_locked import turned_locked
 from thermodata.diagnosis.question.present import present
 from thermodata.diagnosis.question.responses import response_index
@@ -40,7 +41,6 @@ from thermodata.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.modelling.inputs.roles import Key
     from thermodata.store import Store
     from thermodata.store.base.counting import Tell
     from thermodata.view.dataset import Dataset, TestData
@@ -86,7 +86,7 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     tell: is told how many candidates are done, of how many. response: of which of the model's, by default of that of
     which most is left."""
     from thermodata.store.catalogue.looks import count_locked_look
-    from thermodata.store.catalogue.models import find_model, keep_answer, save_diagnosis
+    from thermodata.store.catalogue.models import find_model, keep_answer, kept_answer, save_diagnosis
 
     model = load(store, ref, anew=True)
     left = left_on_locked(store, model)
@@ -104,9 +104,11 @@ def diagnose(store: Store, ref: str, tell: Tell | None = None, response: str | N
     found = outcome.diagnosis.model_copy(update=asked_on)
     if (stored := find_model(store, model.identity)).data_version != model.data.data_version and not stored.stale:
         found = by_its_own_parameters(found, load(store, model.identity))
+    before = kept_answer(store, model.identity, _question(response))
+    same = told_again(None if before is None else Diagnosis.model_validate_json(before), found)
     for look in outcome.looks:
-        reason = f"confirming {', '.join(look.asked)}{_of(model, found.response)}"
-        count_locked_look(store, model.identity, [t.key for t in look.tests], reason)
+        reason = f"confirming {', '.join(look.asked)}{of_response(model, found.response)}"
+        count_locked_look(store, model.identity, [t.key for t in look.tests], reason, once={*look.asked} <= same)
     save_diagnosis(store, model.identity, found)
     if not found.not_asked:  # a plugin that was mended is asked, though nothing else has changed
         keep_answer(store, model.identity, _question(response), key, found.model_dump_json())
@@ -117,9 +119,9 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     """(what the locked tests say of an effect that the user chose, whether that was known already).
 
     candidate: a rank of the stored diagnosis, an id, or any 'effect:channels'. response: by default that of the stored
-    diagnosis. Opening the lock is counted, but for an answer that the store holds, and for what a diagnosis of the same
-    data opened it for. UsageError: no such candidate, a rank of another response's diagnosis, or no locked test that
-    both models can predict.
+    diagnosis. Opening the lock is counted, but for an answer that the store holds, for what a diagnosis of the same
+    data opened it for, and for errors that were shown before. UsageError: no such candidate, a rank of another
+    response's diagnosis, or no locked test that both models can predict.
     """
     from thermodata.store.catalogue.looks import count_locked_look, locked_looks
     from thermodata.store.catalogue.models import keep_answer, kept_answer, load_diagnosis
@@ -131,7 +133,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     of = model.fitted.responses[index]
     chosen = _chosen(model, of, chosen_id(store, model.identity, candidate, response))
     name, key = chosen.id, _key(model)
-    whose = _of(model, of.name)
+    whose = of_response(model, of.name)
     question = f"confirm {name}{whose}"
     kept = kept_answer(store, model.identity, question, key)
     if kept is not None:
@@ -142,9 +144,10 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
     locked = _locked(model, of, asked_of.data, tests)
     base = asked_of.fitted if usable else None
     confirmation = confirm(model.fitted.spec, index, asked_of.data, [chosen], asked_of.tests, locked, base)
-    count_locked_look(
-        store, model.identity, _not_seen(store, model, of, name, locked), f"confirming {name}{whose}, by choice"
-    )
+    before = kept_answer(store, model.identity, question)
+    told_then = [] if before is None else Confirmed.model_validate_json(before).tests
+    new = not_seen(store, model, of, name, locked, shown_again(told_then, _each_test(confirmation)))
+    count_locked_look(store, model.identity, new, f"confirming {name}{whose}, by choice")
     put_right = asked_of.put_right
     if confirmation.where_it_acts is not None and not confirmation.where_it_acts.holds:
         fits = Fits(model.fitted.spec, index, asked_of.data, asked_of.tests, locked, asked_of.fitted)
@@ -165,7 +168,7 @@ def confirm_choice(store: Store, ref: str, candidate: str | int, response: str |
         parameters=confirmation.parameters[name],
         tests=_each_test(confirmation),
         looks=max(locked_looks(store, t.campaign, t.test) for t in locked),
-        probability=_claims(store, model.identity, of.name).get(name),
+        probability=claimed(store, model.identity, of.name).get(name),
         put_right=told(put_right),
         note=note_of_response(chosen.channels, model.data.channels),
     )
@@ -179,7 +182,7 @@ def _as_of_now(store: Store, model: Loaded, known: Confirmed) -> Confirmed:
     from thermodata.store.catalogue.looks import locked_looks
 
     now = {
-        "probability": _claims(store, model.identity, known.response).get(known.candidate),
+        "probability": claimed(store, model.identity, known.response).get(known.candidate),
         "looks": max([known.looks, *(locked_looks(store, t.campaign, t.test) for t in known.tests)]),
     }
     return known.model_copy(update=now)
@@ -199,20 +202,6 @@ def _locked(model: Loaded, response: FittedResponse, data: Dataset, open_: Seque
             hint="thermodata quality tells what was flagged in them" if there else _lock_one(model),
         )
     return locked
-
-
-def _not_seen(
-    store: Store, model: Loaded, response: FittedResponse, name: str, locked: Sequence[TestData]
-) -> list[Key]:
-    """Those that a confirmation looks at anew: what a diagnosis opened for the same, on the same data, is no look."""
-    from thermodata.store.catalogue.looks import looked_for
-    from thermodata.store.catalogue.models import find_model
-
-    if find_model(store, model.identity).data_version != model.data.data_version:
-        return [t.key for t in locked]
-    alone = [*_claims(store, model.identity, response.name)] == [name]  # the answer told its errors
-    seen = looked_for(store, model.identity, name, _of(model, response.name), with_others=alone)
-    return [t.key for t in locked if t.key not in seen]
 
 
 def _each_test(confirmation: Confirmation) -> list[TestConfirmed]:
@@ -238,20 +227,6 @@ def _lock_one(model: Loaded) -> str:
         f"{campaign}; then thermodata ingest that file, thermodata fit {model.identity}, and confirm with the id that "
         "it prints"
     )
-
-
-def _of(model: Loaded, response: str) -> str:
-    """Behind what the lock is opened for: of a model with several responses with whose errors it shows."""
-    return "" if len(model.fitted.responses) == 1 else f" of {response}"
-
-
-def _claims(store: Store, model: str, response: str) -> dict[str, float | None]:
-    """What the stored diagnosis claims for this response, with its probability."""
-    from thermodata.store.catalogue.models import load_diagnosis
-
-    found = load_diagnosis(store, model)
-    asked = found.candidates if found is not None and found.response == response else []
-    return {c.id: c.probability for c in asked if c.claimed}
 
 
 def _refuse_again(model: Loaded, response: FittedResponse, effect: str, channels: set[str]) -> None:

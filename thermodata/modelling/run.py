@@ -11,6 +11,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.compare import elsewhere
 from thermodata.modelling.compare.beside import Beside, beside
 from thermodata.modelling.compare.differences import TestDifference, differences
+from thermodata.modelling.compare.one_version import refuse_stale
 from thermodata.modelling.compare.portability import Portability, portability
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.fit.orders import Tried
@@ -177,15 +178,10 @@ def compare_against(store: Store, refs: Sequence[str], reference: str, tests: Se
     from thermodata.store.catalogue.models import find_model
 
     found = {stored.model: stored for stored in (find_model(store, ref) for ref in (*refs, reference))}
-    if old := [f"{stored.name} ({stored.model})" for stored in found.values() if stored.stale]:
-        raise UsageError(
-            "the models were not fitted to the same version of the data",
-            expected="models of the data as they are now",
-            got=f"before a change: {', '.join(old)}",
-            hint="; ".join(f"thermodata fit {stored.model}" for stored in found.values() if stored.stale),
-        )
+    against = find_model(store, reference).model
+    refuse_stale(store, found.values(), against)
     loaded = [load(store, identity) for identity in found]
-    return beside([(m.identity, m.fitted, m.data) for m in loaded], find_model(store, reference).model, tests)
+    return beside([(m.identity, m.fitted, m.data) for m in loaded], against, tests)
 
 
 def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Sequence[str] = ()) -> list[Portability]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.shown import Listed, Shown, html_table
+from thermodata.notebook.stale import heed
 from thermodata.report.fit_text import compare_text
 from thermodata.report.words import in_units
 
@@ -89,4 +90,6 @@ def compared(store: Store, refs: Sequence[str]) -> Comparison:
     """Models of the store beside each other."""
     from thermodata.modelling.run import compare
 
-    return Comparison(store, compare(store, refs))
+    results = compare(store, refs)
+    heed(store, [result.model for result in results])
+    return Comparison(store, results)

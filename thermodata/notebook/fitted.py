@@ -15,6 +15,7 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
+from thermodata.notebook.stale import heed
 from thermodata.notebook.verdict import Confirmation, Verdict
 from thermodata.report.fit_text import before_after_text, fit_text, span
 from thermodata.report.lost import lost_sentence
@@ -43,6 +44,13 @@ class Fit(Shown):
     def parent(self) -> Fit | None:
         """The version before; None where there is none."""
         return None if self.result.parent is None else stored_fit(self.store, self.result.parent)
+
+    @property
+    def stale(self) -> str | None:
+        """What of its data changed since it was fitted, and what to do; None where nothing did."""
+        from thermodata.store.catalogue.stale import stale_line
+
+        return stale_line(self.store, self.id)
 
     @property
     def responses(self) -> list[str]:
@@ -81,6 +89,7 @@ class Fit(Shown):
     @property
     def scores(self) -> Listed:
         """A row a test, response and phase, by free-run simulation."""
+        heed(self.store, [self.id])
         return scores_of([self.result], SCORES, self._units)
 
     def diagnose(self, response: str | None = None) -> Verdict[Fit]:
@@ -88,6 +97,7 @@ class Fit(Shown):
         of which, where the model has several; by default of that of which most is left."""
         from thermodata.diagnosis.run import diagnose
 
+        heed(self.store, [self.id])
         return Verdict(self, diagnose(self.store, self.id, response=response))
 
     def confirm(self, candidate: str | int, response: str | None = None) -> Confirmation:
@@ -95,18 +105,21 @@ class Fit(Shown):
         where the model has several; by default of that which was diagnosed."""
         from thermodata.diagnosis.run import confirm_choice
 
+        heed(self.store, [self.id])
         return Confirmation(confirm_choice(self.store, self.id, candidate, response)[0])
 
     def add(self, *candidates: str | int, plain: bool = False) -> Fit:
         """A new version with further effects: each a rank or id of the diagnosis, or any 'effect:channels'."""
         from thermodata.modelling.add import add
 
+        heed(self.store, [self.id])
         return Fit(self.store, add(self.store, self.id, *candidates, plain=plain))
 
     def remove(self, effect: str) -> Fit:
         """A new version without an effect."""
         from thermodata.modelling.remove import remove
 
+        heed(self.store, [self.id])
         return Fit(self.store, remove(self.store, self.id, effect))
 
     def compare(self, *others: Fit | str) -> Comparison:
@@ -120,6 +133,7 @@ class Fit(Shown):
         from thermodata.draft.known.to_predict import predictions_of
         from thermodata.modelling.run import load
 
+        heed(self.store, [self.id])
         lost = list[str]()
         fitted = load(self.store, self.id).fitted
         made, left_out = predictions_of(self.store, fitted, os.fspath(target), lost.append)
@@ -130,6 +144,7 @@ class Fit(Shown):
         nearest name where the model was not predicted there: locked tests stay closed."""
         from thermodata.view.predictions import predictions
 
+        heed(self.store, [self.id])
         response = self._response(response)
         campaign, name = self._test(test, response)
         found = [p for p in predictions(self.store, self.id, campaign, name) if p.response == response]
@@ -142,17 +157,20 @@ class Fit(Shown):
         from thermodata.modelling.run import load
         from thermodata.modelling.seen.as_system import see
 
+        heed(self.store, [self.id])
         loaded = load(self.store, self.id)
         return ResidualTests(self.id, see(loaded.fitted, loaded.data))
 
     def history(self) -> Listed:
         """The versions that led here, oldest first, with their errors."""
+        heed(self.store, [self.id])
         return history_of(self.store, self.id)
 
     def report(self, path: Path | str) -> Path:
         """Write the page of `thermodata report`."""
         from thermodata.report import build_report
 
+        heed(self.store, [self.id])
         return build_report(self.store, self.id, path)
 
     def plot(self, test: str | None = None, response: str | None = None) -> Plot:
@@ -160,6 +178,7 @@ class Fit(Shown):
         residual, contributions and drivers: the one with the largest error where none is named."""
         from thermodata.notebook.pictures import pictures
 
+        heed(self.store, [self.id])
         response = self._response(response)
         return Plot(f"{self.name} {self.id}", pictures(self.store, self.id, self._test(test, response), response))
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from thermodata.errors import UsageError
 from thermodata.notebook.comparison import Comparison, compared
 from thermodata.notebook.courses import Contributions, Predictions
-from thermodata.notebook.fitted import Fit, history_of, stored_fit
+from thermodata.notebook.fitted import Fit, stored_fit
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, html_table
 from thermodata.notebook.verdict import Verdict
@@ -106,7 +106,7 @@ class OpenStore(StoreView):
 
     def history(self, model: str | None = None) -> Listed:
         """The versions that led to a model."""
-        return history_of(self.store, self.model(model).id)
+        return self.model(model).history()
 
     def __repr__(self) -> str:
         return f"thermodata.open({str(self.path)!r})"

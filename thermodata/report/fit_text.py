@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.glossary import IN_SAMPLE, LEVEL, explained
-from thermodata.report.lost import lost_of_chain, lost_sentence
+from thermodata.report.lost import lost_of_chain, lost_sentence, results_gone_of_chain
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled, tests_of_role
 from thermodata.schema.listed import listed
@@ -124,9 +124,11 @@ def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
 
 
 def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
-    """Which tests versions lost, of rows of `report.history.history_rows`; '' where all predict the same."""
+    """Which tests versions lost, of rows of `report.history.history_rows`; '' where all predict the same. Then those
+    that were forgotten after a fit: the errors are without them."""
     compared = chain[-1]["common"]["tests"] if chain else 0
-    return lost_of_chain([(row["model"], row["lost"], row["tests"]) for row in chain], compared)
+    lost = lost_of_chain([(row["model"], row["lost"], row["tests"]) for row in chain], compared)
+    return "; ".join(filter(None, [lost, results_gone_of_chain([(row["model"], row["gone"]) for row in chain])]))
 
 
 def history_table(chain: Sequence[Mapping[str, Any]]) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:

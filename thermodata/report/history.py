@@ -85,8 +85,9 @@ def how_it_went(errors: Sequence[float]) -> str:
 
 def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
     """The versions that led to a model, oldest first, as `thermodata history --json` prints them: *rmse_um over the
-    tests that a version predicts, common over those that all do."""
+    tests that a version predicts, common over those that all do; gone: tests whose results were forgotten."""
     from thermodata.store.catalogue.models import model_chain
+    from thermodata.store.catalogue.stale import results_gone
 
     chain = model_chain(store, ref)
     units = chain_units(store, chain)
@@ -103,6 +104,7 @@ def history_rows(store: Store, ref: str) -> list[dict[str, Any]]:
             "unit": v.unit,
             "tests": v.tests,
             "lost": list(v.lost),
+            "gone": results_gone(store, m),
             "common": {"tests": v.compared, **_named(Errors(v.all_um, v.calibration_um, v.verification_um))},
             "responses": [
                 {"response": r.response, "unit": r.unit, **_named(r.own), "common": _named(r.common)}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
 from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_count
+from thermodata.schema.listed import listed, with_count
 
 if TYPE_CHECKING:
     from thermodata.report.data import Version
@@ -53,6 +53,20 @@ def lost_of_chain(versions: Sequence[tuple[str, Sequence[str], int]], compared: 
         else "none: no test is predicted by all"
     )
     return "; ".join([*lost, f"errors are over {over}"])
+
+
+def results_gone_of_chain(versions: Sequence[tuple[str, Sequence[str]]]) -> str:
+    """Which tests were forgotten after the fits of versions, whose errors are without them; '' where none was.
+    versions: (id, such tests)."""
+    of: dict[tuple[str, ...], list[str]] = {}
+    for model, names in versions:
+        if names:
+            of.setdefault(tuple(names), []).append(model)
+    return "; ".join(
+        f"{_some(names)} {'was' if len(names) == 1 else 'were'} forgotten after the fit of {listed(models)}: errors "
+        f"are without {'it' if len(names) == 1 else 'them'}, thermodata fit takes in again what is back"
+        for names, models in of.items()
+    )
 
 
 def lost_of_versions(versions: Sequence[Version], label: Callable[[Version], str]) -> str:

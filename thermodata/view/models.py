@@ -23,7 +23,7 @@ class ModelRow:
     terms: their ids there, as predictions name them.
     calibration_um, verification_um: RMSE over tests of the role, in `unit`, of the worst response in the unit of the
     first. verdict: of its diagnosis, None where it has none. label: its name and version, and its id where another
-    model has these too."""
+    model has these too. fitted: the last fit has the largest, of a version that is new or of an older one again."""
 
     model: str
     name: str
@@ -40,6 +40,7 @@ class ModelRow:
     verification_um: float | None
     verdict: str | None
     label: str
+    fitted: int
 
 
 _MODELS = """
@@ -55,6 +56,7 @@ e as (select h.model, max(h.version) as version,
       left join u on u.model = h.model and u.response = h.response group by h.model),
 d as (select model, arg_max(verdict, created_at) as verdict from diagnosis group by model)
 select m.model, m.name, coalesce(e.version, 1) as version, m.parent, m.created_at, m.stale, m.campaigns, m.response,
+       m.rowid as fitted, -- a fit writes its row anew
        coalesce(u.unit, 'um') as unit, m.spec, e.calibration, e.verification, d.verdict
 from model m left join e on e.model = m.model left join d on d.model = m.model left join first u on u.model = m.model
 order by m.created_at desc, m.rowid desc"""
@@ -66,6 +68,15 @@ def model_rows(store: Store) -> list[ModelRow]:
         rows = fetch(con, _MODELS)
     often = Counter(_label(r) for r in rows)
     return [_row(r, json.loads(r["spec"]).get("effects", []), often[_label(r)] > 1) for r in rows]
+
+
+def role_in_model(store: Store, model: str, campaign: str, test: str) -> str | None:
+    """Of a test, such as 'verification (in-sample)'; None where the model was not predicted in it."""
+    with store.reader() as con:
+        row = con.execute(
+            "select max(role) from score_row where model = ? and campaign = ? and test = ?", [model, campaign, test]
+        ).fetchone()
+    return row[0] if row else None
 
 
 def _label(r: dict[str, Any]) -> str:
@@ -89,7 +100,13 @@ def _row(r: dict[str, Any], effects: list[dict[str, Any]], again: bool) -> Model
         r["verification"],
         r["verdict"],
         f"{_label(r)} ({r['model'][:6]})" if again else _label(r),
+        int(r["fitted"]),
     )
+
+
+def fitted_last(models: Sequence[ModelRow]) -> ModelRow:
+    """The one that is taken where none is named, as commands take it."""
+    return max(models, key=lambda m: m.fitted)
 
 
 def term_order(models: Sequence[ModelRow], chosen: Iterable[str]) -> list[str]:

@@ -7,28 +7,57 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
+from thermodata.schema.quantity import MEASURED
+from thermodata.view.what_is_read import Read, what_is_read
 
 if TYPE_CHECKING:
     import duckdb
 
 _LONG = frozenset({"sample", "signal", "displacement", "temperature", "driver"})
+_OF_VIEW = {
+    "displacement": "c.quantity = 'displacement'",
+    "temperature": "c.quantity = 'temperature'",
+    "driver": f"c.quantity not in {MEASURED}",
+}
 _WORDS = re.compile(r"'(?:[^']|'')*'|\w+")
 _NOT_COUNTING = tuple(str(f.name).lower() for f in Flag if f & INVALID)
 
 
 def values_that_do_not_count(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:
     """A sentence where a query takes `value` from a long view, neither it nor its answer's columns say anything of the
-    flag, and the store has samples that do not count."""
+    flag, and the channels, tests and campaigns that it names have samples that do not count."""
     words = {w.lower() for w in _WORDS.findall(query)}
     if not words & _LONG or "value" not in words or "flag" in words or "flag" in columns:
         return None
-    rows = con.execute(
-        "select lower(flag), count(distinct (campaign, test)) from quality_event "
-        "where list_contains(?, lower(flag)) and not starts_with(coalesce(detail, ''), ?) "
-        "group by 1 order by 2 desc, 1",
-        [list(_NOT_COUNTING), OVERRULED],
-    ).fetchall()
+    reads = what_is_read(con, query, _LONG)
+    if reads is None:
+        reads = [Read(view) for view in sorted(words & _LONG)]
+    found: dict[str, set[tuple[str, str]]] = {}
+    for read in reads:
+        for flag, campaign, test in _flagged(con, read):
+            found.setdefault(flag, set()).add((campaign, test))
+    rows = sorted(found, key=lambda flag: (-len(found[flag]), flag))
     if not rows:
         return None
-    kinds = ", ".join(str(flag).replace("_", " ") for flag, _ in rows)
+    kinds = ", ".join(flag.replace("_", " ") for flag in rows)
     return f"the values are of flagged samples too ({kinds}): 'where valid(flag)' leaves out what does not count"
+
+
+def _flagged(con: duckdb.DuckDBPyConnection, read: Read) -> list[tuple[str, str, str]]:
+    """(flag, campaign, test) of what does not count of the samples that are read."""
+    held = "".join(f" and list_contains(${key}, e.{key})" for key in read.only if key != "channel")
+    # an event without a channel is of every channel of its stream
+    if "channel" in read.only:
+        held += " and list_contains($channel, c.channel)"
+    return con.execute(
+        "select distinct lower(e.flag), e.campaign, e.test from quality_event e join channel c "
+        "on c.campaign = e.campaign and c.test = e.test and c.source = e.source and c.stream = e.stream "
+        "and (e.channel is null or c.channel = e.channel) "
+        "where list_contains($flags, lower(e.flag)) and not starts_with(coalesce(e.detail, ''), $overruled) "
+        f"and {_OF_VIEW.get(read.view, 'true')}{held}",
+        {
+            "flags": list(_NOT_COUNTING),
+            "overruled": OVERRULED,
+            **{key: sorted(values) for key, values in read.only.items()},
+        },
+    ).fetchall()

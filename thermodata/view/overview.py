@@ -42,7 +42,7 @@ sizes as (
     select campaign, test, sum(cast(columns->>'$.samples' as bigint)) as samples, count(*) as streams
     from file where layer = 'tidy' and part = 'test' group by all),
 errors as (
-    select campaign, test, max(rmse_um) as rmse_um, min(fit) as fit from score_row
+    select campaign, test, max(rmse_um) as rmse_um, min(fit) as fit, max(role) as model_role from score_row
     where model = $model and phase = 'all' group by all),
 said as (
     select c.campaign, t.value->>'$.id' as test, t.value->'$.conditions' as conditions
@@ -51,7 +51,8 @@ listed as (
     select t.rowid as place, t.campaign, t.test, t.kind, t.role, t.start, t.duration_s,
            coalesce(said.conditions, t.conditions) as conditions, t.notes,
            s.samples, coalesce(s.streams, 0) as streams,
-           case when s.samples > 0 then 1 - least(coalesce(r.n, 0) / s.samples, 1) end as valid, e.rmse_um, e.fit
+           case when s.samples > 0 then 1 - least(coalesce(r.n, 0) / s.samples, 1) end as valid,
+           e.rmse_um, e.fit, e.model_role
     from test t
     left join sizes s on (s.campaign, s.test) = (t.campaign, t.test)
     left join ruled_out r on (r.campaign, r.test) = (t.campaign, t.test)
@@ -78,7 +79,8 @@ class Asked:
 @dataclass(frozen=True, slots=True)
 class TestRow:
     """valid: share of the samples that count, 0 to 1; None where nothing was logged. rmse_um, fit: of the model's worst
-    response over the whole test; None where it was not predicted."""
+    response over the whole test; model_role: of the test in the model, such as 'verification (in-sample)'; None
+    where it was not predicted."""
 
     __test__ = False
     campaign: str
@@ -94,6 +96,7 @@ class TestRow:
     valid: float | None
     rmse_um: float | None
     fit: float | None
+    model_role: str | None
 
 
 @dataclass(frozen=True, slots=True)

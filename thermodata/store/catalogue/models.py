@@ -242,12 +242,13 @@ def keep_answer(store: Store, model: str, question: str, key: str, payload: str)
         insert(con, "finding", [row])
 
 
-def kept_answer(store: Store, model: str, question: str, key: str) -> str | None:
-    """The JSON of an answer that was made from the same; None where there is none, or it is of another key."""
+def kept_answer(store: Store, model: str, question: str, key: str | None = None) -> str | None:
+    """The JSON of an answer that was made from the same; None where there is none, or it is of another key. Without a
+    key: what was answered last."""
     with store.reader() as con:
         rows = fetch(con, "select payload from finding where model = ? and kind = ?", [model, f"answer:{question}"])
     kept = json.loads(rows[0]["payload"]) if rows else None
-    return json.dumps(kept["answer"]) if kept is not None and kept["key"] == key else None
+    return json.dumps(kept["answer"]) if kept is not None and key in (None, kept["key"]) else None
 
 
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 
 from thermodata.schema.listed import with_count
+from thermodata.schema.model import Model
 from thermodata.store.base.connection import fetch
-from thermodata.store.catalogue.models import BACK, GONE, STALE, find_model
+from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change
@@ -31,7 +32,41 @@ def stale_line(store: Store, model: str) -> str | None:
         f"{what}: {', '.join(tests)}" if what in (GONE, BACK) else f"{what} of {with_count(tests, _NAMED)}"
         for what, tests in by_what.items()
     )
+    again = fitted_again(store, stored)
+    do = f"{again} is it, fitted" if again else f"thermodata fit {stored.model} fits it"
     return (
         f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}); "
-        f"thermodata fit {stored.model} fits it to them as they are now"
+        f"{do} to them as they are now"
     )
+
+
+def results_gone(store: Store, stored: StoredModel) -> list[str]:
+    """The campaign/test that a model was fitted to or checked on and has no results of any more: they were forgotten,
+    whether the test came back or not."""
+    with store.reader() as con:
+        rows = fetch(
+            con,
+            "select campaign, payload from finding where model = ? and kind = ? order by rowid",
+            [stored.model, STALE],
+        )
+    there = {(s.campaign, s.test) for s in stored.result.scores}
+    found = [
+        (row["campaign"], one["test"]) for row in rows if {GONE, BACK} & {*(one := json.loads(row["payload"]))["what"]}
+    ]
+    return ["/".join(key) for key in dict.fromkeys(found) if key not in there]
+
+
+def fitted_again(store: Store, stored: StoredModel) -> str | None:
+    """The id of the same model fitted to the data as they are now; None where nobody did."""
+    with store.reader() as con:
+        fresh = fetch(con, "select model from model where name = ? and not stale order by rowid desc", [stored.name])
+    for row in fresh:
+        other = find_model(store, row["model"])
+        if _chosen(other) == _chosen(stored):
+            return other.model
+    return None
+
+
+def _chosen(stored: StoredModel) -> Model:
+    """What makes it the same model: on which tests its effects were chosen is set with a fit to more of them."""
+    return stored.spec.model_copy(update={"in_sample_on": None})

@@ -7,6 +7,8 @@ from typing import Any, cast
 from starlette.requests import Request
 from starlette.responses import Response
 
+from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.words import base_role
 from thermodata.store import Store
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.overview import Asked, Sort, find_tests
@@ -44,7 +46,7 @@ def show(request: Request) -> Response:
         request,
         "campaign_map.html.j2",
         title="Tests",
-        command=_command(desk.store_path, asked),
+        command=_command(desk.store_path, asked, chosen),
         found=found,
         asked=asked,
         models=models,
@@ -52,6 +54,9 @@ def show(request: Request) -> Response:
         strips={key: strip_svg(values, limit) for key, values in strips.items()},
         limit=limit,
         unit=_unit(chosen),
+        in_sample=IN_SAMPLE
+        if any(r.model_role and r.model_role != base_role(r.model_role) for r in found.rows)
+        else None,
     )
 
 
@@ -72,9 +77,11 @@ def _limit(strips: dict[Any, Any]) -> float:
     return float(np.quantile(there, 0.98)) if len(there) else 1.0
 
 
-def _command(store: Any, asked: Asked) -> str:
+def _command(store: Any, asked: Asked, model: ModelRow | None) -> str:
+    """Of a model `compare` prints what is left of each test."""
     options = [("-c", asked.campaign), ("--role", asked.role), ("--kind", asked.kind), ("--find", asked.find)]
-    return command(store, "tests", *(word for name, value in options if value for word in (name, value)))
+    tests = command(store, "tests", *(word for name, value in options if value for word in (name, value)))
+    return f"{tests} && {command(store, 'compare', model.model)}" if model else tests
 
 
 def _unit(model: ModelRow | None) -> str:

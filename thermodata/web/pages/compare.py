@@ -25,7 +25,7 @@ from thermodata.schema.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names
-from thermodata.view.models import ModelRow, model_rows, term_order
+from thermodata.view.models import ModelRow, fitted_last, model_rows, term_order
 from thermodata.view.predictions import residual_courses
 from thermodata.view.residuals import Key, predicted_tests, residuals
 from thermodata.view.response_units import response_units, told_together
@@ -263,7 +263,7 @@ def _chosen(store: Store, models: list[ModelRow], named: list[str], pin: str) ->
     """The pinned one first; unasked, the newest beside the version that it came from. UsageError for an unknown one."""
     by_id = {m.model: m for m in models}
     known = [model_in(store, models, name) for name in filter(None, named)]
-    found = list({m.model: m for m in known if m is not None}.values()) or [models[0]]
+    found = list({m.model: m for m in known if m is not None}.values()) or [fitted_last(models)]
     if len(found) == 1 and found[0].parent in by_id:
         found = [by_id[found[0].parent], found[0]]
     first = model_in(store, models, pin) if pin else None

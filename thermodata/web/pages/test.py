@@ -12,9 +12,11 @@ from starlette.responses import JSONResponse, Response
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Chart, Strip
 from thermodata.errors import UsageError
+from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.words import base_role
 from thermodata.store import Store
 from thermodata.view.events import About, about_test
-from thermodata.view.models import ModelRow, model_rows, term_order
+from thermodata.view.models import ModelRow, model_rows, role_in_model, term_order
 from thermodata.view.predictions import Prediction, predictions, range_figures
 from thermodata.view.response_units import measured_units, response_units
 from thermodata.view.rule_for import rules_for
@@ -39,6 +41,7 @@ def show(request: Request) -> Response:
     models, about = known.models, known.about
     model = _model(store, models, given)
     predicted = _predicted(store, model, given)
+    role = role_in_model(store, model.model, campaign, test) if model else None
     span = _span(given)
     moving = _moving(store, about, chosen, given) if span else chosen
     order, named = _order(models, model), moving is not chosen
@@ -56,6 +59,8 @@ def show(request: Request) -> Response:
         models=models,
         model=model,
         predicted=predicted,
+        model_role=role,
+        in_sample=IN_SAMPLE if role and role != base_role(role) else None,
         banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),
         span=span and (span[0] / 3600, span[1] / 3600),

@@ -1,0 +1,31 @@
+"""What commands say on the way of a model whose data changed since it was fitted, as Python says it."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+
+class StaleModelWarning(UserWarning):
+    """An answer is of a model whose data changed since it was fitted."""
+
+
+def heed(store: Store, models: Iterable[str]) -> None:
+    """A `StaleModelWarning` for each that is stale, where the call stands that asked."""
+    from thermodata.store.catalogue.stale import stale_line
+
+    for line in dict.fromkeys(filter(None, (stale_line(store, model) for model in models))):
+        warnings.warn(line, StaleModelWarning, stacklevel=_callers() + 1)
+
+
+def _callers() -> int:
+    """How many calls up, counted from who calls this, the first one stands that is not of this package."""
+    level, frame = 0, sys._getframe(1)
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).partition(".")[0] == "thermodata":
+        level, frame = level + 1, frame.f_back
+    return level
