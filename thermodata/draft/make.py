@@ -54,7 +54,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         raise UsageError(
             "the campaign file exists, and is never overwritten",
             where=str(out),
-            hint=f"thermodata ingest {out} reads it as it stands, thermodata first-model {out} drafts a model of it; "
+            hint=f"thermodata ingest {out} reads it as it stands and gives the lines of tests whose logs are new, "
+            f"thermodata first-model {out} drafts a model of it; "
             "--force keeps it as campaign.1.yaml and drafts it anew",
         )
     found = scan(folder, progress, declared_before(out) if out.exists() else None)
