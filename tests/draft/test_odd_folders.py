@@ -199,8 +199,13 @@ def test_a_first_model_says_which_other_axes_were_measured(tmp_path: Path, say: 
     assert (
         f"; Displ_Y is measured too: thermodata first-model {tmp_path / 'campaign.yaml'} --response Displ_Y" in said.err
     )
-    text = (tmp_path / "model.yaml").read_text("utf-8")
-    assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in text
+    model = tmp_path / "model.yaml"
+    assert "response: {axis: Z, at: tcp}   # measured too: Y\n" in model.read_text("utf-8")
+    other = say("first-model", tmp_path / "campaign.yaml", "--response", "Displ_Y")
+    assert "a first model of Displ_Y in place of that of Displ_Z, which stood as drafted" in other.err
+    assert f"to have both: move {model} away, then thermodata first-model " in other.err
+    again = say("first-model", tmp_path / "campaign.yaml", "--response", "Displ_Y")
+    assert "in place of" not in again.err
 
 
 @pytest.mark.parametrize(

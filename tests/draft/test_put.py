@@ -183,7 +183,8 @@ def test_a_first_model_is_of_the_displacement_that_was_chosen(tmp_path: Path) ->
     assert load_model(model).name == "baseline"
     assert "T_nut_Z" in model.read_text()
     # two probes along X: the axis alone would not say which; the screw of Z moves nothing there
-    assert first_model(path, "dX_low").kept is None  # what is as drafted can be had again
+    made = first_model(path, "dX_low")
+    assert (made.kept, made.replaced) == (None, "dZ")  # what is as drafted can be had again
     spec = load_model(model)
     assert (spec.name, spec.responses[0].channel) == ("baseline_dX_low", "dX_low")
     assert "T_nut_X" in model.read_text()

@@ -215,7 +215,17 @@ def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, t
     export_test(view, "c", "sp9000", tmp_path / "x.data", step="10 s", kind="csv")
 
 
-def test_an_own_csv_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("file", "step"),
+    [
+        ("warm.csv", "30 s"),
+        ("warm.xlsx", "30 s"),
+        ("warm.xlsx", "logged"),
+        ("warm.mat", "30 s"),
+        ("warm.mat", "logged"),
+    ],
+)
+def test_an_own_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Path, file: str, step: str) -> None:
     """But for a displacement whose sign nobody knew: it says so in the file."""
     from thermodata.cli import main
 
@@ -223,8 +233,8 @@ def test_an_own_csv_file_comes_back_without_questions_of_zone_and_sign(tmp_path:
     lab.mkdir()
     back.mkdir()
     t = np.datetime64("2026-03-01T08:00:00", "s") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
-    rows = [f"{a},{22 + i / 100:.2f},{i / 50:.2f},{i / 40:.3f}" for i, a in enumerate(t)]
-    (lab / "warm.csv").write_text("time,T [degC],Z [um],X [um]\n" + "\n".join(rows) + "\n")
+    rows = [f"{a},{22 + i / 100:.2f},{i / 50:.2f},{i / 40:.3f},{i // 200 % 2},{i}" for i, a in enumerate(t)]
+    (lab / "warm.csv").write_text("time,T [degC],Z [um],X [um],Coolant on,Feed [mm/min]\n" + "\n".join(rows) + "\n")
     (lab / "campaign.yaml").write_text("""
 schema: thermodata/campaign/1
 id: c
@@ -233,13 +243,16 @@ channels:
   T_front: {source: daq, signal: T, quantity: temperature, unit: degC, at: spindle.bearing.front}
   disp_Z: {source: daq, signal: Z, quantity: displacement, unit: um, axis: Z, at: tcp, calibration: s}
   disp_X: {source: daq, signal: X, quantity: displacement, unit: um, axis: X, at: tcp}
+  coolant_on: {source: daq, signal: Coolant on, quantity: state, at: coolant}
+  feed_Z: {source: daq, signal: Feed, quantity: feed, unit: mm/min, at: axis.z}
 calibrations: {s: {kind: scale, axis: Z, gain: 1 um/um, facing: -Z, increases_with: gap}}
 tests: [{id: warm, kind: spindle, role: calibration}]
 """)
     store = Store(tmp_path / "store", create=True)
     ingest(store, lab / "campaign.yaml")
-    export_test(StoreView(store), "c", "warm", back / "warm.csv", step="30 s")
-    assert "disp_X (sign unknown) [um]" in (back / "warm.csv").read_text().splitlines()[0]
+    export_test(StoreView(store), "c", "warm", back / file, step=step)
+    if file.endswith(".csv"):
+        assert "disp_X (sign unknown) [um]" in (back / file).read_text().splitlines()[0]
     assert main(["--store", str(tmp_path / "other"), "init", str(back)]) == 0
     text = (back / "campaign.yaml").read_text()
     lines = {line.split(":")[0].strip(): line for line in text.splitlines()}
@@ -247,7 +260,10 @@ tests: [{id: warm, kind: spindle, role: calibration}]
     assert "calibration: sign_disp_Z" in lines["disp_Z"]
     assert "?" not in lines["disp_Z"]
     assert "which way does it count?" in lines["disp_X"]
-    assert not {"campaign_2", "test_2", "# t_s_2"} & lines.keys()
+    assert not {"campaign_2", "test_2", "# t_s", "# t_s_2"} & lines.keys()
+    assert "coolant_on" in lines
+    assert "unit: m/min" in lines["feed_Z"]
+    assert "in mm/min" not in text
     again = Store(tmp_path / "again", create=True)
     ingest(again, back / "campaign.yaml")
     own, other = (

@@ -84,13 +84,19 @@ def first_model_command(session: Session, campaign: Path, response: str | None) 
     """Draft model.yaml of CAMPAIGN, for a displacement of your choice.
 
     From the campaign file as it stands, with the places that were answered since its draft: one plain effect for each
-    sensor that stands where it acts. A model.yaml that somebody changed is kept as model.1.yaml.
+    sensor that stands where it acts. A model.yaml that somebody changed is kept as model.1.yaml; one that stands as
+    drafted gives way, which is said where it is of another displacement.
     """
     from thermodata.draft.make import first_model
 
     made = first_model(campaign, response)
     others = ", ".join(r for r in made.responses if r != made.response)
-    session.say(f"a first model of {made.response}" + (f"; --response takes {others} too" if others else ""))
+    instead = f" in place of that of {made.replaced}, which stood as drafted" if made.replaced else ""
+    session.say(f"a first model of {made.response}{instead}" + (f"; --response takes {others} too" if others else ""))
+    if made.replaced:
+        session.say(
+            f"to have both: move {made.model} away, then thermodata first-model {campaign} --response {made.replaced}"
+        )
     if made.kept is not None:
         session.say(f"the model.yaml that was there is now {made.kept}")
     session.answer(
@@ -99,6 +105,7 @@ def first_model_command(session: Session, campaign: Path, response: str | None) 
             "response": made.response,
             "responses": list(made.responses),
             "kept": None if made.kept is None else str(made.kept),
+            "replaced": made.replaced,
         },
         lambda: str(made.model),
     )

@@ -54,7 +54,8 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
         raise UsageError(
             "the campaign file exists, and is never overwritten",
             where=str(out),
-            hint=f"thermodata ingest {out} reads it as it stands, thermodata first-model {out} drafts a model of it; "
+            hint=f"thermodata ingest {out} reads it as it stands and gives the lines of tests whose logs are new, "
+            f"thermodata first-model {out} drafts a model of it; "
             "--force keeps it as campaign.1.yaml and drafts it anew",
         )
     found = scan(folder, progress, declared_before(out) if out.exists() else None)
@@ -125,12 +126,14 @@ def write_answered(path: Path, text: str) -> tuple[Path, bool]:
 @dataclass(frozen=True, slots=True)
 class FirstModel:
     """response: the displacement that it is of. responses: all that it may be of. kept: where a model file that
-    somebody had changed is now; None where there was none."""
+    somebody had changed is now; None where there was none. replaced: the other displacement that a draft was of
+    which nobody had changed, and which is gone; None where there was none."""
 
     model: Path
     response: str
     responses: tuple[str, ...]
     kept: Path | None
+    replaced: str | None
 
 
 def first_model(path: Path, response: str | None = None) -> FirstModel:
@@ -163,11 +166,13 @@ def first_model(path: Path, response: str | None = None) -> FirstModel:
     model = path.with_name("model.yaml")
     there = _to_compare(model)
     # one that is as drafted can be had again; what somebody wrote can't
-    drafted = there is None or there == text or is_as_sealed(there) or _as_drafted(there, campaign)[0]
+    untouched, before = _as_drafted(there, campaign)
+    drafted = there is None or untouched or is_as_sealed(there)
     kept = None if drafted else _copied(model)
     write_text(model, text)
     load_model(model)
-    return FirstModel(model, response or known[0], tuple(known), kept)
+    made = response or known[0]
+    return FirstModel(model, made, tuple(known), kept, None if before == made else before)
 
 
 def modelled(path: Path) -> str | None:

@@ -1,14 +1,36 @@
-"""What the first columns of a CSV file of our own are called, by which it is known again."""
+"""By what a file of our own is known again: the first columns of a CSV file, and what a workbook or a MAT file says of
+its channels."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 TIME_UTC = "time_utc"  # times in UTC, which a table has to say
 OF_TEST = ("campaign", "test", "t_s")  # beside the times: of no channel
+PLAIN = " [1]"  # after the name of what has no unit
+_ABOUT = {"quantity", "unit", "sign"}  # of a channel, in the table of a workbook
 UNSIGNED = " (sign unknown)"  # after the name of a displacement that nothing turned to the machine's axes
 
 
 def is_own_export(columns: Collection[str]) -> bool:
     """Whether a table with these columns, beside its times, is one that `export` wrote. Names without units."""
     return set(OF_TEST) <= set(columns)
+
+
+def is_own_about(row: Collection[str]) -> bool:
+    """Whether these are the heads of the table that says in a workbook of ours what its channels are."""
+    return set(row) >= {"channel", *_ABOUT}
+
+
+def sign_key(name: str) -> str:
+    """The property of a signal that has its sign: where a MAT file of ours says it, and under which a workbook's
+    does."""
+    return f"channels/{name.rpartition('/')[2]}/sign"
+
+
+def own_sign(name: str, properties: Mapping[str, object]) -> str | None:
+    """The sign that an export says of a channel: + or - where it goes along the machine's axis in the file, unknown
+    where nobody knew; None where it says none."""
+    key = sign_key(name)
+    found = (str(v) for k, v in properties.items() if k == key or k.endswith(f"/{key}"))
+    return next(found, None)

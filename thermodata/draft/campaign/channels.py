@@ -33,7 +33,7 @@ from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.counted import counted
-from thermodata.schema.exported import OF_TEST, UNSIGNED, is_own_export
+from thermodata.schema.exported import OF_TEST, PLAIN, UNSIGNED, is_own_export, own_sign
 from thermodata.schema.listed import listed, with_count
 from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
 
@@ -58,17 +58,16 @@ def channels_of(
     twice = {
         n for f in (*group.files, *group.calibrations) for n, k in Counter(s.name for s in f.signals).items() if k > 1
     }
-    exported = is_own_export([split_unit(one.signal.name)[0] for one in found])
-    if exported:
-        notes.append(f"{group.source}: an export of thermodata; {listed(OF_TEST)} say of which test: left out")
+    exported = is_own_export([split_unit(one.signal.name)[0] for one in found]) or any(map(_own_sign, found))
     several = len({one.signal.stream for one in found}) > 1
-    made, seen, beside = [], set(), list[str]()
+    made, seen, beside, of_test = [], set(), list[str](), set[str]()
     for one in found[:_MOST_SIGNALS]:
         signal, twin = one.signal, one.signal.name in twice
         if signal.name in seen and not twin:
             continue  # the same signal, in a stream of another name
         seen.add(signal.name)
-        if exported and split_unit(signal.name)[0] in OF_TEST:
+        if exported and (last := parts_of(split_unit(signal.name)[0])[-1]) in OF_TEST:
+            of_test.add(last)
             continue
         said, note = _said(one)
         if (why := _why_left_out(one, said, found)) is not None:
@@ -78,8 +77,9 @@ def channels_of(
             beside.append(one.written)
             continue
         jump, said = _with_jump(one, said, jumps, twin)
-        name = channel_name(_wished(_with_series(signal), said).replace(UNSIGNED, ""), taken)
-        turned = exported and said.axis is not None and UNSIGNED not in signal.name
+        wished = _wished(_with_series(signal), said)
+        name = channel_name(wished.removesuffix(PLAIN).replace(UNSIGNED, "") if exported else wished, taken)
+        turned = exported and said.axis is not None and UNSIGNED not in signal.name and _own_sign(one) != "unknown"
         calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
         only, lacking = _tests_with(one, group)
         notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
@@ -97,12 +97,22 @@ def channels_of(
                 turned and calibration == f"sign_{name}",
             )
         )
+    if exported:
+        say = "says" if len(of_test) == 1 else "say"
+        left = f"; {listed(sorted(of_test))} {say} of which test: left out" if of_test else ""
+        notes.append(f"{group.source}: an export of thermodata{left}")
     if beside:
         shown = with_count(beside, 4)
         notes.append(
             f"{group.source}: {shown}: left out, for they tell the quality or the number of a signal beside them"
         )
     return made, notes
+
+
+def _own_sign(one: OneSignal) -> str | None:
+    """The sign that exports say of a signal; unknown where one of several files says none."""
+    signs = {own_sign(s.name, s.properties) for f in one.files for s in [one.of(f) or one.signal]}
+    return signs.pop() if len(signs) == 1 else "unknown" if any(signs) else None
 
 
 def _why_left_out(one: OneSignal, said: Guess, found: Sequence[OneSignal]) -> str | None:

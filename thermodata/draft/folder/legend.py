@@ -15,6 +15,7 @@ from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
+from thermodata.schema.exported import is_own_about, sign_key
 from thermodata.schema.listed import with_count
 from thermodata.schema.quantity import is_unit
 
@@ -29,12 +30,14 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 
 @dataclass(frozen=True, slots=True)
 class Said:
-    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said."""
+    """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. sign:
+    that a workbook of our own says."""
 
     name: str
     text: str
     unit: str | None = None
     axis: str | None = None
+    sign: str | None = None
 
     @property
     def described(self) -> str:
@@ -84,6 +87,8 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
     """One row a signal: its name in one column, words in another. Where these are the names of the tests too, it says
     what those are."""
     full = [r for r in rows if sum(map(bool, r)) >= 2]
+    if (heads := next((r for r in full if is_own_about(r)), None)) is not None:
+        return Legend(file, _of_our_own(heads, [r for r in full if r[0].casefold() in names]))
     for key in range(max(map(len, full), default=0)):
         named = [r for r in full if key < len(r) and r[key].casefold() in names]
         if len({r[key].casefold() for r in named}) < len(named) or len(named) < max(_FEWEST, (len(full) - 1) / 2):
@@ -104,6 +109,18 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
                     },
                 )
     return None
+
+
+def _of_our_own(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> dict[str, Said]:
+    """What a workbook of our own says, each cell under its head: the units are those of its columns, not of the log
+    that these came from."""
+    found: dict[str, Said] = {}
+    for row in rows:
+        told = {head: cell for head, cell in zip(heads, row, strict=False) if cell}
+        name, unit = told["channel"], told.get("unit")
+        text = split_unit(told.get("signal", name))[0]
+        found[name.casefold()] = Said(name, text, None if unit == "1" else unit, told.get("axis"), told.get("sign"))
+    return found
 
 
 def _column(
@@ -157,6 +174,7 @@ def _described(file: RawFile, legend: Legend) -> RawFile:
         if said is None or signal.properties.get("description"):
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}
+        of |= {sign_key(signal.name): said.sign} if said.sign else {}
         # words of a switch have none, and what the log says of its numbers counts more
         return replace(signal, properties=of, unit=signal.unit or (said.unit if signal.dtype != "str" else None))
 

@@ -24,6 +24,7 @@ from thermodata.store.ingest.layers import Layers, make_layers
 from thermodata.store.ingest.progress import Progress, TextProgress
 from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
+from thermodata.store.ingest.told.not_listed import not_listed
 from thermodata.store.ingest.told.taken_out import taken_out
 from thermodata.store.tidy.check_derived import check_derived
 from thermodata.store.tidy.check_measuring import check_measuring
@@ -103,12 +104,14 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         check_expressions(campaign)
     files = CampaignFiles(store.path, path.absolute().parent, campaign, watch)
     files.survey()
+    files_of_tests = files.of_tests()  # of all, before they are narrowed to those that are looked at
+    listed = {file for own in files_of_tests.values() for file in own}
+    unlisted = not_listed(files.folder, path, campaign, listed) if given is None else []
     earlier = _look_back(files, path.absolute(), store.mark(), noted_by_path=given is None)
-    if earlier.answer is not None:
-        return replace(earlier.answer, seconds=time.monotonic() - began)
+    if (told := earlier.answer) is not None:
+        return replace(told, notes=[*told.notes, *unlisted], seconds=time.monotonic() - began)
     lines = {} if every_test else earlier.lines
     left = left_alone(lines, files.tests_with(earlier.differs))
-    files_of_tests = files.of_tests()  # of all, before they are narrowed to those that are looked at
     with store.marked_reader() as (con, mark):
         inventory = _inventory(con, store, files, left, mark == earlier.kept.get("mark"))
     layers = make_layers(files, inventory, left, now)
@@ -131,6 +134,7 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
         parts = parts_of(rows, "") | {part: size for note in notes.values() for part, size in note.parts.items()}
         keep(earlier.here, mark, files.hashes(), parts, again.to_json(), of_each)
+    summary.notes += unlisted  # of what stands in the folder now, so no note keeps it
     summary.seconds = time.monotonic() - began
     return summary
 

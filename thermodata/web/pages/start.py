@@ -100,7 +100,8 @@ async def model(request: Request) -> Response:
     path = desk.inside(form.get("file", ""))
     text = campaign_text(path)
     made = first_model(path, form.get("response") or None)
-    told = f"{made.model.name} is drafted for {made.response}."
+    instead = f" in place of the draft for {made.replaced}" if made.replaced else ""
+    told = f"{made.model.name} is drafted for {made.response}{instead}."
     if made.kept is not None:
         told += f" The one that was there is kept as {made.kept.name}."
     state = _first_model(desk, path, text)

@@ -1,0 +1,86 @@
+"""Logs that came after the campaign file was written: they are called as the sources say, and no test has them."""
+
+from __future__ import annotations
+
+import glob
+import re
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from thermodata.schema.campaign import Campaign, JumpCalibration
+from thermodata.schema.lines import is_text
+from thermodata.schema.listed import with_count
+from thermodata.schema.tests_from import pattern_of
+
+_NAMED = 4
+_NO_ID = re.compile(r"[\x00-\x1f\\{}*?\[\]]")
+
+
+def not_listed(folder: Path, path: Path, campaign: Campaign, listed: Collection[str]) -> list[str]:
+    """A note with the line that each such test needs in the campaign file; none where there is no such test, or where a
+    comment of the campaign file leaves it out. folder: of the logs; path: of the campaign file; listed: the source
+    paths of all tests."""
+    of_jumps = {c.file for c in campaign.calibrations.values() if isinstance(c, JumpCalibration)}
+    known = {t.id.lower() for t in campaign.tests}
+    tests: dict[str, list[str]] = {}
+    for file, test in _fitting(folder, campaign):
+        if file not in of_jumps and file not in listed and test.lower() not in known:
+            tests.setdefault(test, []).append(file)
+    comments = _comments(path) if tests else ""
+    new = {t: files for t, files in tests.items() if not _is_left_out(t, files, comments)}
+    if not new:
+        return []
+    files = with_count([f for own in new.values() for f in own], _NAMED)
+    lines = with_count(map(_line, new), _NAMED)
+    return [
+        f"in no test, though called as the sources say: {files}; a test is a line of the campaign file, under tests: "
+        f"{lines}, with its role{_conditions(campaign)}"
+    ]
+
+
+def _fitting(folder: Path, campaign: Campaign) -> Iterator[tuple[str, str]]:
+    """(source path, test) of the files that fit a pattern with {test}; where several do, that which says most."""
+    patterns = [
+        p
+        for spec in campaign.sources.values()
+        for p in ([spec.files] if isinstance(spec.files, str) else spec.files or [])
+        if "{test}" in p
+    ]
+    found: dict[str, str] = {}
+    for pattern in sorted(dict.fromkeys(patterns), key=_letters, reverse=True):
+        reads = pattern_of(pattern)
+        for name in sorted(glob.glob(pattern.replace("{test}", "*"), root_dir=folder, recursive=True)):
+            file = Path(name).as_posix()
+            fits = reads.fullmatch(file)
+            if fits and is_text(file) and not _NO_ID.search(fits["test"]) and (folder / name).is_file():
+                found.setdefault(file, fits["test"])
+    yield from found.items()
+
+
+def _letters(pattern: str) -> int:
+    """How much of a name a pattern says."""
+    return len(re.sub(r"\{test\}|\*", "", pattern))
+
+
+def _comments(path: Path) -> str:
+    """What a campaign file leaves out."""
+    text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+    return "\n".join(line for line in text.splitlines() if line.lstrip().startswith("#"))
+
+
+def _is_left_out(test: str, files: Collection[str], comments: str) -> bool:
+    """Whether the comments name one of the files, or hold the line of the test."""
+    named = "|".join(rf"(?<![\w./-]){re.escape(f)}" for f in files)
+    return re.search(rf"(?:{named}|\bid: *['\"]?{re.escape(test)})(?!\w)", comments) is not None
+
+
+def _line(test: str) -> str:
+    quoted = test if re.fullmatch(r"[A-Za-z_][\w-]+", test) else f'"{test}"'
+    return f"- {{id: {quoted}, role: none}}"
+
+
+def _conditions(campaign: Campaign) -> str:
+    """What only the user knows of a new test, and all others say."""
+    tests = campaign.tests
+    asked = [c for c in tests[0].conditions if all(c in t.conditions for t in tests)] if tests else []
+    return f" and the conditions that all others have ({', '.join(asked)})" if asked else ""
