@@ -24,6 +24,8 @@ BESIDE = {
     "once.py": ("copies",),
     "compressed.py": ("compression", "investigation"),
     "commanded.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
+    "warm_at_rest.py": ("candidates",),
+    "changes.py": ("steps", "clocks_by_heat", "steps_beside_commands", "steps_by_moves"),
     "sudden.py": ("steps", "decays", "steps_beside_commands"),
     "repeating.py": ("repeated_steps",),
     "confirm.py": ("the_locked_tests",),
@@ -457,7 +459,12 @@ MUTANTS = [
     diagnosis("as_modelled.py", "s.spread <= SPREAD_LIMIT", "True", "what acts otherwise in each test is offered"),
     diagnosis("as_modelled.py", "if is_its_name(best, s)", "if False", "a lag is offered for its name"),
     diagnosis("as_modelled.py", "> measure.floor else", "> 0 else", "an error that is left alone is refined"),
-    diagnosis("of_library.py", "own.at.lower() == TABLE and", "False and", "a table that nothing turns rubs"),
+    diagnosis("of_library.py", "is_at_table(own) and", "False and", "a table that nothing turns rubs"),
+    diagnosis("warm_at_rest.py", "AS_WARM = 0.75", "AS_WARM = 0.65", "a rotary table in a warm hall has no bearing"),
+    diagnosis("warm_at_rest.py", "AS_WARM = 0.75", "AS_WARM = 0.85", "a table that the hall warms rubs"),
+    diagnosis(
+        "warm_at_rest.py", "return not turning and bool(resting)", "return False", "a table that never turns rubs"
+    ),
     diagnosis(
         "listed.py", "if any(s is one for one in told_with) else None", "", "a share that nobody measured is told"
     ),
@@ -793,15 +800,13 @@ MUTANTS = [
     diagnosis("heat_balance.py", "BEATS = 4.0", "BEATS = 1.0", "a slow body moves a clock"),
     diagnosis("heat_balance.py", "step_s > UNMOVED_S", "False", "one coarse sample moves a clock"),
     diagnosis(
-        "commanded.py",
+        "changes.py",
         "nowhere = np.zeros(len(value), dtype=np.bool_)",
         "nowhere = _kept(_held, block, name)[1]",
         "a warm room excuses every slip that nobody saw",
     ),
-    diagnosis("commanded.py", "max(SUDDEN * usual, LEAST_K)", "np.inf", "a gate on air that a day warms is a slip"),
-    diagnosis(
-        "commanded.py", "SUDDEN, LEAST_K = 4.0, 0.5", "SUDDEN, LEAST_K = 4.0, 0.4", "air of 0.45 K excuses a slip"
-    ),
+    diagnosis("changes.py", "max(SUDDEN * usual, LEAST_K)", "np.inf", "a gate on air that a day warms is a slip"),
+    diagnosis("changes.py", "SUDDEN, LEAST_K = 4.0, 0.5", "SUDDEN, LEAST_K = 4.0, 0.4", "air of 0.45 K excuses a slip"),
     diagnosis(
         "stated.py", "or not chosen or bool(s.others)", "or True", "what nobody asked beside the chosen is likely"
     ),
@@ -854,15 +859,15 @@ MUTANTS = [
     diagnosis("windows.py", "LEAST_WINDOWS = 12", "LEAST_WINDOWS = 9", "a few holes are windows"),
     diagnosis("windows.py", "lasts < np.maximum", "lasts < 9 * np.maximum", "holes are windows"),
     diagnosis(
-        "commanded.py",
+        "changes.py",
         "return suddenly(_kept(_held, block, name)[0], block.t_s, BESIDE + 2)",
         "return np.abs(np.nan_to_num(over_three(_kept(_held, block, name)[0], block.t_s)))",
         "a motor that cools excuses a slip",
     ),
     diagnosis("commanded.py", "COMMAND_S = 600.0", "COMMAND_S = 0.0", "shifts of a late clock are slips"),
     diagnosis("sudden.py", "HOLE_STEPS = 1.6", "HOLE_STEPS = 99.0", "what nobody saw is a slip"),
-    diagnosis("commanded.py", "MOVED = 0.1", "MOVED = 0.9", "small commands explain nothing"),
-    diagnosis("commanded.py", "POWERS = (1, 2)", "POWERS = (1,)", "centrifugal shifts are slips"),
+    diagnosis("changes.py", "MOVED = 0.1", "MOVED = 0.9", "small commands explain nothing"),
+    diagnosis("changes.py", "POWERS = (1, 2)", "POWERS = (1,)", "centrifugal shifts are slips"),
     diagnosis(
         "commanded.py",
         "for way, rows in own.rows.items():",
@@ -870,13 +875,13 @@ MUTANTS = [
         "what every start and stop does is a slip",
     ),
     diagnosis("commanded.py", "elif quantity == POSITION:", "elif False:", "the growth of a screw is a slip"),
-    diagnosis("commanded.py", "{WARM: far * rise}", "{WARM: far}", "so it is as it warms"),
-    diagnosis("commanded.py", "and holds(at, c.at)", "", "a column that is warm excuses slips"),
+    diagnosis("changes.py", "{WARM: far * rise}", "{WARM: far}", "so it is as it warms"),
+    diagnosis("changes.py", "and holds(at, c.at)", "", "a column that is warm excuses slips"),
     diagnosis("commanded.py", "AS_WARM = 0.5", "AS_WARM = 0.0", "cold moves tell of a warm screw"),
     diagnosis("commanded.py", "AS_WARM = 0.5", "AS_WARM = 1.5", "a move excuses what none as warm does"),
-    diagnosis("commanded.py", "STANDS_S = 300.0", "STANDS_S = 60.0", "an axis that never stands moves"),
-    diagnosis("commanded.py", "STANDS_S = 300.0", "STANDS_S = 900.0", "a short stop is no place"),
-    diagnosis("commanded.py", "LEAST_MM = 1.0", "LEAST_MM = 0.0", "the noise of a position moves an axis"),
+    diagnosis("changes.py", "STANDS_S = 300.0", "STANDS_S = 60.0", "an axis that never stands moves"),
+    diagnosis("changes.py", "STANDS_S = 300.0", "STANDS_S = 900.0", "a short stop is no place"),
+    diagnosis("changes.py", "LEAST_MM = 1.0", "LEAST_MM = 0.0", "the noise of a position moves an axis"),
     diagnosis("commanded.py", "if alike >= ALIKE else 0.0", "", "one slip at a move asks for the growth of a screw"),
     diagnosis("artefact.py", "commands.make(n) >= least", "True", "it is asked wherever an axis is logged"),
     diagnosis("of_library.py", "not (alone or ", "not (", "the growth of a screw is never missing"),
@@ -893,8 +898,8 @@ MUTANTS = [
     diagnosis("commanded.py", "FORETOLD = 0.2", "FORETOLD = 0.0", "a pump that cycles excuses every slip"),
     diagnosis("commanded.py", "ALIKE = 0.15", "ALIKE = 0.9", "a shift among others is a slip"),
     diagnosis("commanded.py", "ELSEWHERE_S = 1200.0", "ELSEWHERE_S = 0.0", "a slip excuses itself"),
-    diagnosis("commanded.py", "every**p", "every", "a fast spindle that slows a little makes slips"),
-    diagnosis("commanded.py", "hole[:-1] |= old[1:]", "pass", "what a command did last before a hole is a slip"),
+    diagnosis("changes.py", "every**p", "every", "a fast spindle that slows a little makes slips"),
+    diagnosis("changes.py", "hole[:-1] |= old[1:]", "pass", "what a command did last before a hole is a slip"),
     diagnosis("commanded.py", "bool(own.hole[i]) and", "False and", "what nobody logged is a slip"),
     Mutant(
         "thermodata/calibration/tread.py",

@@ -16,7 +16,8 @@ import numpy as np
 from thermodata.diagnosis.clocks.timings import ABOUT_S, HOURS, MOST_S, Timing, Timings, clock_is_off
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.diagnosis.steps.commanded import POWERS, is_command
+from thermodata.diagnosis.steps.changes import POWERS
+from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.dataset import ChannelInfo, TestData
 

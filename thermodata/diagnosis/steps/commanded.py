@@ -10,51 +10,27 @@ that goes from one place to another: its screw grows by where it stands times ho
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
-from thermodata.diagnosis.question.problem import Block, Problem
-from thermodata.diagnosis.steps.sudden import BESIDE, HOLE_STEPS, over_three, suddenly
-from thermodata.effect.places import holds
-from thermodata.modelling.inputs.drivers import start_value
-from thermodata.plugin import Bool1D, Float1D, Int1D
+from thermodata.diagnosis.question.problem import Problem
+from thermodata.diagnosis.steps.changes import POWERS, WARM, Course, courses, moves, warmth
+from thermodata.diagnosis.steps.sudden import over_three
+from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.places import is_around
 from thermodata.view.dataset import ChannelInfo
-
-_T = TypeVar("_T")
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool
 JUMPING = (*COMMANDS, "temperature")
 POSITION = "position"
-POWERS = (1, 2)
-EITHER_WAY = 0  # no power: how far it changes, up or down
-WARM = -1  # nor that: how far an axis moves, times how warm it is
 COMMAND_S = 600.0  # between a change and its step, for clocks differ
-MOVED = 0.1  # share of a command's range over all tests, in the power by which it acts, that makes it a change
-# and of a temperature, too, what is so many times its usual sudden change and so large: a gate opens on air that a day
-# warms by ten times as much
-SUDDEN, LEAST_K = 4.0, 0.5
 ELSEWHERE_S = 1200.0  # nearer to the step, a change sees the step itself
 FORETOLD = 0.2  # least share of the step that the others foretell, and of what they foretell that it is
 ALIKE = 0.15  # least share of the others' squared jumps that goes with the command
-LEAST_MM = 1.0  # less moves no screw that is 30 K warm by LEAST_UM
-STANDS_S = 300.0  # before and after a move, or it is none from one place to another
 AS_WARM = 0.5  # of how far an axis moves times how warm it is, by which another move tells of it at least
-
-
-@dataclass(frozen=True, slots=True)
-class _Course:
-    """A command in one block. change: way -> shape (m,), over three intervals; rows: way, in the order of asking ->
-    where that is a change of its own. hole: shape (m,), whether the interval before a sample is one in which nobody
-    logged the command."""
-
-    change: Mapping[int, Float1D]
-    rows: Mapping[int, Int1D]
-    hole: Bool1D
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +39,7 @@ class _Command:
 
     name: str
     told: bool
-    courses: Sequence[_Course | None]
+    courses: Sequence[Course | None]
 
 
 def is_command(channel: ChannelInfo) -> bool:
@@ -84,9 +60,9 @@ class Commands:
         for name, quantity in sorted((n, c.quantity) for n, c in found.items()):
             if quantity in JUMPING:
                 told = quantity in COMMANDS
-                self._commands.append(_Command(name, told, _courses(problem.blocks, name, told=told)))
+                self._commands.append(_Command(name, told, courses(problem.blocks, name, told=told)))
             elif quantity == POSITION:
-                self._commands += [_Command(name, True, m) for m in _moves(problem.blocks, name, _warmth(name, found))]
+                self._commands += [_Command(name, True, m) for m in moves(problem.blocks, name, warmth(name, found))]
 
     def explain(self, block: int, i: int) -> bool:
         """Whether a command makes the step before sample i of a block."""
@@ -116,7 +92,7 @@ class Commands:
                     most = max(most, abs(slope) * float(np.abs(x).max()) if alike >= ALIKE else 0.0)
         return most
 
-    def _explains(self, command: Sequence[_Course | None], block: int, i: int) -> bool:
+    def _explains(self, command: Sequence[Course | None], block: int, i: int) -> bool:
         own, jump = command[block], float(self._jumps[block][i])
         if own is None or not np.isfinite(jump):
             return False
@@ -134,7 +110,7 @@ class Commands:
         # it does whichever way it goes cannot stay, or the machine would walk off
         return bool(own.hole[i]) and any(self._might(command, block, i, power) for power in POWERS)
 
-    def _might(self, command: Sequence[_Course | None], block: int, i: int, power: int) -> bool:
+    def _might(self, command: Sequence[Course | None], block: int, i: int, power: int) -> bool:
         x, y = self._elsewhere(command, self._moves, block, i, 0, power)
         if not len(x):
             return False
@@ -143,7 +119,7 @@ class Commands:
         return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
 
     def _elsewhere(
-        self, command: Sequence[_Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
+        self, command: Sequence[Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
     ) -> tuple[Float1D, Float1D]:
         """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
         key = id(command), id(jumps), lag, way
@@ -164,7 +140,7 @@ def commands_of(problem: Problem) -> Commands:
 
 
 def _everywhere(
-    command: Sequence[_Course | None], jumps: Sequence[Float1D], lag: int, way: int
+    command: Sequence[Course | None], jumps: Sequence[Float1D], lag: int, way: int
 ) -> tuple[Float1D, Float1D, Int1D, Int1D]:
     """All changes of a command, the jumps so many samples after each, and in which block and before which of its
     samples these are: shape (k,) each."""
@@ -197,110 +173,3 @@ def through_zero(x: Float1D, y: Float1D) -> tuple[float, float]:
     """(slope of the line through zero, share of the squares of y that it takes away)."""
     slope = float(x @ y) / max(float(x @ x), 1e-300)
     return slope, 1 - float(np.sum((y - slope * x) ** 2)) / max(float(y @ y), 1e-300)
-
-
-def _courses(blocks: Sequence[Block], name: str, *, told: bool) -> list[_Course | None]:
-    """Of one command, None for each block that lacks it. told: whether the machine is told so. All heat moves a
-    temperature: it changes where that is sudden, and does nothing while nobody logs it."""
-    held = [_kept(_held, b, name) for b in blocks]
-    values = [v for v, _ in held if len(v)]
-    every = np.concatenate(values) if values else np.zeros(1)
-    # the power by which a command acts decides what is a change: of the square, a fast spindle's is the larger
-    least = tuple(MOVED * float(np.ptp(every**p)) for p in POWERS)
-    logged = [b if len(own) else None for b, (own, _) in zip(blocks, held, strict=True)]
-    if told:
-        return [None if b is None else _kept(_of_command, b, name, least) for b in logged]
-    # a motor that cools once its axis rests is no other body
-    sudden = [_kept(_sudden, b, name) for b in logged if b is not None]
-    usual = float(np.sqrt(np.mean(np.concatenate([*sudden, np.zeros(1)]) ** 2)))
-    enough = min(least[0], max(SUDDEN * usual, LEAST_K))
-    return [None if b is None else _kept(_of_temperature, b, name, enough) for b in logged]
-
-
-def _warmth(position: str, channels: Mapping[str, ChannelInfo]) -> list[str]:
-    """The temperatures of an axis, by the channel of its position."""
-    at = channels[position].at
-    return sorted(n for n, c in channels.items() if at and c.quantity == "temperature" and holds(at, c.at))
-
-
-def _moves(blocks: Sequence[Block], name: str, warmth: Sequence[str]) -> list[list[_Course | None]]:
-    """Of the position of an axis: what it does by how far it moves, and by that times how warm it is, by each of its
-    temperatures; None for each block that lacks one."""
-    places = [_held(b, name)[0] for b in blocks]
-    span = float(np.ptp(np.concatenate(places))) if any(map(len, places)) else 0.0
-    least = max(MOVED * span, LEAST_MM)
-    found: list[list[_Course | None]] = [[] for _ in range(1 + len(warmth))]
-    for block, place in zip(blocks, places, strict=True):
-        far, unknown = over_three(place, block.t_s), np.zeros(len(place), dtype=np.bool_)
-        rows = _from_place_to_place(place, far, least, max(1, int(STANDS_S / _step_s(block.t_s))))
-        found[0].append(_Course({1: far}, {1: rows}, unknown) if len(place) else None)
-        for own, temperature in zip(found[1:], warmth, strict=True):
-            rise = _rise(block, temperature)
-            both = len(place) and len(rise)
-            own.append(_Course({WARM: far * rise}, {WARM: rows}, unknown) if both else None)
-    return found
-
-
-def _from_place_to_place(place: Float1D, far: Float1D, least: float, many: int) -> Int1D:
-    """Rows of `far` in which it moves so far, and stands in the many samples before and after: where it goes to and
-    fro all the time nothing begins."""
-    found = np.flatnonzero(np.abs(np.nan_to_num(far)) > least)
-    sides = ((place[max(0, i - 1 - many) : i - 1], place[i + 1 : i + 1 + many]) for i in found.tolist())
-    return found[np.array([all(np.ptp(side) <= least for side in both) for both in sides], dtype=np.bool_)]
-
-
-def _rise(block: Block, name: str) -> Float1D:
-    """How much warmer than at the start of its test, at each sample, shape (m,); empty where nothing is logged."""
-    value, _ = _held(block, name)
-    if not len(value):
-        return value
-    logged = np.asarray(block.test.values[name], dtype=np.float64)
-    return value - start_value(logged[np.isfinite(logged)], _step_s(block.test.t_s))
-
-
-def _step_s(t_s: Float1D) -> float:
-    return float(np.median(np.diff(t_s)))
-
-
-def _kept(make: Callable[..., _T], block: Block, *what: Hashable) -> _T:
-    """What is made of a test at the samples of a block, which is the same in each problem that has these."""
-    key = make.__name__, block.t_s.tobytes(), what
-    if key not in block.test.kept:
-        block.test.kept[key] = make(block, *what)
-    found: _T = block.test.kept[key]
-    return found
-
-
-def _held(block: Block, name: str) -> tuple[Float1D, Bool1D]:
-    """(last logged value, whether that is old) at each sample, shape (m,); empty where nothing is logged."""
-    test = block.test
-    known = np.flatnonzero(np.isfinite(test.values[name])) if name in test.values else np.empty(0, np.int64)
-    if not len(known):
-        return np.empty(0), np.empty(0, dtype=np.bool_)
-    last = known[np.clip(np.searchsorted(test.t_s[known], block.t_s, side="right") - 1, 0, None)]
-    step = float(np.median(np.diff(test.t_s)))
-    return np.asarray(test.values[name][last]), np.abs(block.t_s - test.t_s[last]) > HOLE_STEPS * step
-
-
-def _of_command(block: Block, name: str, least: tuple[float, ...]) -> _Course:
-    """least: what makes it a change, by `POWERS`."""
-    value, old = _kept(_held, block, name)
-    change = {p: over_three(value**p, block.t_s) for p in POWERS}
-    rows = {p: np.flatnonzero(np.abs(np.nan_to_num(change[p])) > own) for p, own in zip(POWERS, least, strict=True)}
-    # a hole begins after the last logged sample and ends before the next one
-    hole = old.copy()
-    hole[1:] |= old[:-1]
-    hole[:-1] |= old[1:]
-    return _Course({**change, EITHER_WAY: np.abs(change[1])}, {**rows, EITHER_WAY: rows[1]}, hole)
-
-
-def _sudden(block: Block, name: str) -> Float1D:
-    """What a temperature changes by beyond the slopes beside it, shape (m,)."""
-    return suddenly(_kept(_held, block, name)[0], block.t_s, BESIDE + 2)
-
-
-def _of_temperature(block: Block, name: str, least: float) -> _Course:
-    """A body expands by its temperature, not by the square, and one way."""
-    value, _ = _kept(_held, block, name)
-    nowhere = np.zeros(len(value), dtype=np.bool_)
-    return _Course({1: over_three(value, block.t_s)}, {1: np.flatnonzero(_kept(_sudden, block, name) > least)}, nowhere)
