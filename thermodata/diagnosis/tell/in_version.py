@@ -15,12 +15,18 @@ from thermodata.view.dataset import TestData
 
 def told_by_versions(judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> Judgement:
     """With the words of each refinement by the version with it and all that is claimed."""
-    said = {id(j.scored.columns): words for j in judgement.refinements if (words := _told(j, judgement, refit, tests))}
+    for one in judgement.refinements:
+        if words := _told(one, judgement, refit, tests):
+            judgement = _with(judgement, one, replace(one, refines=words))
+    return judgement
 
-    def told(some: Sequence[Judged]) -> tuple[Judged, ...]:
-        return tuple(replace(j, refines=said.get(id(j.scored.columns), j.refines)) for j in some)
 
-    return replace(judgement, refinements=told(judgement.refinements), judged=told(judgement.judged))
+def _with(judgement: Judgement, old: Judged, new: Judged) -> Judgement:
+    """With one member in place of another, wherever it stands."""
+    refinements, judged = (
+        tuple(new if j is old else j for j in some) for some in (judgement.refinements, judgement.judged)
+    )
+    return replace(judgement, refinements=refinements, judged=judged)
 
 
 def _told(one: Judged, judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> str | None:
