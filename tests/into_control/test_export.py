@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -173,6 +174,8 @@ def test_json_and_mat_say_the_same(tmp_path: Path) -> None:
     write_mat(made, tmp_path / "model.mat")
     mat = loadmat(tmp_path / "model.mat", simplify_cells=True)["model"]
     assert mat["forgotten"][:, 0].tolist() == [s["rates"][0]["forgotten"] for s in data["states"]]
+    assert set(re.findall("`(\\w+)`", mat["rule"])) <= set(mat), "what the rule names is there"
+    assert set(re.findall("`(\\w+)`", data["rule"])) <= set(data["states"][0])
     assert list(mat["term_formulas"]) == [t["formula"] for t in data["terms"]]
 
 

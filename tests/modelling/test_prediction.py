@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from thermodata.errors import SpecError
 from thermodata.modelling import fit_model
 from thermodata.modelling.model_file.prediction import read_prediction
+from thermodata.modelling.predictions.predict import predict
 from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import model_id
 from thermodata.view.dataset import Dataset
@@ -202,3 +204,14 @@ def test_a_prediction_file_that_is_not_there_is_told_with_what_it_should_be(tmp_
         read_prediction(tmp_path / "theirs.csv")
     assert caught.value.got == "theirs.csv"
     assert "test, t_s, predicted" in (caught.value.expected or "")
+
+
+def test_a_condition_that_a_test_lacks_is_told_with_how_to_say_it(world: Dataset, spec: Spec) -> None:
+    tests = [replace(t, conditions={"tool": "short" if i % 2 else "long"}) for i, t in enumerate(world.tests)]
+    fitted = fit_model(spec({"effect": "spindle_bearing", "gain_by": "tool"}), replace(world, tests=tuple(tests)))
+    bare = replace(world, tests=tuple(replace(t, conditions={}) for t in world.tests[:1]))
+    made, left_out = predict(fitted, bare)
+    assert not made
+    (reason,) = left_out
+    assert "no condition 'tool'" in reason
+    assert reason.endswith("predict --set tool=long says it of all tests")

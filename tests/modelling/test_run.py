@@ -341,7 +341,9 @@ def test_carrying_over_to_another_campaign_of_the_store(world: Dataset, spec: Sp
     assert {r.campaign for r in run.transfer(made, model)} == {"c"}, "its own where nothing is asked"
     for asked in ({"campaigns": ["d"]}, {"tests": ["n0"]}, {"tests": ["d/n0"]}):
         [row] = run.transfer(made, model, **asked)
-        assert (row.campaign, row.test, row.machine, row.role) == ("d", "n0", "m2", "none")
+        assert (row.campaign, row.test, row.machine, row.role) == ("d", "n0", "m2", "calibration"), (
+            "as its campaign has it"
+        )
         assert row.g == pytest.approx(1.25, abs=0.05)
     assert [r.test for r in run.transfer(made, model, ["t0", "n0"])] == ["t0", "n0"]
     with pytest.raises(UsageError, match="locked: d/n1"):

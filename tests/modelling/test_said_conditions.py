@@ -9,6 +9,8 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.model_file.resolve import resolve
+from thermodata.modelling.predictions.table import prediction_tables
+from thermodata.modelling.versions.result import make_result
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
@@ -50,8 +52,25 @@ def test_the_tests_that_do_not_say_it_are_named_with_what_the_others_say(by: str
 
 def test_what_is_advised_works(world: Dataset, spec: Spec) -> None:
     having = [t.test for t in world.tests if t.test != "t1"]
-    found = fit_model(spec({**BY_DIAMETER, "tests": having}, *EFFECTS[1:]), _with_tools(world, "t1"))
+    data = _with_tools(world, "t1")
+    found = fit_model(spec({**BY_DIAMETER, "tests": having}, *EFFECTS[1:]), data)
     assert {"spindle_bearing.gain[25]", "spindle_bearing.gain[63]"} <= set(found.parameters())
+    # in the test that does not say it the effect does nothing, and all others are predicted
+    assert "t1" in {s.test for s in make_result(found, data, "m").scores}
+    assert all(prediction_tables(found, data).values())
+
+
+def test_what_is_advised_of_several_campaigns_works(world: Dataset, spec: Spec) -> None:
+    """Every test is named, each with its campaign, for names may be alike."""
+    ours = _with_tools(world, *(t.test for t in world.tests))
+    theirs = tuple(replace(t, campaign="d") for t in _with_tools(world).tests)
+    more = tuple(replace(t, test=f"u{i}") for i, t in enumerate(theirs))
+    data, model = replace(world, tests=(*ours.tests, *theirs, *more)), {"campaigns": ["c", "d"], "campaign": None}
+    advised = _refused(data, spec(BY_DIAMETER, *EFFECTS[1:]).model_copy(update=model)).partition("tests: [")[2]
+    named = advised.partition("]")[0].split(", ")
+    found = fit_model(spec({**BY_DIAMETER, "tests": named}, *EFFECTS[1:]).model_copy(update=model), data)
+    assert {"spindle_bearing.gain[25]", "spindle_bearing.gain[63]"} <= set(found.parameters())
+    assert {s.campaign for s in make_result(found, data, "m").scores} == {"c", "d"}
 
 
 def test_what_no_test_says_is_unknown(world: Dataset, spec: Spec) -> None:

@@ -42,6 +42,7 @@ def con() -> duckdb.DuckDBPyConnection:
         ("select max(value) from temperature where campaign = 'lab' or t_s > 3", True),
         ("select max(value) from temperature where campaign <> 'lab3'", True),
         ("select max(value) from temperature where campaign = (select 'lab')", True),
+        ("select max(value) from temperature where campaign = 'lab' and campaign = 'lab3'", False),
         ("select max(value) from signal('lab', 'a', 'T')", False),
         ("select max(value) from signal('lab3', 'a', 'T')", True),
         ("with x as (from temperature where campaign = 'lab') select max(value) from x", False),

@@ -248,7 +248,8 @@ def history_command(session: Session, model: str | None) -> None:
 def portability_command(session: Session, model: str, tests: tuple[str, ...], campaigns: tuple[str, ...]) -> None:
     """Say how MODEL transfers to other tests and machines.
 
-    To the tests of its own campaigns, or of those that --campaign or --test name, which need its channels.
+    To the tests of its own campaigns, or of those that --campaign or --test name, which need its channels. Roles of
+    these are those that their campaign gives: the model was fitted to none of them.
 
     The gain g that fits the model to each, the error without (n) and with (c) it, and the class: portable,
     with_correction, not_portable.

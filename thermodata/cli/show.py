@@ -212,7 +212,9 @@ def _residual(seen: Seen) -> str:
 
 
 def _per(unit: str, over: str) -> str:
-    return unit if over in ("1", "") else f"{unit}/{over}"
+    if over in ("1", ""):
+        return unit
+    return f"{unit}/({over})" if " " in over else f"{unit}/{over}"
 
 
 def _numbers(values: Any) -> str:

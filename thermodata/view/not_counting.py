@@ -45,11 +45,13 @@ def values_that_do_not_count(con: duckdb.DuckDBPyConnection, query: str, columns
 
 def _flagged(con: duckdb.DuckDBPyConnection, read: Read) -> list[tuple[str, str, str]]:
     """(flag, campaign, test) of what does not count of the samples that are read."""
+    if not all(read.only.values()):
+        return []
     held = "".join(f" and list_contains(${key}, e.{key})" for key in read.only if key != "channel")
     # an event without a channel is of every channel of its stream
     if "channel" in read.only:
         held += " and list_contains($channel, c.channel)"
-    return con.execute(
+    rows: list[tuple[str, str, str]] = con.execute(
         "select distinct lower(e.flag), e.campaign, e.test from quality_event e join channel c "
         "on c.campaign = e.campaign and c.test = e.test and c.source = e.source and c.stream = e.stream "
         "and (e.channel is null or c.channel = e.channel) "
@@ -61,3 +63,4 @@ def _flagged(con: duckdb.DuckDBPyConnection, read: Read) -> list[tuple[str, str,
             **{key: sorted(values) for key, values in read.only.items()},
         },
     ).fetchall()
+    return rows

@@ -70,12 +70,12 @@ def _held(condition: Any) -> dict[str, frozenset[str]]:
     if condition.get("type") == "COMPARE_EQUAL":
         sides = [condition.get("left"), condition.get("right")]
     elif condition.get("type") == "COMPARE_IN":
-        sides = list(condition.get("children", ()))
+        sides = [*condition.get("children", ())]
     else:
         return {}
-    columns, values = [c for s in sides if (c := _column(s))], [v for s in sides if (v := _text(s)) is not None]
-    known = len(columns) == 1 and columns[0] in KEYS and len(values) == len(sides) - 1
-    return {columns[0]: frozenset(values)} if known else {}
+    columns, texts = [c for s in sides if (c := _column(s))], [v for s in sides if (v := _text(s)) is not None]
+    known = len(columns) == 1 and columns[0] in KEYS and len(texts) == len(sides) - 1
+    return {columns[0]: frozenset(texts)} if known else {}
 
 
 def _column(tree: Any) -> str | None:

@@ -24,7 +24,8 @@ class Portability:
     """One test. g: least squares through the zero of the first samples, as the FITs are taken, so that it never makes
     them worse; g_end: from the end of heating (one point: noisier). fit_* [%], ptp_* [response's
     unit] as printed in [straka2021] (|max| + |min|): measured, residual without (n) and with (c) the gain. verdict "x"
-    where it can't be predicted, for a sensor is missing on that machine: `why` says which."""
+    where it can't be predicted, for a sensor is missing on that machine: `why` says which. role: in the model; of a
+    test of another campaign, which took no part in it, as that campaign has it."""
 
     campaign: str
     test: str
@@ -49,7 +50,8 @@ def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> 
     """A row a test and response, over all tests that have the response, of whatever role (locked only if asked)."""
     rows: list[Portability] = []
     for test in data.tests:
-        role = fitted.roles.role(test.key)
+        own = test.campaign in fitted.spec.campaign_ids
+        role = fitted.roles.role(test.key) if own else test.role
         if role == "locked" and not locked:
             continue
         for response in fitted.responses:

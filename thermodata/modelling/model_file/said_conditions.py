@@ -39,8 +39,14 @@ def refuse_unsaid(by: str, tests: Sequence[TestData], where: str) -> None:
         expected=f"'{by}' in every test that the effect is asked in",
         got=f"none in {_listed(without)}; {'; '.join(values)}",
         hint="say it of them in the campaign file; where the effect does not act in them, name those in which it does "
-        f"in the model file: tests: [{_listed(having)}]",
+        f"in the model file: tests: [{', '.join(_names(having, tests))}]",
     )
+
+
+def _names(tests: Sequence[TestData], beside: Sequence[TestData]) -> list[str]:
+    """All of them, as a model file takes them: with their campaign where the model is of several."""
+    several = len({t.campaign for t in beside}) > 1
+    return [f"{t.campaign}/{t.test}" if several else t.test for t in tests]
 
 
 def _listed(tests: Sequence[TestData]) -> str:

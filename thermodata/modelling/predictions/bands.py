@@ -62,9 +62,10 @@ def _moves(term: FittedTerm) -> bool:
 def _slopes(term: FittedTerm, spread: Together, test: TestData) -> Float2D:
     """shape (n, k): of the term's contribution along each parameter of the spread."""
     out = np.zeros((len(test.t_s), len(spread.matrix)))
-    values, group = term.values(test), term.bound.group(test)
+    values = term.values(test)
     if values is None:
         return out
+    group = term.bound.group(test)
     gains = [g.name for g in term.effect.gains]
     columns = term.columns(test)
     for k, (owners, name) in enumerate(spread.owners):

@@ -103,10 +103,18 @@ def _why_not(response: FittedResponse, test: TestData) -> str | None:
         try:
             why = term.why_not(test)
         except ThermodataError as error:
-            why = f"{term.id}: {error.what}; known: {', '.join(term.groups)}"
+            why = f"{term.id}: {error.what}; known: {', '.join(term.groups)}{_say_it(term)}"
         if why is not None:
             return why
     return None
+
+
+def _say_it(term: FittedTerm) -> str:
+    """How a test of logs without a campaign file comes to have the condition that a gain differs by."""
+    by = term.bound.spec.gains_by
+    if len(by) != 1 or by[0] in ("test", "campaign", "place"):
+        return ""
+    return f"; predict --set {by[0]}={next(iter(term.groups))} says it of all tests"
 
 
 def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predicted:

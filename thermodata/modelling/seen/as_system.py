@@ -12,6 +12,8 @@ from thermodata.effect.law_run import evaluate
 from thermodata.effect.law_text import written
 from thermodata.effect.linear import Filter, Mode
 from thermodata.errors import UsageError
+from thermodata.modelling.seen.drive_unit import Powers, over_unit, powers_of
+from thermodata.modelling.seen.drive_unit import written as written_unit
 from thermodata.modelling.seen.laws import TermLaw, laws
 from thermodata.modelling.seen.linear_parts import CurvedError, Path, paths
 from thermodata.modelling.seen.residual_tests import Against, LjungBox, against, autocorrelation, lags_told, ljung_box
@@ -138,7 +140,7 @@ def _seen(term: TermLaw, path: Path, system: System, unit: str, lowest: float) -
         _named(path.drive, term),
         None if path.times is None else _named(path.times, term),
         path.holds,
-        _unit(path, term, unit),
+        over_unit(unit, *_drives(path, term)),
         system,
         (kept * step_s, response),
         (hertz, np.abs(answer), phase),
@@ -150,15 +152,10 @@ def _named(node: law.Node, term: TermLaw) -> str:
     return written(law.put(node, {role: d.tree for role, d in term.drives.items()}))
 
 
-def _unit(path: Path, term: TermLaw, unit: str) -> str:
-    """The response's unit over the drive's, where the drive is one channel as it is."""
-    if isinstance(path.drive, law.Symbol) and path.drive.name in term.drives:
-        over = term.drives[path.drive.name].unit
-    else:
-        roles = [term.drives[s].unit for s in sorted(law.symbols(path.drive)) if s in term.drives]
-        linear = isinstance(path.drive, law.Binary) and path.drive.operator in ("+", "-") and len(set(roles)) == 1
-        over = roles[0] if linear else "1"
-    return unit if over in ("1", "") else f"{unit}/{over}"
+def _drives(path: Path, term: TermLaw) -> list[Powers | None]:
+    """The units of what drives a path, and of what it is multiplied by."""
+    units = {role: drive.unit for role, drive in term.drives.items()}
+    return [powers_of(node, units) for node in (path.drive, path.times) if node is not None]
 
 
 def _states(
@@ -179,7 +176,7 @@ def _states(
                 node = law.Filtered(node, Filter(modes=(replace(mode, weight=1.0),)))
             courses = [_course(terms[term.id], node, t, step_s) for t in tests]
             tau = "" if mode is None or mode.tau_s is None else f" after {mode.tau_s / 60:.3g} min"
-            unit = _unit(path, term, "x").partition("/")[2] or "1"
+            unit = written_unit(_drives(path, term)[0] or {}) or "1"
             found.append(against(f"{term.id}: {_named(path.drive, term)}{tau}", unit, courses, residuals))
     unique = {a.state: a for a in found}
     return tuple(a for a in unique.values() if len(a.centres))

@@ -87,8 +87,8 @@ class FittedTerm:
         return next(iter(self.groups.values())).sd
 
     def values(self, test: TestData) -> Values | None:
-        """What applies to a test; None where its group was in no calibration test."""
-        return self.groups.get(self.bound.group(test))
+        """What applies to a test; None where it does not act in it, or its group was in no calibration test."""
+        return self.groups.get(self.bound.group(test)) if self.bound.covers(test) else None
 
     def columns(self, test: TestData) -> Float2D:
         """The effect's basis at the fitted parameters, shape (n, gains), not centred, not masked."""
@@ -98,7 +98,7 @@ class FittedTerm:
     def contribution(self, test: TestData) -> Float1D:
         """shape (n,), in the response's unit."""
         values = self.values(test)
-        if values is None or not self.bound.covers(test):
+        if values is None:
             return np.zeros(len(test.t_s))
         gains = np.array([values.gains[g.name] for g in self.effect.gains])
         return np.asarray(self.columns(test) @ gains, dtype=np.float64)

@@ -1,0 +1,44 @@
+"""Units of the gains that `show` prints: the response's over what drives it."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.effect import law
+from thermodata.modelling.fit.model import fit_model
+from thermodata.modelling.seen.as_system import see
+from thermodata.modelling.seen.drive_unit import over_unit, powers_of
+from thermodata.view.dataset import Dataset
+
+from .conftest import Spec
+
+UNITS = {"T": "K", "T2": "K", "on": "1", "n": "rpm", "v": "mm/min", "p": "kW"}
+
+
+@pytest.mark.parametrize(
+    ("drive", "said"),
+    [
+        ("T", "um/K"),
+        ("on", "um"),
+        ("T * on", "um/K"),
+        ("on * (T - T2)", "um/K"),
+        ("T - 20", "um/K"),
+        ("abs(T - T2) / 2", "um/K"),
+        ("where(n > 100, T, 0)", "um/K"),
+        ("lag(T, 60) - T", "um/K"),
+        ("T / T2", "um"),
+        ("n ** 2", "um/rpm^2"),
+        ("n * n", "um/rpm^2"),
+        ("T * v", "um/(K mm/min)"),
+        ("T + n", "um"),
+    ],
+)
+def test_a_gain_has_the_unit_of_the_response_over_that_of_its_drive(drive: str, said: str) -> None:
+    assert over_unit("um", powers_of(law.parse(drive), UNITS)) == said
+
+
+def test_a_path_of_a_product_has_it_too_and_its_state(world: Dataset, spec: Spec) -> None:
+    effect = {"effect": "coolant_heat", "drivers": {"temperature": "T_bearing", "state": "coolant_on"}}
+    (one,) = see(fit_model(spec(effect), world), world)
+    assert [path.unit for path in one.paths] == ["um/K"]
+    assert {state.unit for state in one.states} == {"K"}
