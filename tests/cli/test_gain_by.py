@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -115,3 +116,20 @@ def test_what_is_not_there_is_answered_with_what_is(
         refused = say("--store", store, *words)
         assert refused.code == 2
         assert said in refused.err
+
+
+def test_predict_names_the_option_that_says_a_condition_which_tests_lack(
+    store: Path, tmp_path: Path, say: Callable[..., Said]
+) -> None:
+    model = tmp_path / "by_tool.yaml"
+    model.write_text(MODEL.replace("baseline", "by_tool").replace("}}", "}, gain_by: conditions.tool.id}"))
+    assert say("--store", store, "fit", model).code == 0
+    logs = tmp_path / "new" / "raw"
+    logs.mkdir(parents=True)
+    shutil.copy(store.parent / "raw" / "t0.csv", logs / "n1.csv")
+    shutil.copy(store.parent / "raw" / "t1.csv", logs / "n2.csv")
+    refused = say("--store", store, "predict", "by_tool", logs.parent)
+    assert refused.code == 3
+    tried = [line for line in refused.err.splitlines() if line.startswith("try: ")]
+    assert tried == ["try: --set tool.id=D25 says it for all tests"]
+    assert say("--store", store, "predict", "by_tool", logs.parent, *tried[0].split()[1:3]).code == 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -174,6 +175,10 @@ def test_json_and_mat_say_the_same(tmp_path: Path) -> None:
     mat = loadmat(tmp_path / "model.mat", simplify_cells=True)["model"]
     assert mat["forgotten"][:, 0].tolist() == [s["rates"][0]["forgotten"] for s in data["states"]]
     assert list(mat["term_formulas"]) == [t["formula"] for t in data["terms"]]
+    # each file has what its rule names
+    named = re.compile(r"`(\w+)`").findall
+    assert {"state_inputs", "state_while"} <= set(named(mat["rule"])) <= set(mat)
+    assert {"of", "while", "rates"} == set(named(data["rule"])) <= set(data["states"][0])
 
 
 # ---- readings that are bad, limits, start

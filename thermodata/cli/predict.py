@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import shlex
 import sys
 from collections.abc import Mapping
 from dataclasses import replace
@@ -21,6 +23,9 @@ from thermodata.report.words import duration
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.predict import Predicted
     from thermodata.view.dataset import Dataset
+
+# as the reason of a test that is left out says it: the name of a condition, and the first of its values
+_LACKS = re.compile(r"no condition '(?:conditions\.)?([^']+)'; known: ([^,]+)")
 
 
 @command("predict")
@@ -77,6 +82,8 @@ def predict_command(
         )
     for reason in left_out:
         session.say(f"left out: {reason}")
+    for line in _to_set(left_out):
+        session.say(line)
     if made and out is not None and kind is not None:
         write_table(made, out, kind)
     if as_csv and not session.as_json:
@@ -97,6 +104,12 @@ def predict_command(
     }
     session.answer(payload, lambda: _text(rows, made, out))
     return 3 if left_out else 0
+
+
+def _to_set(left_out: list[str]) -> list[str]:
+    """The options that give tests the conditions which they lack, each once."""
+    found = dict(m.groups() for reason in left_out if (m := _LACKS.search(reason)))
+    return [f"try: --set {shlex.quote(f'{name}={value}')} says it for all tests" for name, value in found.items()]
 
 
 def _row(p: Predicted) -> dict[str, Any]:

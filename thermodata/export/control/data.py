@@ -15,6 +15,7 @@ from thermodata.export.control.program import Program
 from thermodata.export.control.python import PYTHON
 
 SCHEMA = "thermodata/control/1"
+RULE = "x += forgotten * (u_old - x) + new * (u - u_old), from x = 0 and u_old = u"
 START_RULE = (
     "what counts from balance counts from the mean of its first bins of bin_cycles readings, of most_bins at most and "
     "for as long as a bin is within still_within of their mean; where the second or third is not, from where a line "
@@ -31,7 +32,7 @@ def as_data(program: Program) -> dict[str, Any]:
         "response": program.response,
         "unit": program.unit,
         "cycle_s": program.cycle_s,
-        "rule": "x += forgotten * (u_old - x) + new * (u - u_old), from x = 0 and u_old = u; u as `of` says",
+        "rule": f"{RULE}; u as `of` says, and the first of `rates` where `while` is null or holds, else the second",
         "start": None
         if program.start is None
         else {"rule": START_RULE, "bin_cycles": program.start.cycles, "most_bins": program.start.bins},
@@ -90,14 +91,14 @@ def write_mat(program: Program, path: Path) -> None:
     """MAT 5 with one struct, the program's name: the JSON's fields, and forgotten, new, tau_s as columns."""
     from scipy.io import savemat
 
-    data = as_data(program)
     states = [s for s in program.states if s.kind != "delay"]
     content: dict[str, Any] = {
         "about": "\n".join(f"{k}: {v}" for k, v in program.about),
         "response": program.response,
         "unit": program.unit,
         "cycle_s": program.cycle_s,
-        "rule": data["rule"],
+        "rule": f"{RULE}; u as `state_inputs` says, and the first column of `forgotten` and `new` where `state_while` "
+        "is empty or holds, else the second",
         "inputs": _cells([i.name for i in program.inputs]),
         "input_units": _cells([i.unit for i in program.inputs]),
         "input_low": _column([i.low for i in program.inputs]),
