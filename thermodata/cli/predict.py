@@ -82,8 +82,8 @@ def predict_command(
         )
     for reason in left_out:
         session.say(f"left out: {reason}")
-    for line in _to_set(left_out):
-        session.say(line)
+    for option in _to_set(left_out):
+        session.say(option)
     if made and out is not None and kind is not None:
         write_table(made, out, kind)
     if as_csv and not session.as_json:
@@ -108,7 +108,7 @@ def predict_command(
 
 def _to_set(left_out: list[str]) -> list[str]:
     """The options that give tests the conditions which they lack, each once."""
-    found = dict(m.groups() for reason in left_out if (m := _LACKS.search(reason)))
+    found = {m[1]: m[2] for reason in left_out if (m := _LACKS.search(reason))}
     return [f"try: --set {shlex.quote(f'{name}={value}')} says it for all tests" for name, value in found.items()]
 
 
