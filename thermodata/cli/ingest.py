@@ -7,9 +7,14 @@ from typing import Any
 
 import click
 
+from thermodata.calibration.jump.limits import MOVES
 from thermodata.cli.common import Session, command, plain
 from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
+from thermodata.schema.listed import with_count
+
+_NAMED = 4
+_MOSTLY = 0.5  # of the square of an uncertainty
 
 
 @command("ingest")
@@ -75,6 +80,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
             **row,
             "calibration": row.get("calibration", row.get("name")),
             "ok": _checked(row),
+            "offset": _offset(row),
         }
         for row in rows
     ]
@@ -88,6 +94,7 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
             ("axis", "axis"),
             ("gain", "gain"),
             ("gain_unit", "unit"),
+            *([("offset", "offset")] if any(row["offset"] for row in shown) else []),
             ("sign", "sign"),
             ("uncertainty_pct", "± [%]"),
             ("noise_um", "noise [um]"),
@@ -102,7 +109,35 @@ def calibrations_text(rows: list[dict[str, Any]]) -> str:
         for c in row.get("checks") or []
         if not c.get("passed", True)
     ]
-    return "\n".join([text, *failed])
+    return "\n".join([text, *failed, *_of_the_moves(shown, several)])
+
+
+def _offset(row: dict[str, Any]) -> str | None:
+    """What is added after the gain; None where nothing is, and of a jump test, which finds no zero."""
+    offset, detail = row.get("offset_value"), row.get("detail") or {}
+    if not offset or row["kind"] not in ("scale", "linear"):
+        return None
+    return f"{offset:g} {detail.get('offset_unit') or detail.get('unit_out') or ''}".rstrip()
+
+
+def _of_the_moves(rows: list[dict[str, Any]], several: bool) -> list[str]:
+    """Which uncertainties are mostly that of the commanded moves, which the campaign file says or leaves at 1 um."""
+    from itertools import accumulate
+
+    named: dict[float, list[str]] = {}
+    for row in rows:
+        of_one, moves = row.get(MOVES), (row.get("detail") or {}).get("moves_um")
+        if of_one and moves and row.get("uncertainty_pct"):
+            levels = [0.0, *accumulate(moves)]
+            share = 100.0 * of_one / (max(levels) - min(levels)) / row["uncertainty_pct"]
+            if share**2 > _MOSTLY:
+                campaign = f"{row['campaign']}/" if several else ""
+                named.setdefault(of_one, []).append(f"{campaign}{row['calibration']}")
+    return [
+        f"  ± of {with_count(names, _NAMED)}: mostly move_uncertainty, {of_one:g} um a move (1 um where the campaign "
+        "file says nothing): write there what the axis positions to"
+        for of_one, names in named.items()
+    ]
 
 
 def _checked(row: dict[str, Any]) -> str:

@@ -132,12 +132,15 @@ def channels_command(session: Session, campaign: str | None, test: str | None) -
 def calibrations_command(session: Session, campaign: str | None) -> None:
     """Show the calibrations.
 
-    Signed sensitivity, uncertainty, noise, and what failed a check. JSON has all checks, each with the limit by which
-    it passes.
+    Signed sensitivity, offset, uncertainty, noise, and what failed a check. JSON has all checks, each with the limit by
+    which it passes, and how well one move of a jump test is known (move_uncertainty of the campaign file).
     """
-    from thermodata.calibration.jump.limits import with_limits
+    from thermodata.calibration.jump.limits import MOVES, with_limits
 
-    rows = rows_of(session, "select * from calibration", campaign, "campaign, calibration")
+    asked = f"""select c.*, try_cast(json_extract_string(m.spec,
+        '$.calibrations."' || c.calibration || '".move_uncertainty') as double) as {MOVES}
+        from calibration c join campaign m using (campaign)"""
+    rows = rows_of(session, f"select * from ({asked})", campaign, "campaign, calibration")
     rows = [{**row, "checks": with_limits(row["checks"])} for row in rows]
     session.answer(rows, lambda: calibrations_text(rows) if rows else "no calibrations")
 

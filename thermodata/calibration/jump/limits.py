@@ -7,6 +7,7 @@ from typing import Any
 
 from thermodata.calibration.jump.plausible import COARSEST_UM_PER_V, FINEST_UM_PER_V
 
+MOVES = "move_uncertainty_um"  # key of a row: what the campaign file says of one move, None where nothing was moved
 DWELL = (0.4, 2.5)  # of the declared dwell
 _ODD = {
     "answers_most": "value < threshold",

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from thermodata.calibration.jump.limits import with_limits
+from thermodata.calibration.jump.limits import MOVES, with_limits
 from thermodata.schema.left_out import left_out_for_a_fault
 from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
@@ -75,7 +75,11 @@ def summarize(
         flags=_summed(n.flags for n in notes.values()),
         read=layers.raw.read,
         made=layers.tidy.new_streams,
-        calibrations=[_told(r.row(campaign.id), r.name) for r in layers.calibrations.values()],
+        calibrations=[
+            _told(r.row(campaign.id), r.name)
+            | {MOVES: getattr(campaign.calibrations[r.name], "move_uncertainty", None)}
+            for r in layers.calibrations.values()
+        ],
         losses=with_lines(_losses(layers, notes), path),
         notes=list(
             dict.fromkeys(
