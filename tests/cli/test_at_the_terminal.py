@@ -81,6 +81,21 @@ def test_without_a_model_the_newest_is_taken(fitted: Path, say: Callable[..., Sa
     assert models[-1] in say("--store", store, *words).err
 
 
+def test_models_are_listed_with_the_one_that_is_taken_where_none_is_named(
+    fitted: Path, say: Callable[..., Said]
+) -> None:
+    store = fitted / "thermodata.store"
+    listed = json.loads(say("--store", store, "models", "--json").out)
+    chain = [m["model"] for m in json.loads(say("--store", store, "history", "baseline", "--json").out)]
+    assert [m["model"] for m in listed] == chain[::-1]
+    assert [m["model"] for m in listed if m["fitted_last"]] == [chain[-1]]
+    text = say("--store", store, "models", "-c", "small").out
+    assert all(model in text for model in chain)
+    refused = say("--store", store, "models", "-c", "smal")
+    assert refused.code == 2
+    assert "did you mean 'small'" in refused.err
+
+
 def test_the_report_of_the_newest_model(fitted: Path, say: Callable[..., Said], tmp_path: Path) -> None:
     done = say("--store", fitted / "thermodata.store", "report", "-o", tmp_path / "r.html")
     assert done.code == 0, done.err

@@ -43,6 +43,7 @@ SECTIONS: dict[str, dict[str, str]] = {
         "compare": "fitting",
         "add": "fitting",
         "remove": "fitting",
+        "models": "models",
         "history": "fitting",
         "portability": "fitting",
         "show": "show",

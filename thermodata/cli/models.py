@@ -1,0 +1,58 @@
+"""`models`: what versions of which models the store holds."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from thermodata.cli.common import Session, command
+from thermodata.cli.look import campaign_option
+from thermodata.errors import unknown_name
+from thermodata.report.table import table
+
+if TYPE_CHECKING:
+    from thermodata.view.models import ModelRow
+
+
+@command("models")
+@campaign_option
+def models_command(session: Session, campaign: str | None) -> None:
+    """List the models: versions, effects, errors and verdicts.
+
+    The newest version first; "last fit" marks the one that is taken where a command or page is told none.
+    """
+    from thermodata.view.models import fitted_last, model_rows
+
+    rows = model_rows(session.store())
+    last = fitted_last(rows).model if rows else None
+    if campaign is not None:
+        with session.store().reader() as con:
+            known = [name for (name,) in con.execute("select campaign from campaign order by 1").fetchall()]
+        if campaign not in known:
+            raise unknown_name("campaign", campaign, known)
+    kept = [m for m in rows if campaign is None or campaign in m.campaigns]
+    found = [{**_listed(m), "fitted_last": m.model == last} for m in kept]
+    session.answer(found, lambda: _text(found) if found else "no model was fitted yet")
+
+
+def _listed(model: ModelRow) -> dict[str, Any]:
+    return {key: value for key, value in asdict(model).items() if key != "fitted"}
+
+
+def _text(rows: list[dict[str, Any]]) -> str:
+    shown = [
+        {
+            **row,
+            "effects": ", ".join(row["effects"]),
+            "campaigns": ", ".join(row["campaigns"]),
+            "responses": ", ".join(row["responses"]),
+            "made": f"{row['created_at']:%Y-%m-%d %H:%M}",
+            "stale": "stale" if row["stale"] else "",
+            "last": "last fit" if row["fitted_last"] else "",
+        }
+        for row in rows
+    ]
+    heads = ("name", "version", "model", "campaigns", "responses", "effects", "calibration_um", "verification_um")
+    named = {"calibration_um": "calibration", "verification_um": "verification"}
+    columns = [(key, named.get(key, key)) for key in (*heads, "unit", "verdict", "made", "stale", "last")]
+    return table(shown, columns)
