@@ -7,7 +7,6 @@ from typing import Any
 
 import click
 
-from thermodata.calibration.jump.limits import MOVES
 from thermodata.cli.common import Session, command, plain
 from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
@@ -123,6 +122,8 @@ def _offset(row: dict[str, Any]) -> str | None:
 def _of_the_moves(rows: list[dict[str, Any]], several: bool) -> list[str]:
     """Which uncertainties are mostly that of the commanded moves, which the campaign file says or leaves at 1 um."""
     from itertools import accumulate
+
+    from thermodata.calibration.jump.limits import MOVES
 
     named: dict[float, list[str]] = {}
     for row in rows:
