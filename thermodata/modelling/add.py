@@ -43,7 +43,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     before = make_result(old.fitted, old.data, parent.model).scores
     # what was found before the data changed may be mended
     found = load_diagnosis(store, parent.model)
-    by_it = found if found is not None and any(c.id == name for c in found.candidates) else None
+    by_it = found if found is not None and any(c.id in names for c in found.candidates) else None
     diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data)
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain:
