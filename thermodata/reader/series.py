@@ -191,10 +191,10 @@ class TakenApart:
                 self._count(f"row of '{one}'" if one else "row of no series", rows.size)
                 continue
             held = self.series.held[one]
-            item, rows, foreign = self.series.in_its_unit(one, item, rows)
+            own, rows, foreign = self.series.in_its_unit(one, item, rows)
             for word, count in foreign.items():
                 self.foreign[one, word] = self.foreign.get((one, word), 0) + count
-            values = {self.series.named(one, k): v[rows] for k, v in item.values.items() if k in held}
+            values = {self.series.named(one, k): v[rows] for k, v in own.values.items() if k in held}
             flags = {self.series.named(one, k): v[rows] for k, v in (item.flags or {}).items() if k in held}
             at = None if item.at is None else item.at[rows]
             yield Block(self.series.streams[one], item.t_ns[rows], values, flags or None, at)

@@ -103,7 +103,8 @@ def commit(
     before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
     # what models said of a test that was taken out stays, as their fits do: it may come back
     keep_looks(con, campaign, before - after)
-    others = keep_looks_at_changed(con, campaign, planned.rows, differing["file"] & before & after)
+    stay = differing["file"] & before & after
+    keep_looks_at_changed(con, campaign, planned.rows, stay)
     for table in BY_TEST:
         gone = set(differing[table])
         if table == "test" and (gone or list(planned.rows[table]) != list(inventory.rows[table])):
@@ -137,7 +138,7 @@ def commit(
     then = states(inventory.rows, inventory.calibrations, differ)
     stale = mark_stale(con, campaign, then, states(planned.rows, planned.calibrations, differ))
     count_on(con, campaign, planned.rows, after - before)
-    count_on(con, campaign, planned.rows, others, stay=True)
+    count_on(con, campaign, planned.rows, stay, stay=True)
     return stale
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.second_pass import go_together, is_known
-from thermodata.store.tidy.source_clock import Clock, build, recorded
+from thermodata.store.tidy.source_clock import Clock, build, first_ns, last_ns
 
 _LEAST_NS = 240 * 10**9  # by which it was set: less is within what two logs that begin together differ by
 
@@ -23,8 +23,8 @@ def tell_clocks_set_late(store: Path, plan: TestPlan) -> None:
         if back_ns < _LEAST_NS:
             continue
         moved = (joined[0] - back_ns, joined[1] - back_ns)
-        others = [s for s in plan.sources.values() if s is not source and is_known(s)]
-        spans = {s.name: (min(recorded(r)[0] for r in s.raws), max(recorded(r)[1] for r in s.raws)) for s in others}
+        others = [s for s in plan.sources.values() if s is not source and is_known(s) and s.spec.clock.align_to is None]
+        spans = {s.name: _span(s) for s in others}
         if any(go_together(joined, span) for span in spans.values()):
             continue
         beside = next((name for name, span in spans.items() if go_together(moved, span, both=True)), None)
@@ -35,6 +35,12 @@ def tell_clocks_set_late(store: Path, plan: TestPlan) -> None:
                 f"much later than '{beside}'; try: clock: {{resets: allow, offset: -{back_ns / 1e9:.0f} s}} where it "
                 "was right once it was set, or offset: 0 s where not"
             )
+
+
+def _span(source: SourcePlan) -> tuple[int, int]:
+    """The first and the last time of a source, its declared offset applied [ns]."""
+    offset = round((source.spec.clock.offset or 0.0) * 1e9)
+    return first_ns(source) + offset, last_ns(source) + offset
 
 
 def _set_back(store: Path, source: SourcePlan) -> tuple[int, tuple[int, int]]:

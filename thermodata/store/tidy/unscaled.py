@@ -89,7 +89,7 @@ def _is_applied(stated: Stated, bound: Bound, unit: str | None, campaign: Campai
         return True
     if stated.kind == "offset":
         return channel.quantity == "displacement"
-    return channel.unit is not None and math.isclose(_factor(channel, unit), abs(stated.number), rel_tol=1e-6)
+    return channel.unit is not None and math.isclose(_factor(channel, unit), stated.number, rel_tol=1e-6)
 
 
 def _changes_unit(ratio: str) -> bool:

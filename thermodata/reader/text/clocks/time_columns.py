@@ -138,13 +138,14 @@ def find_time(
     words = [i for i in range(width) if i in likely or is_time_header(names[i])]
     dates = [i for i in range(width) if share(i, is_dated, 0.8)]
     clocks = [i for i in range(width) if share(i, is_clocked, 0.8)]
+    of_day = [i for i in words if since_midnight(names[i]) is not None and share(i, is_number, 0.6)]
     standing = _standing(
         {i: [c for c in filled[i] if is_dated(c)] for i in dates},
-        [[c for c in filled[i] if is_clocked(c)] for i in clocks],
+        [*([c for c in filled[i] if is_clocked(c)] for i in clocks), *(filled[i] for i in of_day)],
     )
     numbers = [i for i in words if share(i, is_number, 0.6)]
     counting = any(_numbers_go_on(filled[i]) for i in numbers)
-    if counting and not clocks:
+    if counting and not clocks and not of_day:
         standing |= {i for i in dates if _days_of_many_rows(filled[i])}
     if len(standing) == len(dates) and not (counting or _parts_go_on(names, data)):
         standing = set()

@@ -9,7 +9,7 @@ from thermodata.plugin import Array
 from thermodata.reader.since import PTP
 from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.preamble.epoch_said import epoch_said
-from thermodata.reader.time_units import EPOCHS, known_unit
+from thermodata.reader.time_units import EPOCHS, found_epoch, known_unit
 
 
 def counted_from(
@@ -30,6 +30,8 @@ def counted_from(
         if stated.scale == PTP and (asked := scale_question(name, values, where, hint=PTP)) is not None:
             raise asked
         full = stated.fitting(known, values)
+        if full is not None and stated.zero is not None and (found_epoch(values) or '').startswith('unix'):
+            full = None  # counts as large as those since 1970 would be of 2031 or later
         return full, [stated.not_used() if full is None else stated.note(full, "what the file says")]
     return None, []
 

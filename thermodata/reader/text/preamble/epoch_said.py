@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from thermodata.plugin import Array
 from thermodata.reader.since import Zero, leaping, moment_in, since
 from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
@@ -18,6 +19,7 @@ _LABEL = re.compile(
     r"(?P<value>\S.*)$"
 )
 _SCALE = re.compile(r"(?i)^(?P<scale>gps|tai|ntp|unix|posix|labview)\b")
+_FROM_START_S = 2.8e8
 _PLAIN = frozenset({"s", "min", "h", "d", "ms", "us", "ns"})
 _BEHIND = {"s": "", "ms": "_ms", "us": "_us", "ns": "_ns"}
 
@@ -46,7 +48,8 @@ class SaidEpoch:
         seconds, or else in the only one in which they are."""
         tried = [unit] if unit is not None or self.unit is not None else ["s", *sorted(_PLAIN - {"s"})]
         found = [full for one in tried if (full := self.of(one)) is not None and is_logged(values, full)]
-        return found[0] if len(found) == 1 or (found and found[0] == self.of("s")) else None
+        large = bool(values.size) and float(np.nanmin(values)) > _FROM_START_S
+        return found[0] if len(found) == 1 or (found and large and found[0] == self.of("s")) else None
 
     def note(self, unit: str, by: str = "a line above the rows") -> str:
         return f"times count from a date by {by}: '{self.line[:60]}' ({unit})"

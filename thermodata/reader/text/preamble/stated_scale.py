@@ -68,7 +68,7 @@ def line_that_applies(stated: Sequence[Stated], name: str, unit: str | None) -> 
     offsets = [s.number for s in stated if s.kind == "offset"]
     if len(factors) > 1 or len(offsets) > 1:
         return "a calibration of kind linear, with what holds of them"
-    own = with_power_of_ten(abs(factors[0]), unit or "?") if factors and not offsets else None
+    own = with_power_of_ten(factors[0], unit or "?") if factors and not offsets else None
     if own is not None:
         return f'unit: "{own}"' + (f", instead_of: {unit}" if unit else "")
     gain = f", gain: {factors[0]:g}" if factors else ""

@@ -66,9 +66,9 @@ def _since_midnight(unit_ns: int, cell: str) -> int:
 
 def columns_of_clock(day: int, names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[int, ...]:
     """The columns behind a date that are called hour, minute and second and hold such numbers."""
-    behind = [r[day + 1] for r in data] if day + 1 < len(names) and since_midnight(names[day + 1]) else []
-    if behind and clock_of_numbers(names[day + 1], behind) is not None:
-        return (day + 1,)
+    of_day = next((i for i, name in enumerate(names) if i != day and since_midnight(name) is not None), None)
+    if of_day is not None and clock_of_numbers(names[of_day], [r[of_day] for r in data]) is not None:
+        return (of_day,)
     found: tuple[int, ...] = ()
     for letter, place in zip("HMS", range(day + 1, len(names)), strict=False):
         word = split_unit(names[place])[0].strip(" #.:_").casefold()

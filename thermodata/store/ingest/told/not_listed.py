@@ -13,6 +13,7 @@ from thermodata.schema.listed import with_count
 from thermodata.schema.tests_from import pattern_of
 
 _NAMED = 4
+_AROUND = re.compile(r"[\w./-]")
 _NO_ID = re.compile(r"[\x00-\x1f\\{}*?\[\]]")
 
 
@@ -27,7 +28,8 @@ def not_listed(folder: Path, path: Path, campaign: Campaign, listed: Collection[
         if file not in of_jumps and file not in listed and test.lower() not in known:
             tests.setdefault(test, []).append(file)
     comments = _comments(path) if tests else ""
-    new = {t: files for t, files in tests.items() if not _is_left_out(t, files, comments)}
+    out = {found.strip() for found in re.findall(r"\bid: *['\"]?([^'\",}\n]+)", comments)}
+    new = {t: files for t, files in tests.items() if t not in out and not _is_left_out(files, comments)}
     if not new:
         return []
     files = with_count([f for own in new.values() for f in own], _NAMED)
@@ -68,10 +70,18 @@ def _comments(path: Path) -> str:
     return "\n".join(line for line in text.splitlines() if line.lstrip().startswith("#"))
 
 
-def _is_left_out(test: str, files: Collection[str], comments: str) -> bool:
-    """Whether the comments name one of the files, or hold the line of the test."""
-    named = "|".join(rf"(?<![\w./-]){re.escape(f)}" for f in files)
-    return re.search(rf"(?:{named}|\bid: *['\"]?{re.escape(test)})(?!\w)", comments) is not None
+def _is_left_out(files: Collection[str], comments: str) -> bool:
+    """Whether the comments name one of the files."""
+    return any(_stands_in(f, comments) for f in files)
+
+
+def _stands_in(name: str, text: str) -> bool:
+    at = text.find(name)
+    while at >= 0:
+        if not _AROUND.search(text[max(at - 1, 0) : at]) and not re.match(r"\w", text[at + len(name) : at + len(name) + 1]):
+            return True
+        at = text.find(name, at + 1)
+    return False
 
 
 def _line(test: str) -> str:

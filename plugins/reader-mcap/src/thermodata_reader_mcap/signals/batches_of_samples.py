@@ -168,7 +168,7 @@ def _without(message: Any, taken: set[Keys], inside: Keys = ()) -> dict[str, Any
     made = dict[str, Any]()
     for key, value in message.items():
         keys = (*inside, str(key))
-        if keys in taken:
+        if keys in taken or value == []:
             continue
         left = _without(value, taken, keys) if isinstance(value, Mapping) else value
         if left != {} or value == {}:

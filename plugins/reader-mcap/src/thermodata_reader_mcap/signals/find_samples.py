@@ -58,14 +58,17 @@ def find_samples(batches: Mapping[Channel, Batch]) -> tuple[dict[str, tuple[Samp
 
 def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
     """Each clock with the arrays that are nearest to it; () where nearly all messages don't hold samples."""
-    arrays = list(dict.fromkeys(keys for m in messages[:_FORMS] for keys, _ in arrays_in(m)))
+    arrays = list(dict.fromkeys(keys for m in messages for keys, _ in arrays_in(m)))
     objects = list(dict.fromkeys(keys for m in messages[:_FORMS] for keys in _objects(m)))
-    clocks: list[Samples] = []
+    timed: dict[Keys, Samples] = {}
     for inside in objects:
         listed = [a for a in arrays if calls_times(a) and _around(a) == inside]
         one = next((c for c in (_of_times(t, arrays, messages) for t in listed) if c is not None), None)
-        one = one or _of_steps(inside, arrays, messages)
-        clocks += [] if one is None else [one]
+        timed |= {} if one is None else {inside: one}
+    own = {k for o, one in timed.items() for k in (one.time, *one.arrays) if o and k[: len(o)] == o}
+    rest = [a for a in arrays if a not in own]  # of which a step may be
+    found = (timed.get(inside) or _of_steps(inside, rest, messages) for inside in objects)
+    clocks = [one for one in found if one is not None]
     times = {c.time for c in clocks}
     made: list[Samples] = []
     for one in clocks:
@@ -112,7 +115,7 @@ def _of_times(time: Keys, arrays: Sequence[Keys], messages: Sequence[Any]) -> Sa
 
 def _as_long(array: Keys, dated: Sequence[tuple[Any, Int1D]]) -> bool:
     """Whether nearly all messages that hold an array hold as many values in it as times."""
-    lengths = [(len(v), t.size) for m, t in dated if isinstance(v := at(m, array), list)]
+    lengths = [(len(v), t.size) for m, t in dated if isinstance(v := at(m, array), list) and v]
     return bool(lengths) and sum(a == b for a, b in lengths) >= _MOSTLY * len(lengths)
 
 
