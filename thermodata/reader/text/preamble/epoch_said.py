@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+
 from thermodata.plugin import Array
 from thermodata.reader.since import Zero, leaping, moment_in, since
 from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged

@@ -76,9 +76,11 @@ def _is_left_out(files: Collection[str], comments: str) -> bool:
 
 
 def _stands_in(name: str, text: str) -> bool:
+    """Whether it does as a word of its own."""
     at = text.find(name)
     while at >= 0:
-        if not _AROUND.search(text[max(at - 1, 0) : at]) and not re.match(r"\w", text[at + len(name) : at + len(name) + 1]):
+        before, after = text[max(at - 1, 0) : at], text[at + len(name) : at + len(name) + 1]
+        if not _AROUND.search(before) and not re.match(r"\w", after):
             return True
         at = text.find(name, at + 1)
     return False

@@ -65,8 +65,8 @@ def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
         listed = [a for a in arrays if calls_times(a) and _around(a) == inside]
         one = next((c for c in (_of_times(t, arrays, messages) for t in listed) if c is not None), None)
         timed |= {} if one is None else {inside: one}
-    own = {k for o, one in timed.items() for k in (one.time, *one.arrays) if o and k[: len(o)] == o}
-    rest = [a for a in arrays if a not in own]  # of which a step may be
+    taken = {k for o, one in timed.items() for k in (one.time, *one.arrays) if o and k[: len(o)] == o}
+    rest = [a for a in arrays if a not in taken]  # of which a step may be
     found = (timed.get(inside) or _of_steps(inside, rest, messages) for inside in objects)
     clocks = [one for one in found if one is not None]
     times = {c.time for c in clocks}
