@@ -133,14 +133,9 @@ def ask(name: str, case: int, program: str) -> Asked:
 
 
 def with_all(lab: Lab, model: str, claims: Sequence[str]) -> tuple[str, float | None, float | None]:
-    """(the model with all claims of its diagnosis, its locked errors without and with all of them). The first one that
-    is added tells both: the lock was opened once for all, and versions between have no diagnosis of their own."""
-    errors = []
-    for claim in claims:
-        added = lab.ask("add", model, claim)
-        model = added["model"]
-        errors.append((added["locked_rmse_um_before"], added["locked_rmse_um_after"]))
-    return model, *errors[0]
+    """(the model with all claims of its diagnosis, its locked errors without and with all of them)."""
+    added = lab.ask("add", model, *claims)
+    return added["model"], added["locked_rmse_um_before"], added["locked_rmse_um_after"]
 
 
 def worth(lab: Lab, model: str, hidden: Sequence[Truth]) -> float | None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -294,8 +295,44 @@ def test_a_candidate_goes_by_its_rank(store: Store, spec: Spec) -> None:
     several = add(store, parent.model, "1", "feed_screw:T_nut", EffectSpec(effect="ambient_frame"), plain=True)
     assert several.added == ["coolant", "feed_screw", "ambient_frame"]
     assert several.parent == parent.model
+    with pytest.raises(UsageError, match="nothing is named to add"):
+        add(store, parent.model)
     with pytest.raises(UsageError, match="'coolant:coolant_on' is named twice"):
         add(store, parent.model, 1, "coolant:coolant_on")
+
+
+def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(store: Store, spec: Spec) -> None:
+    parent = run.fit(store, spec("spindle_bearing", name="several"))
+    figures: dict[str, Any] = {
+        "p_value": 0.01,
+        "rmse_um_before": 5.0,
+        "rmse_um_after": 3.0,
+        "fit_before": 50.0,
+        "fit_after": 70.0,
+    }
+    locked = {"locked_rmse_um_before": 1.67, "locked_rmse_um_after": 0.53}
+    claims = [
+        Candidate(
+            rank=k,
+            id=f"{effect}:{channel}",
+            effect=effect,
+            family=effect,
+            drivers=[channel],
+            claimed=True,
+            **figures,
+            **locked,
+        )
+        for k, (effect, channel) in enumerate([("coolant", "coolant_on"), ("feed_screw", "T_nut")], start=1)
+    ]
+    version = run.load(store, parent.model).data.data_version
+    found = Diagnosis(
+        model=parent.model, response="dZ", verdict="effect", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
+        candidates=claims, artefacts=[], data_version=version,
+    )  # fmt: skip
+    save_diagnosis(store, parent.model, found)
+    assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
+    both = add(store, parent.model, 1, 2, plain=True)
+    assert (both.locked_rmse_um_before, both.locked_rmse_um_after) == (1.67, 0.53)
 
 
 def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None:

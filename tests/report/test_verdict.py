@@ -676,3 +676,8 @@ def test_the_error_as_fitted_is_told_once_and_levels_that_make_little_of_it_are_
     text = verdict_sentence(seen)
     assert text.count("as it is fitted the model leaves") == errors
     assert text.count("counts them as switched on there: 2.2 um of error, 0.24 um had they run before") == levels
+
+
+def test_what_is_called_the_likeliest_is_though_what_the_locked_tests_refused_stands_first() -> None:
+    text = verdict_sentence(found("unknown", [one("axis", probability=0.55), one("part", probability=0.6)]))
+    assert "the likeliest that was logged is part (T), probability 60 %" in text

@@ -54,12 +54,10 @@ def test_each_case_of_one_cause_stands_in_one_row(outside: Any, worth: float | N
     assert [name for name, counts in outside.SORTS.items() if counts({"kind": "one", "worth": worth})] == [sort]
 
 
-def test_of_several_claims_added_one_after_the_other_the_locked_error_is_that_with_all(
-    outside: Any, tmp_path: Path
-) -> None:
+def test_all_claims_are_added_at_once_and_the_locked_error_is_that_with_all(outside: Any, tmp_path: Path) -> None:
     program = tmp_path / "program"
-    first = '{"model": "b", "locked_rmse_um_before": 4.0, "locked_rmse_um_after": 1.0}'
-    second = '{"model": "c", "locked_rmse_um_before": null, "locked_rmse_um_after": null}'
-    program.write_text(f"#!/bin/sh\nif [ $2 = a ]; then echo '{first}'; else echo '{second}'; fi\n")
+    answer = '{"model": "b", "locked_rmse_um_before": 4.0, "locked_rmse_um_after": 1.0}'
+    program.write_text(f"#!/bin/sh\necho $* > {tmp_path}/asked\necho '{answer}'\n")
     program.chmod(0o755)
-    assert outside.with_all(outside.Lab(tmp_path, str(program)), "a", ["one", "two"]) == ("c", 4.0, 1.0)
+    assert outside.with_all(outside.Lab(tmp_path, str(program)), "a", ["one", "two"]) == ("b", 4.0, 1.0)
+    assert (tmp_path / "asked").read_text().startswith("add a one two ")

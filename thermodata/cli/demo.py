@@ -226,9 +226,7 @@ def _with_claims(step: Step, store: Store, base: FitResult, claims: Sequence[Can
     from thermodata.modelling.add import add
     from thermodata.modelling.compare.common import on_common
 
-    better = base
-    for claim in claims:
-        better = add(store, better.model, claim.id)
+    better = add(store, base.model, *(c.id for c in claims))
     before, after = (pooled(some, responses=base.responses) for some in on_common([base.scores, better.scores]))
     step.line(
         f"open tests, which are all fitted by now {number(before)} -> {number(after)} um ({change(before, after)})"

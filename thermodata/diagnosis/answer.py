@@ -240,7 +240,7 @@ def _diagnosis(
             problem,
             investigation.spots,
             likely,
-            plausible or nearest([s for s, _ in shown[:1]], problem),
+            plausible or nearest([s for s, _ in shown[:1] if s is head], problem),
             doubt_of_heat(
                 alone.left if alone is not None else np.inf,
                 investigation.measure,

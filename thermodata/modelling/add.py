@@ -30,6 +30,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
 
     parent = find_model(store, ref)
     old = load(store, parent.model, anew=True)
+    if not candidates:
+        raise UsageError("nothing is named to add", expected="a rank or id of the diagnosis, or 'effect:channels'")
     grown, names = parent.spec, list[str]()
     for candidate in candidates:
         if isinstance(candidate, EffectSpec):
@@ -44,7 +46,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     # what was found before the data changed may be mended
     found = load_diagnosis(store, parent.model)
     by_it = found if found is not None and any(c.id in names for c in found.candidates) else None
-    diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data)
+    scored = {(s.campaign, s.test) for s in before}
+    diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data, scored)
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
     if not plain:
         refined = with_second_lags(grown, old.data)
@@ -55,10 +58,11 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
     notes = [*notes, *since, *filter(None, [note_of_response(list(named), old.data.channels)])]
     result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
-    claims = [c for c in diagnosis.candidates if c.claimed and c.id in names] if diagnosis is not None else []
-    if diagnosis is None or not claims or diagnosis.data_version != old.data.data_version:
+    claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
+    all_taken = bool(claims) and {c.id for c in claims} <= set(names)
+    if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:
         return result
-    # the lock was opened when it was claimed, on these data: what that gave is told, and nothing is opened again
+    # the lock was opened for all claims together, on these data: what that gave is told, and nothing is opened again
     asked = {f"locked_rmse_um_{when}": getattr(claims[0], f"locked_rmse_um_{when}") for when in ("before", "after")}
     return result.model_copy(update=asked)
 

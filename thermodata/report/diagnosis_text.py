@@ -61,7 +61,7 @@ def _rises_in(result: Confirmed) -> str:
 _RISES = 1.02  # less is no rise, as of all tests together (thermodata/diagnosis/locked/held.py)
 BOTH_WITH = (
     "both with: the model has these effects too, before and after. Each row is fitted anew, its samples weighed by the "
-    "noise that its own effects leave, so that errors before differ a little between rows beside the same effects"
+    "noise that its own effects leave, so that errors before differ between rows, and may exceed the model's own"
 )
 AS_MODELLED = (
     "before and after are of the model as it stands, one lag an effect; in the other rows its effects may act otherwise"

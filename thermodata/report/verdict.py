@@ -224,7 +224,8 @@ def _how_sure(one: Candidate) -> str:
 
 def _unclaimed(found: Diagnosis) -> str:
     """What is missing has no name; the likeliest candidate is told with it, for it stands below."""
-    first = next((c for c in found.candidates if c.probability is not None and not c.refinement), None)
+    some = [c for c in found.candidates if c.probability is not None and not c.refinement]
+    first = max(some, key=lambda c: c.probability or 0.0, default=None)
     far, share = _far_on_locked(found, found.locked_rmse_um), 0.0 if first is None else first.probability or 0.0
     far += " from their first samples on" if far and found.locked_shape_um is not None else ""
     seen = f" on the locked tests, which an earlier claim left with {far}" if far else ""

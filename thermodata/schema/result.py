@@ -111,8 +111,8 @@ class FitResult(Result):
     added: of add: ids of the effects that the parent has not; a second lag of an effect is one of its own
     notes: in sentences: temperatures that are read in coarse steps and drawn through them; rows of a prediction file
         without a value; of add: which second lags were taken in and why
-    locked_rmse_um_before: of add: the error on the locked tests without what the parent's diagnosis claims, where the
-        effect is claimed; null where none was asked
+    locked_rmse_um_before: of add: the error on the locked tests without what the parent's diagnosis claims, where all
+        of that is added; null where it is not, or none was asked
     locked_rmse_um_after: the same with all that it claims
     lost: of add and remove: what the parent predicts and this version does not; an error before and one after are
         comparable over the tests of both only

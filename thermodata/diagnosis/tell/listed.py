@@ -47,7 +47,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
                 others.append((s, None))
     # what lets no error fall gives nothing, and stands by what is known of it otherwise
     others.sort(key=lambda item: (-explained(beside_the_model(item[0], investigation)[0]), -probability(item[0])))
-    chosen = bool(judgement.judged)
+    chosen = any(not j.scored.as_modelled for j in judgement.judged)
     head = likeliest([*order, *others], investigation.measure, investigation.problem.unit, chosen=chosen)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
@@ -75,7 +75,7 @@ def with_probability(shown: Sequence[Row], investigation: Investigation, judgeme
     that keep all other rules, each where it was judged beside what was chosen. What a claim may explain is judged
     beside it, or not at all, and may be another mode of it where its probability would do."""
     heads = [s for s, m in shown if among(m, judgement.claims) or among(m, judgement.refused)]
-    chosen = bool(judgement.judged)
+    chosen = any(not j.scored.as_modelled for j in judgement.judged)
     told = stated(shown, investigation.measure, investigation.problem.unit, chosen=chosen)
     if heads:
         judged = [j.scored for j in judgement.judged]
@@ -187,17 +187,18 @@ def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, b
         return s, True
     if (told := investigation.told.get(id(s.columns))) is not None:
         return told
-    ranked = investigation.selection.first.ranked if investigation.selection is not None else ()
-    alone = next((f for f in ranked if f.columns is s.columns and len(f.rows)), None)
-    if alone is None:
-        return s, False
-    if not len(s.rows):
+    first = investigation.selection.first.ranked if investigation.selection is not None else ()
+    ranked = [f for f in first if len(f.rows)]
+    alone = next((f for f in ranked if f.columns is s.columns), None)
+    if alone is not None and not len(s.rows):
         return alone, True
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
     judged = investigation.judgement.judged
-    if len(judged) == 1 and judged[0].scored.columns is s.columns:
-        s = replace(s, sse_before=alone.sse_before)
+    if ranked and (judged or not s.others) and all(j.scored.columns is s.columns for j in judged):
+        s = replace(s, sse_before=ranked[0].sse_before)
+    if alone is None:
+        return s, False
     return (alone, True) if fall(alone) >= fall(s) else (s, False)
 
 

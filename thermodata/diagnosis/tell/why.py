@@ -104,17 +104,19 @@ def why(
         return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
         return f"{numbers}; not claimed: {would_be_a_mode(s.candidate)}"
-    if is_judged_beside(s, member, chosen=bool(judgement.judged)):
+    names = [j.scored.candidate.id for j in judgement.judged if not j.scored.as_modelled]
+    if is_judged_beside(s, member, chosen=bool(names)):
         failed += [why for why in [blunt(s)] if why]
     if failed:
         asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
         return f"{numbers}; not claimed: {failed[0]}" + (f"; {on_locked(s.looked)}" if asked and s.looked else "")
+    heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
+    leaves_less = all(_left_out(s)[1] < _left_out(head)[1] for head in heads)
+    if leaves_less and not is_judged_beside(s, member, chosen=bool(names)):
+        were = "was" if len(names) == 1 else "were"
+        return f"{numbers}; not claimed: it keeps the rules by itself, and {listed(names)} {were} chosen without it"
     if judgement.claims:
         return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
-    if not judgement.refused and not is_judged_beside(s, member, chosen=bool(judgement.judged)):
-        chosen = listed([j.scored.candidate.id for j in judgement.judged])
-        were = "was" if len(judgement.judged) == 1 else "were"
-        return f"{numbers}; not claimed: it keeps the rules by itself, and {chosen} {were} chosen without it"
     if judgement.refused:
         first = judgement.refused[0].scored.candidate.id
         return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"

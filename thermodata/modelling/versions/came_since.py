@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
@@ -28,14 +29,16 @@ def as_chosen(stored: StoredModel, data: Dataset) -> Model:
     return spec.model_copy(update={"in_sample_on": list(dict.fromkeys([*(spec.in_sample_on or ()), *took_part]))})
 
 
-def unasked(stored: StoredModel, diagnosis: Diagnosis | None, data: Dataset) -> list[str]:
+def unasked(
+    stored: StoredModel, diagnosis: Diagnosis | None, data: Dataset, scored: Collection[tuple[str, str]]
+) -> list[str]:
     """A note that names the verification tests that came after a diagnosis of a model, and are fitted with what is
     chosen by it; none where it was asked of all of them."""
     if diagnosis is None or diagnosis.data_version == data.data_version:
         return []
     asked = {(one.campaign, one.test) for c in diagnosis.candidates for one in c.left_out}
     known = {*asked, *((s.campaign, s.test) for s in stored.result.scores)}
-    new = ["/".join(key) for key in resolve_roles(stored.spec, data).verify if key not in known]
+    new = ["/".join(key) for key in resolve_roles(stored.spec, data).verify if key in scored and key not in known]
     if not asked or not new:
         return []
     it, verify = ("they are", "verify") if len(new) > 1 else ("it is", "verifies")

@@ -49,12 +49,17 @@ class SecondLag:
     tests: int
 
     def __str__(self) -> str:
-        first, second = self.tau
+        first, second = map(_short, self.tau)
         return (
-            f"{self.id} is a second lag of {self.of}, of {second:.3g} beside {first:.3g} {self.tau_unit}: error on "
+            f"{self.id} is a second lag of {self.of}, of {second} beside {first} {self.tau_unit}: error on "
             f"left-out tests {self.before:.3g} -> {self.after:.3g} {self.unit}, smaller in {self.better} of "
             f"{self.tests}"
         )
+
+
+def _short(value: float) -> str:
+    """Three digits, and whole numbers beyond."""
+    return f"{value:.0f}" if value >= 1000 else f"{value:.3g}"
 
 
 @dataclass(frozen=True, slots=True)
