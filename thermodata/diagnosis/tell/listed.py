@@ -109,6 +109,7 @@ def candidate(
     held = confirmation if claimed else None
     shape = held.on(held.asked) if held else _added(s) if refining else None
     told, of_model = beside_the_model(s, investigation)
+    told_of = any(s is one for one in told_with)
     by_name = goes_by_name(s, told_with) if member is None else None
     mode = reads_as(s, [j.scored for j in judgement.refinements]) if member is None else None
     twins = [t.candidate for t in equivalents(_as_ranked(s, beside), beside)]
@@ -123,7 +124,7 @@ def candidate(
         claimed=claimed,
         refinement=refining,
         # measured for what is sound; nothing is known of the share of the others
-        probability=probability(s) if any(s is one for one in told_with) else None,
+        probability=probability(s) if told_of else None,
         # chance was asked beside effects that may act otherwise
         p_value=None if s.as_modelled else p_value(s.evidence, measure.chance),
         rmse_um_before=rmse(told.sse_before, told),
@@ -139,7 +140,7 @@ def candidate(
         parameters=held.parameters.get(s.candidate.id, {}) if held else {},
         beside=[] if of_model else _beside(s, told, member, investigation, judgement),
         equivalent=[t.id for t in twins],
-        unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads else [],
+        unread=_unread(s, [*twins, *(j.scored.candidate for j in judgement.claims)], data) if heads or told_of else [],
         also_on=dict(s.also_on),
         why=why(s, member, investigation, judgement, held, told, by_name or mode, of_model=of_model),
         evidence=float(s.evidence) if np.isfinite(s.evidence) and not s.as_modelled else None,
