@@ -71,3 +71,26 @@ def test_a_file_is_of_the_test_that_the_pattern_which_says_most_names(
     said = not_listed(tmp_path, path, load_campaign(path), {"a.csv", "a_NC.csv"})
     rest = ", with its role and the conditions that all others have (tool)"
     assert [s.rpartition("under tests: ")[2] for s in said] == ([] if lines is None else [lines + rest])
+
+
+@pytest.mark.parametrize(
+    ("comment", "told"),
+    [
+        ("# run1.csv: the probe fell off", False),
+        ("# left out: run1.csv, run2.csv", False),
+        ("# see run1.csv.", False),
+        ("# xrun1.csv", True),
+        ("# run1.csvx", True),
+        ("# old/run1.csv", True),
+        ("# xrun1.csv, and run1.csv too", False),
+        ("# - {id: run1, role: none}", False),
+        ("# - {id: 'run1'}", False),
+        ("# - {id: run10, role: none}", True),
+        ("# - {id: xrun1, role: none}", True),
+    ],
+)
+def test_a_comment_leaves_out_what_it_names_as_a_word_of_its_own(tmp_path: Path, comment: str, told: bool) -> None:
+    path = tmp_path / "campaign.yaml"
+    path.write_text(TEXT + comment + "\n", encoding="utf-8")
+    (tmp_path / "run1.csv").touch()
+    assert bool(not_listed(tmp_path, path, load_campaign(path), {})) is told

@@ -109,6 +109,25 @@ def test_a_unit_that_changes_from_row_to_row_is_one(tmp_path: Path, kind: str, n
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet", "xlsx"])
+def test_a_column_of_whole_numbers_is_converted_in_the_series_that_changes_its_unit_alone(
+    tmp_path: Path, kind: str
+) -> None:
+    rows = [
+        [stamp(10 * k), *own]
+        for k in range(N)
+        for own in (["A", *((20, "degC") if k < N // 2 + 10 else (68, "degF"))], ["B", k, "um"])
+    ]
+    data = load(Reader(), _as(tmp_path, kind, ["when", "what", "val", "unit"], rows), UTC)
+    assert {s.name: s.unit for s in data.recording.signals if s.name.endswith("val")} == {
+        "A/val": "degC",
+        "B/val": "um",
+    }
+    np.testing.assert_allclose(values(data)["A/val"], [20.0] * N)
+    assert values(data)["B/val"] == list(range(N))
+    assert not data.losses
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet", "xlsx"])
 @pytest.mark.parametrize("named", [True, False])
 def test_rows_in_a_unit_of_another_kind_are_lost_and_no_others(tmp_path: Path, kind: str, named: bool) -> None:
     rows = [
