@@ -258,3 +258,25 @@ def test_a_line_that_applies_a_factor_and_an_offset_gives_the_readings(tmp_path:
     assert say("--store", tmp_path / "store", "ingest", path).code == 0
     read = say("--store", tmp_path / "store", "sql", "--csv", "select value from sample where channel='T_front'").out
     assert np.allclose([float(x) for x in read.split()[1:]], WARM, atol=0.006)
+
+
+TURNED = "calibrations:\n  scale_dZ: {kind: linear, gain: -0.1}\n"
+
+
+@pytest.mark.parametrize(
+    ("answer", "more", "lost"),
+    [
+        ({}, "", True),
+        ({"unit": '"0.1 um"', "instead_of": "um"}, "", True),  # which turns no sign
+        ({"calibration": "scale_dZ"}, TURNED, False),
+        ({"scaled": "true"}, "", False),
+    ],
+)
+def test_a_factor_below_zero_is_proposed_with_its_sign_and_open_until_it_is_applied(
+    tmp_path: Path, say: Say, answer: dict[str, str], more: str, lost: bool
+) -> None:
+    _mat(tmp_path, dZ_gain=-0.1)
+    said = say("--store", tmp_path / "store", "ingest", _by_hand(tmp_path, "mat", more, **answer))
+    told = said.out + said.err
+    assert (said.code, "'dZ_gain = -0.1', which the campaign file leaves open" in told) == (3 * lost, lost)
+    assert ("{kind: linear, gain: -0.1}" in told) is lost

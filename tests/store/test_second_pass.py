@@ -42,10 +42,14 @@ def written(path: Path, first: datetime, minutes: int, name: str, zone: str = ""
         path.write_text(f"time;{name}\n" + "".join(f"{t:%Y-%m-%d %H:%M:%S}{zone};{v}\n" for t, v in rows))
 
 
-def made(folder: Path, *, reader: str = "table", ext: str = "csv", more: str = "", start: str = "") -> IngestSummary:
+def made(
+    folder: Path, *, reader: str = "table", ext: str = "csv", more: str = "", start: str = "", beside: str = ""
+) -> IngestSummary:
+    """more, beside: what the sources nc and daq declare besides."""
     text = CAMPAIGN.format(reader=reader, ext=ext, more=more, start=start)
     if any(folder.glob("daq_*")):
-        text = text.replace("\nchannels:", BESIDE[0]).replace("\ntests:", BESIDE[1])
+        daq = BESIDE[0].replace('.csv"', f'.csv"{beside}')
+        text = text.replace("\nchannels:", daq).replace("\ntests:", BESIDE[1])
     (folder / "campaign.yaml").write_text(text)
     return ingest(Store(folder / "s.store", create=True), folder / "campaign.yaml")
 
@@ -154,3 +158,20 @@ def test_a_clock_that_was_right_once_it_was_set_is_told_by_a_log_that_ran_with_i
     assert bool(said) is told
     assert all("clock: {resets: allow, offset: -3600 s}" in s for s in said)
     assert first_of(tmp_path, "T_m") == datetime(2026, 10, 26, 5 if "-3600" in clock else 6)
+
+
+@pytest.mark.parametrize(
+    ("began", "beside", "told"),
+    [
+        (datetime(2026, 10, 26, 5), ", clock: {offset: 1 h}", False),  # a log of a slow clock, which ran with it
+        (datetime(2026, 10, 26, 6), ", clock: {offset: -1 h}", True),
+        (datetime(2026, 10, 26, 5), ", clock: {align_to: nc, by: [{here: T_f, there: T_m}]}", False),  # it follows
+    ],
+)
+def test_a_log_tells_it_by_the_clock_that_is_declared_of_it(
+    tmp_path: Path, began: datetime, beside: str, told: bool
+) -> None:
+    set_back(tmp_path / "nc_a.csv", datetime(2026, 10, 26, 7), 140, 60)
+    written(tmp_path / "daq_a.csv", began, 300, "T_f", "Z")
+    summary = made(tmp_path, more=", clock: {resets: allow}", beside=beside)
+    assert any("was set back by 60 min" in str(x["reason"]) for x in summary.losses) is told

@@ -109,6 +109,50 @@ def test_a_unit_that_changes_from_row_to_row_is_one(tmp_path: Path, kind: str, n
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet", "xlsx"])
+def test_a_column_of_whole_numbers_is_converted_in_the_series_that_changes_its_unit_alone(
+    tmp_path: Path, kind: str
+) -> None:
+    rows = [
+        [stamp(10 * k), *own]
+        for k in range(N)
+        for own in (["A", *((20, "degC") if k < N // 2 + 10 else (68, "degF"))], ["B", k, "um"])
+    ]
+    data = load(Reader(), _as(tmp_path, kind, ["when", "what", "val", "unit"], rows), UTC)
+    assert {s.name: s.unit for s in data.recording.signals if s.name.endswith("val")} == {
+        "A/val": "degC",
+        "B/val": "um",
+    }
+    np.testing.assert_allclose(values(data)["A/val"], [20.0] * N)
+    assert values(data)["B/val"] == list(range(N))
+    assert not data.losses
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "told"),
+    [
+        (("20,degC", "68,degF"), ("3,um", "3,um"), ["'A/unit' says the unit of 'A/val' row by row: 'degF' is conv"]),
+        (("20,degC", "20,degC"), ("3,bar", "3,bar"), []),
+        (("20,degC", "20,degC"), ("68,degF", "68,degF"), []),  # each keeps its own
+    ],
+)
+def test_of_units_that_the_series_take_nothing_is_told_of_the_whole_column(
+    tmp_path: Path, a: tuple[str, str], b: tuple[str, str], told: list[str]
+) -> None:
+    rows = [f"{stamp(10 * k)},{name},{own[k > 40]}" for k in range(N) for name, own in (("A", a), ("B", b))]
+    notes = read(tmp_path / "a.csv", "when,what,val,unit", rows).recording.notes
+    said = [n for n in notes if "unit" in n]
+    assert len(said) == len(told)
+    assert all(n.startswith(t) for n, t in zip(said, told, strict=True))
+
+
+def test_units_of_several_numbers_are_told_of_series_too(tmp_path: Path) -> None:
+    units = ("degC", "bar")
+    rows = [f"{stamp(10 * k)},S{d},{20 + k / 8},{3 + k / 9},{units[d]}" for k in range(N) for d in (0, 1)]
+    notes = read(tmp_path / "a.csv", "when,what,one,two,unit", rows).recording.notes
+    assert any("'unit' says several units (degC, bar), which are not converted" in n for n in notes)
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet", "xlsx"])
 @pytest.mark.parametrize("named", [True, False])
 def test_rows_in_a_unit_of_another_kind_are_lost_and_no_others(tmp_path: Path, kind: str, named: bool) -> None:
     rows = [

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from thermodata.schema.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
+from thermodata.store.ingest.known.files_taken_out import keep_files
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, same
 from thermodata.store.ingest.known.looks_of_gone import count_on, keep_looks, keep_looks_at_changed
 from thermodata.store.ingest.known.mark_stale import is_fitted, mark_stale
@@ -103,6 +104,7 @@ def commit(
     before, after = {*inventory.rows["test"]}, {*planned.rows["test"]}
     # what models said of a test that was taken out stays, as their fits do: it may come back
     keep_looks(con, campaign, before - after)
+    keep_files(con, campaign, before - after, after)
     stay = differing["file"] & before & after
     keep_looks_at_changed(con, campaign, planned.rows, stay)
     for table in BY_TEST:

@@ -17,6 +17,7 @@ from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.catalogue_rows import calibration_row
 from thermodata.store.ingest.commit import Planned, VanishedError, changes, commit, nothing_new, parts_of
+from thermodata.store.ingest.known.files_taken_out import files_taken_out
 from thermodata.store.ingest.known.inventory import Inventory, Row, generation_of, read_inventory
 from thermodata.store.ingest.known.left_alone import LeftAlone, OtherwiseError, TestNote, left_alone
 from thermodata.store.ingest.known.unchanged import Seen, differing, keep, known_files, noted, of_tests, summary_of
@@ -106,10 +107,10 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
     files.survey()
     files_of_tests = files.of_tests()  # of all, before they are narrowed to those that are looked at
     listed = {file for own in files_of_tests.values() for file in own}
-    unlisted = not_listed(files.folder, path, campaign, listed) if given is None else []
     earlier = _look_back(files, path.absolute(), store.mark(), noted_by_path=given is None)
     if (told := earlier.answer) is not None:
-        return replace(told, notes=[*told.notes, *unlisted], seconds=time.monotonic() - began)
+        notes_now = _not_listed(store, files, path, listed)
+        return replace(told, notes=[*told.notes, *notes_now], seconds=time.monotonic() - began)
     lines = {} if every_test else earlier.lines
     left = left_alone(lines, files.tests_with(earlier.differs))
     with store.marked_reader() as (con, mark):
@@ -134,9 +135,21 @@ def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, e
         of_each = (lines[name] if name in left.tests else note.to_text() for name, note in notes.items())
         parts = parts_of(rows, "") | {part: size for note in notes.values() for part, size in note.parts.items()}
         keep(earlier.here, mark, files.hashes(), parts, again.to_json(), of_each)
-    summary.notes += unlisted  # of what stands in the folder now, so no note keeps it
+    if given is None:
+        summary.notes += _not_listed(store, files, path, listed)
     summary.seconds = time.monotonic() - began
     return summary
+
+
+def _not_listed(store: Store, files: CampaignFiles, path: Path, listed: Collection[str]) -> list[str]:
+    """Of what stands in the folder now, so that no note of an ingest keeps it. path: of the campaign file; listed: the
+    source paths of all tests."""
+
+    def taken_out_before() -> set[str]:
+        with store.reader() as con:
+            return files_taken_out(con, files.campaign.id)
+
+    return not_listed(files.folder, path, files.campaign, listed, taken_out_before)
 
 
 @dataclass(frozen=True, slots=True)

@@ -132,6 +132,7 @@ def find_table(
         kinds[layout.names.index(told_unit.of)] = "float64"
     standing, standing_note = standing_columns(said, layout, groups, kinds, cells_of, quality, where)
     above = [[line.replace("\t", " ")] if whole.blanks else whole.cells(line) for line in preamble]
+    units_told = told_unit.note() if told_unit else unit_column_note(bare, cells_of)
     begin, doubt = _begin(groups, above, body, declared_start(said), where)
     notes = [
         whole.sample.note,
@@ -144,7 +145,7 @@ def find_table(
         *shared({**quality, **of_rows}),
         *said_of_codes(own_cells, codes, quality, of_rows),
         standing_note,
-        told_unit.note() if told_unit else unit_column_note(bare, cells_of),
+        units_told,
         doubt,
         open_zone,
     ]
@@ -165,6 +166,7 @@ def find_table(
         begin=begin,
         zone=zone,
         unit=told_unit,
+        units_told=units_told,
         stands=standing,
         row_quality=of_rows,
         states=codes,

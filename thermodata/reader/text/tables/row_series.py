@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Source
-from thermodata.reader.series import Declaration, Found, find_series
+from thermodata.reader.series import Declaration, Found, Series, find_series
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk
@@ -43,7 +43,15 @@ def with_series(table: Table, source: Source) -> Table:
         lines = [line for _, part in parts for line in part]
         rows = [[clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in lines]
         refuse_long(table.layout.names, [r for r in rows if len(r) == width], table.name, table.layout.time)
-    return replace(table, series=found.series, notes=(*table.notes, *found.notes))
+    taken = found.series is not None and _takes_units(found.series)
+    own = (note for note in table.notes if not taken or note != table.units_told)
+    return replace(table, series=found.series, notes=(*own, *found.notes))
+
+
+def _takes_units(series: Series) -> bool:
+    """Whether a column of units is taken in each series that has it."""
+    columns = {said.column for said in series.units.values()}
+    return bool(columns) and all(one in series.units for one, held in series.held.items() if columns & held)
 
 
 def _parts(table: Table, most: int) -> Iterator[tuple[int, Sequence[str]]]:

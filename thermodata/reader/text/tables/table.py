@@ -84,9 +84,10 @@ class Table:
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
     parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
-    hosts are taken apart; unit: the column that holds the one of its numbers; stands: columns whose empty cells say
-    that the value before them still stands; row_quality: as quality, of whole rows whose values have one of their own
-    too; states: column of codes that are not known -> the value beside it."""
+    hosts are taken apart; unit: the column that holds the one of its numbers; units_told: the note on such a column,
+    of rows that are of no series; stands: columns whose empty cells say that the value before them still stands;
+    row_quality: as quality, of whole rows whose values have one of their own too; states: column of codes that are not
+    known -> the value beside it."""
 
     name: str
     sample: Sample
@@ -105,6 +106,7 @@ class Table:
     zone: tuple[str, str] | None = None
     series: Series | None = None
     unit: UnitColumn | None = None
+    units_told: str | None = None
     stands: frozenset[int] = frozenset()
     row_quality: Pairs = field(default_factory=dict)
     states: Mapping[str, str] = field(default_factory=dict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import glob
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
 from thermodata.schema.campaign import Campaign, JumpCalibration
@@ -17,16 +17,24 @@ _AROUND = re.compile(r"[\w./-]")
 _NO_ID = re.compile(r"[\x00-\x1f\\{}*?\[\]]")
 
 
-def not_listed(folder: Path, path: Path, campaign: Campaign, listed: Collection[str]) -> list[str]:
+def not_listed(
+    folder: Path,
+    path: Path,
+    campaign: Campaign,
+    listed: Collection[str],
+    taken_out: Callable[[], Collection[str]] = frozenset,
+) -> list[str]:
     """A note with the line that each such test needs in the campaign file; none where there is no such test, or where a
     comment of the campaign file leaves it out. folder: of the logs; path: of the campaign file; listed: the source
-    paths of all tests."""
+    paths of all tests; taken_out: those of tests that the file had, asked for where there are others."""
     of_jumps = {c.file for c in campaign.calibrations.values() if isinstance(c, JumpCalibration)}
     known = {t.id.lower() for t in campaign.tests}
     tests: dict[str, list[str]] = {}
     for file, test in _fitting(folder, campaign):
         if file not in of_jumps and file not in listed and test.lower() not in known:
             tests.setdefault(test, []).append(file)
+    meant = taken_out() if tests else ()
+    tests = {t: own for t, files in tests.items() if (own := [f for f in files if f not in meant])}
     comments = _comments(path) if tests else ""
     out = {found.strip() for found in re.findall(r"\bid: *['\"]?([^'\",}\n]+)", comments)}
     new = {t: files for t, files in tests.items() if t not in out and not _is_left_out(files, comments)}
