@@ -1,7 +1,8 @@
 """Lines above a table that say when something was: what their labels are made of, in the languages of loggers.
 
 A label says that rows began then, that something was recorded then, that a logger was switched on then, which may be
-another start than that of the rows, a bare date or time, or that a file was made then, which may be weeks later. A label with any word that is none of these says nothing of the rows: "Calibration date".
+another start than that of the rows, a bare date or time, or that a file was made then, which may be weeks later.
+A label with any word that is none of these says nothing of the rows: "Calibration date".
 """
 
 from __future__ import annotations
