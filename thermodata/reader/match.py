@@ -7,11 +7,9 @@ from difflib import get_close_matches
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
+from thermodata.reader.by_place import BY_PLACE
 from thermodata.reader.text import split_unit
 from thermodata.schema.listed import with_count
-
-BY_PLACE = "place"
-"""Of a signal's properties: what it is called by its place in an array whose elements go by names, where it had one."""
 
 
 class NoSignalError(UsageError):

@@ -187,3 +187,32 @@ def test_a_data_set_that_declares_less_than_it_holds_is_a_loss(tmp_path: Path, s
     (loss,) = write(spoilt)
     assert ("log" if spoilt == "rows" else "names") in loss
     assert "bytes and holds" in loss
+
+
+@pytest.mark.parametrize(
+    ("said", "unit"), [(b"\xb0C", "°C"), ("°C".encode(), "°C"), (b"K", "K"), (b"\xef\xbf\xbdC", None), (b"raw", None)]
+)
+def test_a_unit_beside_an_array_is_read_in_latin_1_too_and_only_where_it_is_one(
+    tmp_path: Path, said: bytes, unit: str | None
+) -> None:
+    path = tmp_path / "x.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("t", T), ("T1", WAVE)):
+            file.create_dataset(name, data=values[None, :]).attrs["MATLAB_class"] = np.bytes_("double")
+        file["T1"].attrs["units"] = np.bytes_(said)
+    (signal,) = load(Reader(), path, Source()).recording.signals
+    assert signal.unit == unit
+
+
+def test_an_attribute_that_can_not_be_read_loses_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "x.mat"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("t", T), ("T1", WAVE)):
+            item = file.create_dataset(name, data=values[None, :])
+            item.attrs["MATLAB_class"] = np.bytes_("double")
+            h5py.h5a.create(item.id, b"stamp", h5py.h5t.UNIX_D32LE, h5py.h5s.create(h5py.h5s.SCALAR))
+            item.attrs["unit"] = "s" if name == "t" else "um"
+    data = load(Reader(), path, Source())
+    assert data.losses == ()
+    assert [(s.name, s.unit) for s in data.recording.signals] == [("T1", "um")]
+    np.testing.assert_array_equal(column(data, "T1"), WAVE)

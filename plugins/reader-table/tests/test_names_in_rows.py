@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from thermodata_reader_table import Reader
 
+from tests.draft.labs import workbook
 from thermodata.errors import FormatError
-from thermodata.plugin import Source
+from thermodata.plugin import Block, Loss, Source
+from thermodata.reader.guard import described, guarded
+from thermodata.reader.match import match_signal
 
 
 def names_of(path: Path) -> list[str]:
@@ -84,3 +89,62 @@ def test_other_tables_keep_their_names(tmp_path: Path, other: str) -> None:
     path = tmp_path / "pairs.csv"
     path.write_text("\n".join([*(",".join(r) for r in rows), ""]))
     assert not {"T_front [degC]", "T_air"} & set(names_of(path))
+
+
+def later(rows: int, to: int) -> list[list[str]]:
+    """Rows of two names, the first another one from a row on."""
+    return [
+        [
+            f"2026-03-12 {8 + k // 3600:02d}:{k // 60 % 60:02d}:{k % 60:02d}",
+            "T_front" if k < to else "T_rear",
+            f"{20 + k / 1000:.3f}",
+            "T_air",
+            f"{21 + k / 1000:.3f}",
+        ]
+        for k in range(rows)
+    ]
+
+
+@pytest.mark.parametrize("quote", ["", '"'])
+def test_values_behind_another_name_are_lost_to_the_column_and_told(tmp_path: Path, quote: str) -> None:
+    path = tmp_path / "pairs.csv"
+    rows = [[r[0], f"{quote}{r[1]}{quote}", *r[2:]] for r in later(3000, 2000)]
+    path.write_text("\n".join([*(",".join(r) for r in rows), ""]))
+    reader, source = Reader(), Source(timezone="UTC")
+    read = list(guarded(reader, path, source, described(reader, path, source)))
+    front, air = (
+        np.concatenate([b.values[name] for b in read if isinstance(b, Block)]) for name in ("T_front", "T_air")
+    )
+    assert np.isfinite(front[:2000]).all()
+    assert np.isnan(front[2000:]).all()
+    assert np.isfinite(air).all()
+    losses = [x for x in read if isinstance(x, Loss)]
+    assert losses
+    assert {x.signal for x in losses} == {"T_front"}
+    assert "line 2001" in losses[0].where
+    assert "got one behind 'T_rear'" in losses[0].reason
+
+
+def test_so_are_those_of_a_workbook(tmp_path: Path) -> None:
+    path = tmp_path / "pairs.xlsx"
+    rows = [[datetime.fromisoformat(r[0]), r[1], float(r[2]), r[3], float(r[4])] for r in later(600, 400)]
+    workbook(path, {"log": rows})
+    reader, source = Reader(), Source(timezone="UTC")
+    recording = described(reader, path, source)
+    assert match_signal("column 3", recording.signals).name == "T_front"
+    read = list(guarded(reader, path, source, recording))
+    (front,) = (b.values["T_front"] for b in read if isinstance(b, Block))
+    assert np.isfinite(front[:400]).all()
+    assert np.isnan(front[400:]).all()
+    (loss,) = (x for x in read if isinstance(x, Loss))
+    assert loss.signal == "T_front"
+    assert "T_rear" in loss.reason
+    assert "row 401" in loss.where
+
+
+def test_a_column_that_is_called_by_words_goes_by_its_place_too(tmp_path: Path) -> None:
+    path = tmp_path / "pairs.csv"
+    path.write_text("\n".join([*(",".join(r) for r in pairs("both")), ""]))
+    signals = Reader().describe(path, Source()).signals
+    found = [match_signal(name, signals).name for name in ("column 3", "column 5", "T_front", "column 2")]
+    assert found == ["T_front [degC]", "T_air", "T_front [degC]", "column 2"]

@@ -120,3 +120,33 @@ def test_another_moment_above_a_counter_is_not_proposed(tmp_path: Path) -> None:
         times(path)
     assert "calibrated" not in asked.value.ask
     assert asked.value.declare == {"time": {"period": "unknown"}}
+
+
+@pytest.mark.parametrize("ext", ["csv", "xlsx"])
+@pytest.mark.parametrize(
+    "line", ["boot: 2026-02-20 06:00:00", "Neustart: 20.02.2026 06:00:00", "Test boot: 2026-02-20 06:00:00"]
+)
+def test_when_a_logger_was_switched_on_dates_no_rows_that_nobody_declares(tmp_path: Path, line: str, ext: str) -> None:
+    path = written(tmp_path, [line], {"time [min]": list(range(40))}, ext)
+    assert times(path) is None
+    notes = described(readers()["table"], path, Source()).notes
+    assert any(line in n and "not taken for the start" in n for n in notes)
+    booted = int(datetime(2026, 2, 20, 6, tzinfo=UTC).timestamp()) * 10**9
+    assert times(path, start="head") == [booted + 60 * 10**9 * k for k in range(40)]
+    assert times(path, start="none") is None
+
+
+def test_who_declines_the_moment_of_a_boot_gets_no_dates(tmp_path: Path) -> None:
+    path = written(tmp_path, ["# boot at 2026-03-09T05:47:12Z"], {"millis": [1000 * k for k in range(5, 45)]})
+    with pytest.raises(QuestionError, match="millis") as asked:
+        times(path)
+    assert "else time: {column: 1, unit: ms}" in asked.value.ask
+    assert times(path, column=1, unit="ms") is None
+
+
+def test_a_date_beside_a_boot_is_that_of_times_of_day_below(tmp_path: Path) -> None:
+    head = ["Date: 2026-03-09", "boot: 2026-02-20 06:00:00"]
+    path = written(tmp_path, head, {"time": [f"{t:%H:%M:%S}" for t in TIMES[:20]] * 2})
+    recording = described(readers()["table"], path, Source(timezone="UTC"))
+    assert any("Date: 2026-03-09" in n for n in recording.notes)
+    assert not any("boot" in n for n in recording.notes)

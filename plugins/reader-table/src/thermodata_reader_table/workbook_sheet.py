@@ -12,10 +12,12 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
+from thermodata.reader.by_place import BY_PLACE
 from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.cells.number import decimal_mark, values_of
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.zone_words import stated_zone
+from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.page.group import STREAM, Group
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.preamble.head_start import ORDERS
@@ -93,6 +95,7 @@ class Table:
         self.repeats = repeated_in_sheet(self.head, rows)
         rows = [[None] * len(row) if n in self.repeats else row for n, row in enumerate(rows)] if self.repeats else rows
         self.columns = list(zip(*rows, strict=False))
+        self._by_words()
         said = (source.table or {}).get("decimal")
         self.decimal_declared = said is not None
         columns = [c for i, c in enumerate(self.columns) if i not in layout.time]
@@ -115,7 +118,9 @@ class Table:
                 column, unit, beyond = self._values(self.layout.names[i], self.columns[i])
                 values[before + self.layout.names[i]] = column[keep]
                 units[before + self.layout.names[i]] = self.layout.units[i] or unit
-                said[before + self.layout.names[i]] = self.layout.said_of(i)
+                own_said = self.layout.said_of(i)
+                places = {BY_PLACE: before + own_said[BY_PLACE]} if BY_PLACE in own_said else {}
+                said[before + self.layout.names[i]] = {**own_said, **places}
                 if self._in_percent(i):
                     units[before + self.layout.names[i]] = "%"
                     percent.add(before + self.layout.names[i])
@@ -127,6 +132,20 @@ class Table:
             at = np.flatnonzero(keep).astype(np.int64) + self.layout.first + 1
             stamps = replace(times, t_ns=times.t_ns[keep], notes=())
             yield Stream(name, stamps, values, units, at, flags, empty, self.sheet, frozenset(percent), said)
+
+    def _by_words(self) -> None:
+        """Takes away the values behind other words than those that their columns are called by."""
+        for i, word in enumerate(self.layout.worded if self.columns else ()):
+            words, cells = self.columns[i - 1], self.columns[i]
+            lost = behind_another(words, word) if word else np.zeros(0, bool)
+            rows = [row for row in np.flatnonzero(lost).tolist() if not is_empty(cells[row])]
+            if not rows:
+                continue
+            gone, name = set(rows), self.layout.names[i]
+            self.columns[i] = tuple(None if row in gone else cell for row, cell in enumerate(cells))
+            reason = f"{counted(len(rows), 'cell')}: {other_word(word, words[rows[0]])}"
+            place = f"{self.where} column '{name}' from row {self.layout.first + rows[0] + 1}"
+            self.losses.append(Loss(place, None, None, len(rows) / len(cells), reason, name))
 
     def _say_named_zone(self, group: Group, times: Stamps) -> None:
         """A note on a zone that a header names, where it leaves open what holds in summer or another is declared."""

@@ -6,8 +6,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+import numpy as np
+
+from thermodata.plugin import Bool1D
 from thermodata.reader.interleaved import STATES
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stamp, mostly
+from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.quantity import is_unit
 
 _FEWEST_ROWS, _FEWEST_PAIRS, _LONGEST = 10, 2, 60
@@ -25,6 +29,18 @@ def names_before_values(heads: Sequence[str], rows: Sequence[Sequence[Cell]]) ->
     numbers = {i for i in range(1, width) if _all_are(whole, i)}
     names = list(found.values())
     return found if len(set(names)) == len(names) >= _FEWEST_PAIRS and numbers <= found.keys() else {}
+
+
+def behind_another(words: Sequence[Cell], word: str) -> Bool1D:
+    """Which values have another word before them than the one that their column is called by: they are of something
+    else. words: those of some rows, shape (n,); where none stands, the value is the column's."""
+    said = {w: not is_empty(w) and clean(str(w)) != clean(word) for w in set(words)}
+    return np.fromiter((said[w] for w in words), bool, len(words))
+
+
+def other_word(word: str, other: Cell) -> str:
+    """What a loss says of such a value."""
+    return f"expected a value behind '{word}', got one behind '{clean(str(other))[:60]}'"
 
 
 def _word_before(rows: Sequence[Sequence[Cell]], place: int) -> str | None:

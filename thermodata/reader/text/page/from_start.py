@@ -43,7 +43,7 @@ def with_start(
         return question
     place, rising = likely_time(data)
     unit = _unit_in(names[place])
-    said = None if rising is None or unit not in SECONDS else head_start(list(lines))
+    said = None if rising is None or unit not in SECONDS else head_start(list(lines), booted=True)
     if rising is None or unit is None or said is None or said.clock_ns is None or said.several or said.either:
         return question
     at_ns = said.date_ns + said.clock_ns + to_ns(rising, SECONDS[unit])

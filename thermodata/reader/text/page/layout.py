@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from thermodata.errors import FormatError, QuestionError, UsageError
+from thermodata.reader.by_place import BY_PLACE
 from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.clocks.time_columns import column, time_of
@@ -36,7 +37,8 @@ class Layout:
     """first: rows before the data (preamble, header, units). names: header of each column as in the file, without
     blanks around it. groups: one, or several where columns have times of their own. over: the head that stands over
     several names, '' where there is none; described: what the file says of each column elsewhere, '' for nothing; fit:
-    how the cells of the header were put over the columns, None where they stood there."""
+    how the cells of the header were put over the columns, None where they stood there; worded: the word before the
+    values of each column that is called by it, '' for none."""
 
     first: int
     names: tuple[str, ...]
@@ -46,12 +48,15 @@ class Layout:
     over: tuple[str, ...] = ()
     described: tuple[str, ...] = ()
     fit: Fit | None = None
+    worded: tuple[str, ...] = ()
 
     def said_of(self, column: int) -> dict[str, str]:
-        """The properties of a signal: the head of the group that it stands in, and what the file says of it."""
+        """The properties of a signal: the head of the group that it stands in, what the file says of it, and its place
+        where it is called by words in the rows."""
         said = {
             "group": self.over[column] if self.over else "",
             "description": self.described[column] if self.described else "",
+            BY_PLACE: f"column {column + 1}" if self.worded and self.worded[column] else "",
         }
         return {key: text for key, text in said.items() if text}
 
@@ -141,7 +146,8 @@ def find(
         *by_words,
         *(note for note in (fit.note if fit else None, lacking, unused, *against) if note),
     )
-    return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit)
+    words = tuple(worded.get(i, "") for i in range(width)) if worded else ()
+    return Layout(first, tuple(names), tuple(units), tuple(groups), noted, tuple(over), tuple(described), fit, words)
 
 
 def _whole_rows(rows: Sequence[Sequence[Cell]], width: int) -> list[list[Cell]]:

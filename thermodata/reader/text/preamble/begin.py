@@ -115,7 +115,9 @@ def find_begin(
         raise unanswered("time.start", ", ".join(ANSWERS), where)
     if declared == NOT:
         return None, None
-    said = head_start(lines, declared if declared in ORDERS else None)
+    said = head_start(lines, declared if declared in ORDERS else None, booted=declared is not None)
+    if said is None and declared is None and (booted := head_start(lines, booted=True)) is not None:
+        return None, None if booted.clock_ns is None else _note(booted)
     if said is None:  # of files that are declared alike only some may have such a line
         return None, _NOTHING if declared == HEAD else None
     begin = _begin(said, first, sure=declared is None)

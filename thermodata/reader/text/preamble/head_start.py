@@ -58,10 +58,11 @@ class HeadStart:
     several: bool = False
 
 
-def head_start(lines: Sequence[Sequence[str]], order: str | None = None) -> HeadStart | None:
+def head_start(lines: Sequence[Sequence[str]], order: str | None = None, booted: bool = False) -> HeadStart | None:
     """The start that lines above a table say, each as its cells; None where they say no date. order: the declared one
-    of day and month."""
-    moments = [m for cells in lines for m in _moments(cells, order)]
+    of day and month; booted: whether the moment at which the logger was switched on may be it."""
+    each = (m for cells in lines for m in _moments(cells, order))
+    moments = [m for m in each if booted or m.says is not Says.BOOTED]
     whole = [m for m in moments if m.date_ns is not None and m.clock_ns is not None]
     dates = [m for m in moments if m.date_ns is not None and m.clock_ns is None]
     clocks = [m for m in moments if m.date_ns is None]

@@ -1,7 +1,8 @@
 """Lines above a table that say when something was: what their labels are made of, in the languages of loggers.
 
-A label says that rows began then, that something was recorded then, a bare date or time, or that a file was made then,
-which may be weeks later. A label with any word that is none of these says nothing of the rows: "Calibration date".
+A label says that rows began then, that something was recorded then, that a logger was switched on then, which may be
+another start than that of the rows, a bare date or time, or that a file was made then, which may be weeks later.
+A label with any word that is none of these says nothing of the rows: "Calibration date".
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ class Says(IntEnum):
 
     MADE = 1  # the file was: exported, printed, created
     BARE = 2  # a date, a time
-    RECORDED = 3
-    BEGAN = 4
+    BOOTED = 3  # the logger was switched on: weeks before, or for another run
+    RECORDED = 4
+    BEGAN = 5
 
 
 _BEGAN = (
@@ -35,9 +37,10 @@ _RECORDED = (
     "misurazioni acquisizione registrazione prova mesure enregistrement essai medición medicion medida adquisición "
     "adquisicion registro "
     "ensayo medição aquisição měření mereni záznam zaznam záznamu zkouška měřeno pomiar pomiaru rejestracja "
-    "rejestracji mérés meting boot booted bootup boottime bootzeit hochgefahren eingeschaltet einschaltzeit neustart "
+    "rejestracji mérés meting "
     "測定 測定日時 測定日 計測日時 记录时间 测量时间 测试时间 采集时间 試験日"
 )
+_BOOTED = "boot booted bootup boottime bootzeit hochgefahren eingeschaltet einschaltzeit neustart"
 _BARE = (
     "date time datetime timestamp day datum zeit uhrzeit zeitpunkt zeitstempel data ora orario heure horodatage "
     "fecha hora čas cas dátum idő godzina czas tijd dato tid klockslag 日時 日付 時刻 日期 时间 時間 日期时间 "
@@ -59,6 +62,7 @@ _FILLING = (
 _WORDS = {
     **dict.fromkeys(_FILLING.split(), None),
     **dict.fromkeys(_MADE.split(), Says.MADE),
+    **dict.fromkeys(_BOOTED.split(), Says.BOOTED),
     **dict.fromkeys(_RECORDED.split(), Says.RECORDED),
     **dict.fromkeys(_BARE.split(), Says.BARE),
     **dict.fromkeys(_BEGAN.split(), Says.BEGAN),
@@ -77,5 +81,6 @@ def said_by(label: str) -> Says | None:
     known = [s for w in words if (s := _WORDS[w]) is not None]
     if not known:
         return None
-    # a file that was made says nothing of its rows, whatever else stands there: "Report date", "Print time"
-    return Says.MADE if Says.MADE in known else max(known)
+    # a file that was made says nothing of its rows, whatever else stands there: "Report date", "Print time"; nor does
+    # a logger that was switched on: "Last test boot"
+    return Says.MADE if Says.MADE in known else Says.BOOTED if Says.BOOTED in known else max(known)

@@ -13,6 +13,7 @@ from thermodata.reader.text.cells.number import to_float, why_none
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
+from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.rows.changed_cells import Standing
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
@@ -80,6 +81,8 @@ class RowReader:
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
+        rows, others = self._by_words(rows)
+        told += others
         for number, clock in enumerate(self.clocks):
             yield from self._group(clock, rows, told if number == 0 else [], data, line)
 
@@ -95,6 +98,26 @@ class RowReader:
         self._short = waiting[waiting > last_whole]
         reason = "fewer cells than the lines behind it: what is missing is lost"
         return [_Complaint(int(line), reason, 0) for line in waiting[waiting < last_whole]]
+
+    def _by_words(self, rows: Rows) -> tuple[Rows, list[_Complaint]]:
+        """The rows without the values that stand behind other words than those that their columns are called by."""
+        columns, told = dict(rows.columns), list[_Complaint]()
+        for i, word in enumerate(self.table.layout.worded):
+            if not word or self.table.kinds[i - 1] != "str":
+                continue
+            words, held = columns[i - 1].values, columns[i]
+            lost = behind_another(words.tolist(), word) & ~held.empty
+            if not lost.any():
+                continue
+            values = held.values.copy()
+            values[lost] = np.nan if values.dtype.kind == "f" else None if values.dtype == object else 0
+            odd = tuple((row, cell) for row, cell in held.odd if not lost[row])
+            columns[i] = replace(held, values=values, empty=held.empty | lost, odd=odd)
+            name = self.table.layout.names[i]
+            for row in np.flatnonzero(lost).tolist():
+                size = len(str(held.values[row]))
+                told.append(_Complaint(int(rows.line[row]), other_word(word, words[row]), size, name))
+        return replace(rows, columns=columns), told
 
     def _is_whole(self, tail: bytes, before: bytes) -> bool:
         """Whether a last line without a line end is a row all the same."""

@@ -220,8 +220,24 @@ def _numbers(item: Any, kind: str, where: str, spans: Spans) -> Node:
 
 def _attributes(item: Any) -> dict[str, str]:
     """Texts that another program than MATLAB put beside an array: {'units': 's since 1904-01-01'}."""
-    said = {str(key): item.attrs[key] for key in list(item.attrs)[:_MOST] if not str(key).startswith("MATLAB_")}
-    return {key: _text(v)[:_LONGEST] for key, v in said.items() if isinstance(v, str | bytes)}
+    names = [str(key) for key in list(item.attrs)[:_MOST] if not str(key).startswith("MATLAB_")]
+    return {name: text[:_LONGEST] for name in names if (text := _attribute(item, name)) is not None}
+
+
+def _attribute(item: Any, name: str) -> str | None:
+    """A text beside an array, in UTF-8 or in Latin-1; None for another thing, and for what h5py has no type for."""
+    try:
+        value = item.attrs[name]
+        if isinstance(value, str):  # letters that are no UTF-8 are kept as surrogates
+            value = value.encode("utf-8", "surrogateescape")
+    except (OSError, TypeError, ValueError):
+        return None
+    if not isinstance(value, bytes):
+        return None
+    try:
+        return value.decode("utf-8")
+    except UnicodeDecodeError:
+        return value.decode("latin-1")
 
 
 def _loader(item: Any, ndim: int, dtype: str, where: str) -> Callable[[int, int, int, int], Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from thermodata.reader.since import count_in
 from thermodata.reader.time_units import EPOCHS, SECONDS
@@ -186,9 +186,11 @@ def unit_of(name: str, known: Collection[str] = (), unit: str | None = None) -> 
     return None if names_time_unit(name, unit) or squeezed(other) in _GENERAL else str(other)
 
 
-def unit_among(said: Mapping[str, str]) -> str | None:
-    """The unit that attributes of an array say."""
-    return next((text for key, text in said.items() if squeezed(key) in _UNITS and text.strip()), None)
+def unit_among(said: Mapping[str, str], known: Callable[[str], bool] = bool) -> str | None:
+    """The unit that attributes of an array say, where no letter of it is lost. known: whether a text is one;
+    a time may say more: 's since 2000'."""
+    texts = (text.strip() for key, text in said.items() if squeezed(key) in _UNITS)
+    return next((text for text in texts if text and "\ufffd" not in text and known(text)), None)
 
 
 def listed_of(name: str, known: Collection[str]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from thermodata.plugin import Array, Loss
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.scale_words import stated_of, states_scale
+from thermodata.schema.quantity import is_unit
 from thermodata_reader_table.mat import names as say
 from thermodata_reader_table.mat.signal_structs import one_number, one_text
 from thermodata_reader_table.mat.signal_structs import texts as lines_of
@@ -56,7 +57,7 @@ def _numbers(plan: Plan, scope: Scope, name: str, path: str, node: Numbers) -> N
             scope.times.append(TimeVector(path, node.size, node.vector, unit=unit, said=node.said))
         else:
             scope.scales += _scales(scope, name, node)
-            unit = split_unit(name)[1] or say.unit_among(node.said)
+            unit = split_unit(name)[1] or say.unit_among(node.said, is_unit)
             scope.columns.append(Column(path, unit, node.dtype, node.size, node.vector))
     elif node.size:
         scope.matrices.append((path, node))
