@@ -122,6 +122,34 @@ def test_clocks_of_their_own_make_rows_of_their_own(tmp_path: Path, write: Any, 
     assert (np.diff(times["/daq"]) > 0).all()
 
 
+@pytest.mark.parametrize("early", [{}, {"T": []}])
+def test_an_array_that_begins_late_is_one(tmp_path: Path, write: Any, read: Any, early: dict[str, Any]) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        late = {"T": [20.0 + k for k in ks]} if ks[0] >= 25 * N else early
+        return {"t": [at(k) for k in ks], "dZ": ks, **late}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    assert {s.name for s in recording.signals} == {"/daq.dZ", "/daq.T"}
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(60 * N), atol=1000)
+    np.testing.assert_array_equal(values["/daq.T"], [np.nan] * 25 * N + [20.0 + k for k in range(25 * N, 60 * N)])
+
+
+def test_an_array_with_times_of_its_own_is_of_no_step_around_it(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        slow = {"t": [at(ks[0]), at(ks[3])], "v": [20.0 + ks[0], 20.0 + ks[3]]}
+        return {"t0": at(ks[0]), "dt": 6.0, "dZ": ks, "T": slow}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    assert {s.name for s in recording.signals} == {"/daq.dZ", "/daq.T.v"}
+    for name, scale in (("/daq.dZ", 0), ("/daq.T.v", 20)):
+        each = np.array(values[name], float)
+        good = np.isfinite(each)
+        assert int(good.sum()) == (120 if scale else 60 * N)
+        np.testing.assert_allclose(times["/daq"][good], T0 + STEP * (each[good] - scale), atol=1000)
+
+
 def test_a_sample_alone_may_stand_without_brackets(tmp_path: Path, write: Any, read: Any) -> None:
     def made(ks: list[int]) -> dict[str, Any]:
         return {"t": [at(k) for k in ks], "dZ": ks} if len(ks) > 1 else {"t": at(ks[0]), "dZ": ks[0]}
