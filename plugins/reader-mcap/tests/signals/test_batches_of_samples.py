@@ -150,6 +150,23 @@ def test_an_array_with_times_of_its_own_is_of_no_step_around_it(tmp_path: Path, 
         np.testing.assert_allclose(times["/daq"][good], T0 + STEP * (each[good] - scale), atol=1000)
 
 
+@pytest.mark.parametrize("n", [1, 2])
+def test_events_beside_samples_stay_as_they_are(tmp_path: Path, write: Any, read: Any, n: int) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        events = [{"time": "now", "code": k} for k in ks[:n]]
+        return {"t": [at(k) for k in ks], "dZ": ks, "events": events if ks[0] % 2 else []}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    names = {f"/daq.events[{i}].{key}" for i in range(n) for key in ("time", "code")}
+    assert {s.name for s in recording.signals} == {"/daq.dZ", *names}
+    assert values["/daq.dZ"] == list(range(60 * N))
+    code = np.array(values["/daq.events[0].code"], float)
+    good = np.isfinite(code)
+    np.testing.assert_array_equal(code[good], np.arange(N, 60 * N, 2 * N))
+    np.testing.assert_allclose(times["/daq"][good], T0 + STEP * code[good], atol=1000)
+
+
 def test_a_sample_alone_may_stand_without_brackets(tmp_path: Path, write: Any, read: Any) -> None:
     def made(ks: list[int]) -> dict[str, Any]:
         return {"t": [at(k) for k in ks], "dZ": ks} if len(ks) > 1 else {"t": at(ks[0]), "dZ": ks[0]}

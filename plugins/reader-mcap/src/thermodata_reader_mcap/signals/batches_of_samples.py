@@ -69,7 +69,7 @@ def samples_of(message: Any, clocks: Sequence[Samples]) -> tuple[list[dict[str, 
     """The samples of a message as messages, and their times; what it holds once stands in the first, and words, as a
     unit, in all. None for a message that holds none. clocks: of its arrays; what they have at one time is one
     sample."""
-    message = in_columns(message)
+    message = in_columns(message, clocks)
     found = [(one, held) for one in clocks if (held := one.held(message)) is not None]
     if not found:
         return None
@@ -114,12 +114,16 @@ def parted(batch: Batch, clocks: Sequence[Samples]) -> Parted:
     return Parted(Batch(payloads, [t_ns], [same], dict(batch.members), [kinds[of]]), of)
 
 
-def in_columns(message: Any, depth: int = 0) -> Any:
+def in_columns(message: Any, clocks: Sequence[Samples] | None = None, inside: Keys = ()) -> Any:
     """A message with its arrays of objects that have a time each as an object of arrays. Objects that have names are
-    left: these are no samples of one thing."""
-    if isinstance(message, Mapping) and depth < DEEPEST:
-        return {str(k): in_columns(v, depth + 1) if isinstance(v, Mapping | list) else v for k, v in message.items()}
+    left: these are no samples of one thing. clocks: only arrays that hold the times of one of these become objects,
+    others, as events beside samples, stay; inside: where the message stands in that around it."""
+    if isinstance(message, Mapping) and len(inside) < DEEPEST:
+        held = {str(k): v for k, v in message.items()}
+        return {k: in_columns(v, clocks, (*inside, k)) if isinstance(v, Mapping | list) else v for k, v in held.items()}
     if not isinstance(message, list) or not message or not all(isinstance(each, Mapping) for each in message):
+        return message
+    if clocks is not None and not any(one.time[: len(inside)] == inside for one in clocks):
         return message
     keys = list(dict.fromkeys(str(k) for each in message for k in each))
     timed = any(
