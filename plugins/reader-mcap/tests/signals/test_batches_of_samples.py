@@ -167,6 +167,22 @@ def test_events_beside_samples_stay_as_they_are(tmp_path: Path, write: Any, read
     np.testing.assert_allclose(times["/daq"][good], T0 + STEP * code[good], atol=1000)
 
 
+def test_two_samples_of_one_clock_at_one_time_are_both_there(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        half = [ks[0], ks[0]] if ks[0] == 7 * N else [ks[0], ks[3]]
+        return {"t": [at(k) for k in ks], "dZ": ks, "slow": {"t": [at(k) for k in half], "v": [1.0, 2.0]}}
+
+    _, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    slow, dz = (np.array(values[f"/daq.{name}"], float) for name in ("slow.v", "dZ"))
+    assert slow[np.isfinite(slow)].tolist() == [1, 2] * 60
+    assert dz[np.isfinite(dz)].tolist() == list(range(60 * N))
+    assert len(times["/daq"]) == 60 * N + 1
+    ((twice,),) = np.nonzero(np.diff(times["/daq"]) == 0)
+    assert times["/daq"][twice] == pytest.approx(T0 + STEP * 7 * N, abs=1000)
+    assert slow[twice : twice + 2].tolist() == [1, 2]
+
+
 def test_a_sample_alone_may_stand_without_brackets(tmp_path: Path, write: Any, read: Any) -> None:
     def made(ks: list[int]) -> dict[str, Any]:
         return {"t": [at(k) for k in ks], "dZ": ks} if len(ks) > 1 else {"t": at(ks[0]), "dZ": ks[0]}

@@ -76,14 +76,32 @@ def samples_of(message: Any, clocks: Sequence[Samples]) -> tuple[list[dict[str, 
     taken = {k for one, (_, arrays) in found for k in (one.own_time, one.step, *arrays)}
     once = _without(message, taken)
     words = _words(once)
-    t_ns = found[0][1][0] if len(found) == 1 else np.unique(np.concatenate([held[0] for _, held in found]))
+    t_ns, places = _rows([held[0] for _, held in found])
     rows = [once, *(deepcopy(words) for _ in range(t_ns.size - 1))]
-    for _, (times, arrays) in found:
-        places = range(t_ns.size) if len(found) == 1 else np.searchsorted(t_ns, times).tolist()
+    for (_, (_, arrays)), own in zip(found, places, strict=True):
         for keys, values in arrays.items():
-            for place, value in zip(places, values, strict=True):
+            for place, value in zip(own, values, strict=True):
                 _put(rows[place], keys, value)
     return rows, t_ns
+
+
+def _rows(times: Sequence[Int1D]) -> tuple[Int1D, list[list[int]]]:
+    """(the times of rows that the samples of clocks make, the row of each sample by clock), from the times by clock:
+    what several have at one time is one row, what one has twice then are two."""
+    if len(times) == 1:
+        return times[0], [list(range(times[0].size))]
+    keyed = [list(_numbered(t_ns.tolist())) for t_ns in times]
+    rows = sorted({key for keys in keyed for key in keys})
+    places = {key: place for place, key in enumerate(rows)}
+    return np.array([t for t, _ in rows], np.int64), [[places[key] for key in keys] for keys in keyed]
+
+
+def _numbered(times: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Each time with how many of the same stand before it."""
+    before = Counter[int]()
+    for t in times:
+        yield t, before[t]
+        before[t] += 1
 
 
 @dataclass(slots=True)
