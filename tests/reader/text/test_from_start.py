@@ -78,6 +78,18 @@ def test_they_may_stand_beside_their_day(tmp_path: Path, ext: str) -> None:
     assert times(written(tmp_path, [], days, ext)) == NS
 
 
+@pytest.mark.parametrize("ext", ["csv", "xlsx"])
+@pytest.mark.parametrize("last", [False, True])
+def test_their_day_may_be_the_same_in_all_rows(tmp_path: Path, ext: str, last: bool) -> None:
+    begun = datetime(2026, 3, 9, 8, tzinfo=UTC)
+    moments = [begun + timedelta(seconds=30 * k) for k in range(40)]
+    day, counts = [f"{t:%Y-%m-%d}" for t in moments], [of_day(t) for t in moments]
+    columns = {"date": day, **({"T [degC]": []} if last else {}), "seconds_since_midnight": counts}
+    path = written(tmp_path, [], columns, ext)
+    assert times(path) == [int(t.timestamp()) * 10**9 for t in moments]
+    assert [s.name for s in described(readers()["table"], path, Source(timezone="UTC")).signals] == ["T [degC]"]
+
+
 def test_without_a_day_they_are_times_of_day(tmp_path: Path) -> None:
     path = written(tmp_path, [], {"seconds_since_midnight": [of_day(t) for t in TIMES]})
     recording = described(readers()["table"], path, Source())

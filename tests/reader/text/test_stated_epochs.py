@@ -227,9 +227,17 @@ STATED = [
 ]
 
 
-def array_file(folder: Path, kind: str, of_time: dict[str, str], of_file: dict[str, str], first: float) -> Path:
+def array_file(
+    folder: Path,
+    kind: str,
+    of_time: dict[str, str],
+    of_file: dict[str, str],
+    first: float,
+    step: float = 60,
+    n: int = 40,
+) -> Path:
     """Times in seconds, with what the file says of them, and of itself."""
-    path, times, values = folder / f"run.{kind}", first + 60.0 * np.arange(40), np.linspace(20, 25, 40)
+    path, times, values = folder / f"run.{kind}", first + step * np.arange(n, dtype=float), np.linspace(20, 25, n)
     if kind == "parquet":
         fields = [pa.field("time", pa.float64(), metadata=of_time), pa.field("T", pa.float64())]
         pq.write_table(pa.table([times, values], schema=pa.schema(fields, metadata=of_file)), path)
@@ -253,6 +261,23 @@ def test_what_stands_beside_an_array_states_it(
     assert first_time(array_file(tmp_path, kind, of_time, of_file, first)) == AT
     (source,) = draft_files(tmp_path).draft.sources
     assert not [q for q in source.questions if not q.startswith("timezone?")]
+
+
+def test_the_unit_of_an_array_that_counts_from_its_start_is_asked(tmp_path: Path) -> None:
+    """0 to 360 of what, of 2026 in each."""
+    path = array_file(tmp_path, "parquet", {}, {"epoch": "2026-03-12T07:00:00Z"}, 0, 1, 361)
+    with pytest.raises(QuestionError, match="unit"):
+        first_time(path)
+    assert first_time(path, unit="s since 2026-03-12T07:00:00Z") == AT
+    assert first_time(path, unit="min since 2026-03-12T07:00:00Z") == AT
+
+
+@pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])
+def test_counts_since_1970_are_of_no_other_epoch(tmp_path: Path, kind: str) -> None:
+    path = array_file(tmp_path, kind, {}, {"origin": "2000-01-01"}, since(1970))
+    assert first_time(path) == AT
+    notes = described(readers()["crio" if kind == "tdms" else "table"], path, Source()).notes
+    assert any("the file says 'origin: 2000-01-01'" in n and "not used" in n for n in notes)
 
 
 @pytest.mark.parametrize("kind", ["parquet", "mat", "tdms"])

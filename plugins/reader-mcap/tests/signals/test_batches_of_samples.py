@@ -122,6 +122,67 @@ def test_clocks_of_their_own_make_rows_of_their_own(tmp_path: Path, write: Any, 
     assert (np.diff(times["/daq"]) > 0).all()
 
 
+@pytest.mark.parametrize("early", [{}, {"T": []}])
+def test_an_array_that_begins_late_is_one(tmp_path: Path, write: Any, read: Any, early: dict[str, Any]) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        late = {"T": [20.0 + k for k in ks]} if ks[0] >= 25 * N else early
+        return {"t": [at(k) for k in ks], "dZ": ks, **late}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    assert {s.name for s in recording.signals} == {"/daq.dZ", "/daq.T"}
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(60 * N), atol=1000)
+    np.testing.assert_array_equal(values["/daq.T"], [np.nan] * 25 * N + [20.0 + k for k in range(25 * N, 60 * N)])
+
+
+def test_an_array_with_times_of_its_own_is_of_no_step_around_it(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        slow = {"t": [at(ks[0]), at(ks[3])], "v": [20.0 + ks[0], 20.0 + ks[3]]}
+        return {"t0": at(ks[0]), "dt": 6.0, "dZ": ks, "T": slow}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    assert {s.name for s in recording.signals} == {"/daq.dZ", "/daq.T.v"}
+    for name, scale in (("/daq.dZ", 0), ("/daq.T.v", 20)):
+        each = np.array(values[name], float)
+        good = np.isfinite(each)
+        assert int(good.sum()) == (120 if scale else 60 * N)
+        np.testing.assert_allclose(times["/daq"][good], T0 + STEP * (each[good] - scale), atol=1000)
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_events_beside_samples_stay_as_they_are(tmp_path: Path, write: Any, read: Any, n: int) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        events = [{"time": "now", "code": k} for k in ks[:n]]
+        return {"t": [at(k) for k in ks], "dZ": ks, "events": events if ks[0] % 2 else []}
+
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    names = {f"/daq.events[{i}].{key}" for i in range(n) for key in ("time", "code")}
+    assert {s.name for s in recording.signals} == {"/daq.dZ", *names}
+    assert values["/daq.dZ"] == list(range(60 * N))
+    code = np.array(values["/daq.events[0].code"], float)
+    good = np.isfinite(code)
+    np.testing.assert_array_equal(code[good], np.arange(N, 60 * N, 2 * N))
+    np.testing.assert_allclose(times["/daq"][good], T0 + STEP * code[good], atol=1000)
+
+
+def test_two_samples_of_one_clock_at_one_time_are_both_there(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        half = [ks[0], ks[0]] if ks[0] == 7 * N else [ks[0], ks[3]]
+        return {"t": [at(k) for k in ks], "dZ": ks, "slow": {"t": [at(k) for k in half], "v": [1.0, 2.0]}}
+
+    _, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    assert not losses
+    slow, dz = (np.array(values[f"/daq.{name}"], float) for name in ("slow.v", "dZ"))
+    assert slow[np.isfinite(slow)].tolist() == [1, 2] * 60
+    assert dz[np.isfinite(dz)].tolist() == list(range(60 * N))
+    assert len(times["/daq"]) == 60 * N + 1
+    ((twice,),) = np.nonzero(np.diff(times["/daq"]) == 0)
+    assert times["/daq"][twice] == pytest.approx(T0 + STEP * 7 * N, abs=1000)
+    assert slow[twice : twice + 2].tolist() == [1, 2]
+
+
 def test_a_sample_alone_may_stand_without_brackets(tmp_path: Path, write: Any, read: Any) -> None:
     def made(ks: list[int]) -> dict[str, Any]:
         return {"t": [at(k) for k in ks], "dZ": ks} if len(ks) > 1 else {"t": at(ks[0]), "dZ": ks[0]}

@@ -32,7 +32,7 @@ def counted_from(
         full = stated.fitting(known, values)
         if full is not None and stated.zero is not None and (found_epoch(values) or "").startswith("unix"):
             full = None  # counts as large as those since 1970 would be of 2031 or later
-        return full, [stated.not_used() if full is None else stated.note(full, "what the file says")]
+        return full, [stated.not_used("the file") if full is None else stated.note(full, "what the file says")]
     return None, []
 
 

@@ -46,7 +46,7 @@ class SaidEpoch:
 
     def fitting(self, unit: str | None, values: Array) -> str | None:
         """The same for times, shape (n,), that are of a year then that is logged; where nothing names their unit, in
-        seconds, or else in the only one in which they are."""
+        the only one in which they are, or in seconds if these began long before."""
         tried = [unit] if unit is not None or self.unit is not None else ["s", *sorted(_PLAIN - {"s"})]
         found = [full for one in tried if (full := self.of(one)) is not None and is_logged(values, full)]
         large = bool(values.size) and float(np.nanmin(values)) > _FROM_START_S
@@ -55,10 +55,10 @@ class SaidEpoch:
     def note(self, unit: str, by: str = "a line above the rows") -> str:
         return f"times count from a date by {by}: '{self.line[:60]}' ({unit})"
 
-    def not_used(self) -> str:
+    def not_used(self, by: str = "the head") -> str:
         return (
-            f"the head says '{self.line[:60]}', by which the times are of no year that is logged: not used; declare "
-            "table: {time: {unit: ...}}"
+            f"{by} says '{self.line[:60]}', by which the times are of no year that is logged, or of one in several "
+            "units: not used; declare table: {time: {unit: ...}}"
         )
 
 

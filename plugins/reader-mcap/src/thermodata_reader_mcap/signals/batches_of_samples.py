@@ -69,21 +69,39 @@ def samples_of(message: Any, clocks: Sequence[Samples]) -> tuple[list[dict[str, 
     """The samples of a message as messages, and their times; what it holds once stands in the first, and words, as a
     unit, in all. None for a message that holds none. clocks: of its arrays; what they have at one time is one
     sample."""
-    message = in_columns(message)
+    message = in_columns(message, clocks)
     found = [(one, held) for one in clocks if (held := one.held(message)) is not None]
     if not found:
         return None
     taken = {k for one, (_, arrays) in found for k in (one.own_time, one.step, *arrays)}
     once = _without(message, taken)
     words = _words(once)
-    t_ns = found[0][1][0] if len(found) == 1 else np.unique(np.concatenate([held[0] for _, held in found]))
+    t_ns, places = _rows([held[0] for _, held in found])
     rows = [once, *(deepcopy(words) for _ in range(t_ns.size - 1))]
-    for _, (times, arrays) in found:
-        places = range(t_ns.size) if len(found) == 1 else np.searchsorted(t_ns, times).tolist()
+    for (_, (_, arrays)), own in zip(found, places, strict=True):
         for keys, values in arrays.items():
-            for place, value in zip(places, values, strict=True):
+            for place, value in zip(own, values, strict=True):
                 _put(rows[place], keys, value)
     return rows, t_ns
+
+
+def _rows(times: Sequence[Int1D]) -> tuple[Int1D, list[list[int]]]:
+    """(the times of rows that the samples of clocks make, the row of each sample by clock), from the times by clock:
+    what several have at one time is one row, what one has twice then are two."""
+    if len(times) == 1:
+        return times[0], [list(range(times[0].size))]
+    keyed = [list(_numbered(t_ns.tolist())) for t_ns in times]
+    rows = sorted({key for keys in keyed for key in keys})
+    places = {key: place for place, key in enumerate(rows)}
+    return np.array([t for t, _ in rows], np.int64), [[places[key] for key in keys] for keys in keyed]
+
+
+def _numbered(times: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Each time with how many of the same stand before it."""
+    before = Counter[int]()
+    for t in times:
+        yield t, before[t]
+        before[t] += 1
 
 
 @dataclass(slots=True)
@@ -114,12 +132,16 @@ def parted(batch: Batch, clocks: Sequence[Samples]) -> Parted:
     return Parted(Batch(payloads, [t_ns], [same], dict(batch.members), [kinds[of]]), of)
 
 
-def in_columns(message: Any, depth: int = 0) -> Any:
+def in_columns(message: Any, clocks: Sequence[Samples] | None = None, inside: Keys = ()) -> Any:
     """A message with its arrays of objects that have a time each as an object of arrays. Objects that have names are
-    left: these are no samples of one thing."""
-    if isinstance(message, Mapping) and depth < DEEPEST:
-        return {str(k): in_columns(v, depth + 1) if isinstance(v, Mapping | list) else v for k, v in message.items()}
+    left: these are no samples of one thing. clocks: only arrays that hold the times of one of these become objects,
+    others, as events beside samples, stay; inside: where the message stands in that around it."""
+    if isinstance(message, Mapping) and len(inside) < DEEPEST:
+        held = {str(k): v for k, v in message.items()}
+        return {k: in_columns(v, clocks, (*inside, k)) if isinstance(v, Mapping | list) else v for k, v in held.items()}
     if not isinstance(message, list) or not message or not all(isinstance(each, Mapping) for each in message):
+        return message
+    if clocks is not None and not any(one.time[: len(inside)] == inside for one in clocks):
         return message
     keys = list(dict.fromkeys(str(k) for each in message for k in each))
     timed = any(

@@ -42,12 +42,15 @@ def find_samples(batches: Mapping[Channel, Batch]) -> tuple[dict[str, tuple[Samp
         if any(c.encoding != "json" for c in batches if c.topic == topic):
             continue
         payloads = [p for b in mine for p in b.payloads]
-        read = [in_columns(m) for p in payloads[:_LOOKED_AT] if (m := decoded(p)) is not None]
-        messages = [m for m in read if isinstance(m, Mapping)]
+        whole = [m for p in payloads[:_LOOKED_AT] if (m := decoded(p)) is not None]
+        messages = [m for each in whole if isinstance(m := in_columns(each), Mapping)]
         if not messages or len(messages) < _MOSTLY * min(len(payloads), _LOOKED_AT):
             continue
         logs = np.concatenate([b.times()[0] for b in mine])[: len(messages)].astype(np.int64)
         clocks = _clocks(messages)
+        if clocks:  # whose arrays stand where only what they date is in columns
+            messages = [m for each in whole if isinstance(m := in_columns(each, clocks), Mapping)]
+            clocks = _clocks(messages)
         if clocks:
             found[topic] = clocks
             notes.append(_note(topic, clocks, messages, logs))
