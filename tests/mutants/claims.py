@@ -466,7 +466,7 @@ MUTANTS = [
         "warm_at_rest.py", "return not turning and bool(resting)", "return False", "a table that never turns rubs"
     ),
     diagnosis(
-        "listed.py", "if any(s is one for one in told_with) else None", "", "a share that nobody measured is told"
+        "listed.py", "probability(s) if told_of else None", "probability(s)", "a share that nobody measured is told"
     ),
     diagnosis(
         "listed.py",
@@ -484,12 +484,19 @@ MUTANTS = [
         "told or [s for s in told if blunt(s)",
         "what a claim explains is told",
     ),
-    diagnosis("listed.py", "len(judged) == 1 and", "False and", "the model's own error is another twice"),
-    diagnosis("listed.py", "len(judged) == 1 and", "judged and", "what stands beside a claim is forgotten"),
+    diagnosis(
+        "listed.py", "if ranked and (judged or", "if False and (judged or", "the model's own error is another twice"
+    ),
     diagnosis(
         "listed.py",
-        "== 1 and judged[0].scored.columns is s.columns",
-        "== 1",
+        "all(j.scored.columns is s.columns for j in judged)",
+        "any(j.scored.columns is s.columns for j in judged)",
+        "what stands beside a claim is forgotten",
+    ),
+    diagnosis(
+        "listed.py",
+        "all(j.scored.columns is s.columns for j in judged)",
+        "len(judged) == 1",
         "what was dropped falls from the wrong error",
     ),
     # ---- selection
