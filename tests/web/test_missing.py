@@ -84,6 +84,21 @@ def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
     assert ">Add gain_by:lag,conditions.tool …</a>" in client_of(lab, write=True)[0].get("/missing").text
 
 
+def test_of_several_claims_the_command_stands_that_adds_them_all(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    one = next(c for c in found.candidates if c.claimed)
+    other = one.model_copy(update={"id": "coolant:coolant_on", "rank": 2})
+    for claims, told in (([one], False), ([one, other], True)):
+        save_diagnosis(store, model, found.model_copy(update={"candidates": claims}))
+        for write in (False, True):
+            text = client_of(lab, write=write)[0].get("/missing").text
+            said = re.search(r"To have both: <code>(.*?)</code>", text)
+            assert (said is not None) is told
+            assert said is None or said[1].endswith(f"add {model} {one.id} coolant:coolant_on")
+
+
 @pytest.mark.parametrize(
     ("after", "said", "never"),
     [(5.17, "the error rises", "hardly falls"), (4.67, "the error hardly falls", "the error rises")],

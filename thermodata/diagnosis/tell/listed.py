@@ -47,7 +47,7 @@ def listed(investigation: Investigation, judgement: Judgement) -> list[Row]:
                 others.append((s, None))
     # what lets no error fall gives nothing, and stands by what is known of it otherwise
     others.sort(key=lambda item: (-explained(beside_the_model(item[0], investigation)[0]), -probability(item[0])))
-    chosen = any(not j.scored.as_modelled for j in judgement.judged)
+    chosen = bool(judgement.chosen)
     head = likeliest([*order, *others], investigation.measure, investigation.problem.unit, chosen=chosen)
     others.sort(key=lambda item: not among(item[1], idle))
     if head is not None and not judgement.claims and not judgement.refused:
@@ -75,7 +75,7 @@ def with_probability(shown: Sequence[Row], investigation: Investigation, judgeme
     that keep all other rules, each where it was judged beside what was chosen. What a claim may explain is judged
     beside it, or not at all, and may be another mode of it where its probability would do."""
     heads = [s for s, m in shown if among(m, judgement.claims) or among(m, judgement.refused)]
-    chosen = any(not j.scored.as_modelled for j in judgement.judged)
+    chosen = bool(judgement.chosen)
     told = stated(shown, investigation.measure, investigation.problem.unit, chosen=chosen)
     if heads:
         judged = [j.scored for j in judgement.judged]

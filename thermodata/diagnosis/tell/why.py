@@ -104,7 +104,7 @@ def why(
         return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
         return f"{numbers}; not claimed: {would_be_a_mode(s.candidate)}"
-    names = [j.scored.candidate.id for j in judgement.judged if not j.scored.as_modelled]
+    names = [j.scored.candidate.id for j in judgement.chosen]
     if is_judged_beside(s, member, chosen=bool(names)):
         failed += [why for why in [blunt(s)] if why]
     if failed:

@@ -63,6 +63,11 @@ class Judgement:
     refused: tuple[Judged, ...] = ()
     likely: tuple[Judged, ...] = ()
 
+    @property
+    def chosen(self) -> tuple[Judged, ...]:
+        """The members that others were weighed beside: what is only offered for the model as it stands is none."""
+        return tuple(j for j in self.judged if not j.scored.as_modelled)
+
 
 def judge(
     problem: Problem, selection: Selection | None, measure: Measure, refines: Callable[[Scored], str | None]

@@ -78,6 +78,7 @@ def show(request: Request) -> Response:
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
     together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
     nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
+    claims = claims_of(found) if found else []
     return page(
         request,
         "missing.html.j2",
@@ -103,7 +104,7 @@ def show(request: Request) -> Response:
         most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
         left_out={c.rank: _left_out(c) for c in shown},
         heat_names=names_of_pieces(heat.courses) if heat else [],
-        equivalents={e for c in (claims_of(found) if found else []) for e in c.equivalent},
+        equivalents={e for c in claims for e in c.equivalent},
         rivals=[c for c in (found.candidates if found else []) if c not in shown],
         rung_target=RUNG_TARGET,
         stumbles=_stumbles,
@@ -113,7 +114,8 @@ def show(request: Request) -> Response:
         added=_added(found, model),
         among=among,
         pair=pair,
-        add_command=lambda c: command(desk.store_path, "add", model.model, c.id),
+        add_command=lambda *some: command(desk.store_path, "add", model.model, *(c.id for c in some)),
+        together=claims if len(claims) > 1 else [],
     )
 
 
