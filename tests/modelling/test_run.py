@@ -19,6 +19,8 @@ from thermodata.modelling import run
 from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
+from thermodata.modelling.versions.candidate import with_candidate
+from thermodata.modelling.versions.with_claims import adds_what_was_offered
 from thermodata.report.collect import collect
 from thermodata.report.error_rows import error_rows
 from thermodata.report.fit_text import before_after_text, history_text
@@ -333,6 +335,39 @@ def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(st
     assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
     both = add(store, parent.model, 1, 2, plain=True)
     assert (both.locked_rmse_um_before, both.locked_rmse_um_after) == (1.67, 0.53)
+
+
+def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store, spec: Spec) -> None:
+    """A second lag that came along is none of its own; the same effect by another channel is another one."""
+    parent, data = spec("spindle_bearing"), run.load(store, run.fit(store, spec("spindle_bearing")).model).data
+    figures: dict[str, Any] = {
+        "p_value": None,
+        "rmse_um_before": 5.0,
+        "rmse_um_after": 3.0,
+        "fit_before": 50.0,
+        "fit_after": 70.0,
+    }
+    offer = Candidate(
+        rank=1,
+        id="lag:T_nut",
+        effect="lag",
+        family="generic",
+        drivers=["T_nut"],
+        claimed=False,
+        refinement=True,
+        **figures,
+    )
+    found = Diagnosis(
+        model="m", response="dZ", verdict="refine", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
+        candidates=[offer], artefacts=[],
+    )  # fmt: skip
+    nut = with_candidate(parent, "lag:T_nut", data.channels)
+    assert adds_what_was_offered(nut, data, parent, found)
+    second = parent.effects[0].model_copy(update={"id": "again"})
+    assert adds_what_was_offered(nut.model_copy(update={"effects": [*nut.effects, second]}), data, parent, found)
+    assert not adds_what_was_offered(with_candidate(parent, "lag:T_hall", data.channels), data, parent, found)
+    assert not adds_what_was_offered(with_candidate(nut, "lag:T_hall", data.channels), data, parent, found)
+    assert not adds_what_was_offered(parent, data, parent, found), "nothing was added"
 
 
 def test_models_are_compared_on_the_same_tests(store: Store, spec: Spec) -> None:

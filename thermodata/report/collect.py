@@ -31,7 +31,7 @@ def collect(store: Store, ref: str) -> ReportData:
     from thermodata.modelling.run import load
     from thermodata.modelling.seen.as_system import see
     from thermodata.modelling.versions.result import make_result
-    from thermodata.modelling.versions.with_claims import is_fit_with_claims
+    from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
     from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
 
     stored = find_model(store, ref)
@@ -76,6 +76,9 @@ def collect(store: Store, ref: str) -> ReportData:
         reason_of_fit=asked is not None
         and reason is not None
         and is_fit_with_claims(stored.spec, loaded.data, chain[asked].spec, reason),
+        offered=shown is not None
+        and asked is not None
+        and adds_what_was_offered(stored.spec, loaded.data, chain[asked].spec, shown),
         weak=weak_spots_of(loaded, (reason, diagnosis)),
         calibrations=tuple(_calibrations(store, stored.spec.campaign_ids)),
         looks=_looks(store, stored.spec.campaign_ids),
@@ -112,7 +115,7 @@ def _first(store: Store, chain: Sequence[StoredModel], loaded: Loaded) -> Iterab
 
 def _reason(earlier: Sequence[Diagnosis | None]) -> int | None:
     """The place of the ancestor whose answer says why the last effect was added. earlier: their answers, oldest first.
-    Each claim of one answer becomes a version of its own, so the answer may stand as many versions back as it has
+    Each claim of one answer may become a version of its own, so the answer may stand as many versions back as it has
     claims."""
     for back, found in enumerate(reversed(earlier), 1):
         if found is not None:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import re
-
-from thermodata.modelling.versions.candidate import phase_ids
 from thermodata.report.data import ReportData
 from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
-from thermodata.report.history import UNNAMED_TERMS
 from thermodata.report.lost import lost_sentence
 from thermodata.report.of_response import of_response
-from thermodata.report.verdict import causes, claims_of, refinements_of, verdict_sentence
+from thermodata.report.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words import change, in_unit, number
 from thermodata.schema.begins_on import IF_SO
-from thermodata.schema.candidate import Candidate
 from thermodata.schema.diagnosis import Diagnosis
 from thermodata.schema.listed import listed
 
@@ -24,7 +19,7 @@ def headline(data: ReportData) -> str:
     if data.added:
         if claims:
             return f"Missing in {data.reason.response if data.reason else responses} was {causes(claims)}"
-        if was_offered(data):
+        if data.offered:
             return (
                 f"{data.added} was added to {data.name}: a refinement that its diagnosis offered, claimed as no cause"
             )
@@ -35,25 +30,6 @@ def headline(data: ReportData) -> str:
             return f"{data.diagnosis.response} misses {causes(claims)}"
         return capital(_verdict(data, data.diagnosis).partition("; ")[0])
     return f"{data.name} models {responses}; thermodata diagnose {data.name} says what it misses"
-
-
-def was_offered(data: ReportData) -> bool:
-    """Whether all that the last version added are refinements of the answer before it."""
-    left = data.added or ""
-    for one in refinements_of(data.reason) if data.reason and left else []:
-        left = re.sub(rf"(^|, ){_as_added(one)}(?=, |$)", "", left)
-    return bool(data.added) and not left
-
-
-def _as_added(one: Candidate) -> str:
-    """A pattern of the names that `Version.added` gives it."""
-    if one.gain_by:
-        return rf"{re.escape(one.effect)} by (.* and )?{re.escape(one.gain_by)}"
-    if one.phases:
-        return ", ".join(re.escape(name) for name in phase_ids(one.effect, one.phases))
-    if one.effect in UNNAMED_TERMS:
-        return re.escape(f"{one.effect}({', '.join(one.drivers)})")
-    return rf"{re.escape(one.effect)}(_\d+)?"
 
 
 def error_sentence(data: ReportData) -> str:

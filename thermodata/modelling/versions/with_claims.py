@@ -1,4 +1,5 @@
-"""Whether what was told of claims, such as their error on the locked tests, is of a version of a model."""
+"""Whether what an answer told is of a version of a model: of its claims, such as their error on the locked tests, and
+of what it offered."""
 
 from __future__ import annotations
 
@@ -26,6 +27,24 @@ def is_fit_with_claims(spec: Model, data: Dataset, earlier: Model, found: Diagno
         and {*now.locked} == {*then.locked} - left_out
         and _effects_with_claims(data, earlier, found) == _bare(spec.effects)
     )
+
+
+def adds_what_was_offered(spec: Model, data: Dataset, earlier: Model, found: Diagnosis) -> bool:
+    """Whether all that a model has more than an earlier one are refinements that its answer offered, by effect and
+    channels: second lags of these, or of what was there, are none of their own."""
+    had, offered = _kinds(earlier), set[str]()
+    for one in (c for c in found.candidates if c.refinement):
+        try:
+            offered |= _kinds(with_candidate(earlier, one.id, data.channels)) - had
+        except UsageError:
+            continue  # of effects or channels that are gone since
+    more = _kinds(spec) - had
+    return bool(more) and more <= offered
+
+
+def _kinds(spec: Model) -> set[str]:
+    """What each effect is and is driven by, whatever its id, its bounds and its parameters."""
+    return {e.model_dump_json(include={"effect", "drivers", "gain_by", "phases"}) for e in spec.effects}
 
 
 def _effects_with_claims(data: Dataset, earlier: Model, found: Diagnosis) -> list[str] | None:

@@ -53,13 +53,10 @@ def keep_looks(con: duckdb.DuckDBPyConnection, campaign: str, tests: Collection[
     return sum(map(len, noted.values()))
 
 
-def keep_looks_at_changed(
-    con: duckdb.DuckDBPyConnection, campaign: str, rows: Rows, tests: Collection[str]
-) -> set[str]:
-    """The same of tests that stay, where their data are others in `rows`, which come; returns these tests."""
+def keep_looks_at_changed(con: duckdb.DuckDBPyConnection, campaign: str, rows: Rows, tests: Collection[str]) -> None:
+    """The same of tests that stay, where their data are others in `rows`, which come."""
     others = {t for t in looked_at(con, campaign, tests) if _stored(con, campaign, t)["data"] != _data(rows, t)}
     keep_looks(con, campaign, others)
-    return others
 
 
 def count_on(
