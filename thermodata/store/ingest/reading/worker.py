@@ -129,19 +129,20 @@ def _read(task: Task, tell: Callable[[Samples], None]) -> list[RawStream] | None
 
 def main() -> None:
     """Reads tasks from stdin until it ends."""
+    # what a reader prints must not get between the answers. Held until the end: whoever hears this pipe close takes the
+    # process for dead and kills it, and it would leave half of a file
+    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     try:
         with suppress(_Ended):
-            _work()
+            _work(out)
     finally:
         drop_unfinished()
         # without the interpreter's own end, which waits in vain for the thread that listens
         os._exit(0)
 
 
-def _work() -> None:
-    # what a reader prints must not get between the answers
-    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+def _work(out: BinaryIO) -> None:
     signal.signal(signal.SIGTERM, _end)
     tasks: SimpleQueue[Task | None] = SimpleQueue()
     sys.path[:] = pickle.load(sys.stdin.buffer)
