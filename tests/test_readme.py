@@ -12,8 +12,8 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Source
-from thermodata.schema.lines import parse_document
-from thermodata.schema.load import load_campaign, parse_model
+from thermodata.schema.files.load import load_campaign, parse_model
+from thermodata.schema.strict.lines import parse_document
 
 README = Path(__file__).parents[1].joinpath("README.md").read_text("utf-8")
 BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, flags=re.DOTALL)

@@ -42,7 +42,7 @@ class Source:
     """What the campaign file declares about a source. Everything has a default: nothing declared.
 
     timezone: IANA name for local times (None: the file's own zone, else UTC with a note).
-    table: the layout keys of `sources.*.table` as plain data (see schema.campaign.TableLayout).
+    table: the layout keys of `sources.*.table` as plain data (see schema.files.campaign.TableLayout).
     options: any further keys for one reader.
     """
 

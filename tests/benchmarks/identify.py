@@ -29,7 +29,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 # a script of this folder has the name of a package that SIPPY stands on

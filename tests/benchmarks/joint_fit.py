@@ -24,7 +24,7 @@ import numpy as np
 from thermodata.effect.lag import lag
 from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP_S = 60.0

@@ -25,7 +25,7 @@ from measure import machine, table
 from thermodata.diagnosis.locked.confirm import on_all_open, rmse
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.second_lag import with_second_lags
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
 LEAST_FALL = 0.1  # of the locked error, for a share of it to mean something

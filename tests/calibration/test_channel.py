@@ -9,7 +9,7 @@ from thermodata.calibration.channel import calibrate, channel_sign, unit_contrad
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError
 from thermodata.plugin import Scaling
-from thermodata.schema.campaign import Channel
+from thermodata.schema.files.campaign import Channel
 from thermodata.schema.flag import Flag
 
 JUMP = CalibrationResult(

@@ -7,7 +7,7 @@ import pytest
 
 from thermodata.calibration.measuring import measuring_mask, measuring_names, stretches
 from thermodata.errors import UsageError
-from thermodata.schema.campaign import Measuring
+from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
 
 T = np.arange(100, dtype=np.int64) * 1_000_000_000

@@ -10,7 +10,7 @@ from thermodata.calibration.channel import calibrate
 from thermodata.calibration.platinum import degrees, evaluate_platinum
 from thermodata.calibration.static import evaluate_linear
 from thermodata.errors import CalibrationError
-from thermodata.schema.campaign import Channel, LinearCalibration, PlatinumCalibration
+from thermodata.schema.files.campaign import Channel, LinearCalibration, PlatinumCalibration
 from thermodata.schema.flag import Flag
 
 TABLE = {-200: 18.52, -100: 60.26, -50: 80.31, -10: 96.09, 0: 100.0, 20: 107.79, 50: 119.40, 100: 138.51, 850: 390.48}

@@ -12,7 +12,7 @@ from thermodata.calibration.jump.checks import rows
 from thermodata.calibration.jump.fit import JumpFit
 from thermodata.calibration.jump.plateaus import Plateau
 from thermodata.calibration.result import Check
-from thermodata.schema.campaign import JumpCalibration
+from thermodata.schema.files.campaign import JumpCalibration
 
 FIT = JumpFit(
     gain=-50.0,

@@ -9,7 +9,7 @@ from thermodata.calibration.channel import calibrate
 from thermodata.calibration.facing import geometric_sign
 from thermodata.calibration.static import evaluate_linear, evaluate_scale
 from thermodata.errors import CalibrationError, UsageError
-from thermodata.schema.campaign import Channel, LinearCalibration, ScaleCalibration
+from thermodata.schema.files.campaign import Channel, LinearCalibration, ScaleCalibration
 
 
 def scale(**spec: object) -> ScaleCalibration:

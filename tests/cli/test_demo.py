@@ -13,7 +13,7 @@ import thermodata.diagnosis.run
 import thermodata.virtual
 from thermodata.cli.demo import prepare, summary_text
 from thermodata.errors import UsageError
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Diagnosis
 
 from .conftest import Said
 

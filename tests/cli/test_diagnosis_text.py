@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis, Unknown
-from thermodata.schema.result import Parameter
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis, Unknown
+from thermodata.schema.answers.result import Parameter
 
 
 def candidate(rank: int, effect: str, **more: Any) -> Candidate:

@@ -19,7 +19,7 @@ from thermodata.modelling.compare.beside import Beside
 from thermodata.report.fit_text import check_text
 from thermodata.report.table import table
 from thermodata.report.words import change, duration, number, typeset
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from thermodata.effect.lag import lag
-from thermodata.schema.model import EffectSpec, Model, Response
+from thermodata.schema.files.model import EffectSpec, Model, Response
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP_S = 120.0

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 

@@ -18,9 +18,9 @@ from thermodata.modelling.run import Loaded
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.report.spots import weak_spots_of
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .conftest import CHANNELS, STEP_S, base, make_data

@@ -18,8 +18,8 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import phases_id, phases_of, with_candidate, with_phases
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data

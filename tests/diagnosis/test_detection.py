@@ -15,7 +15,7 @@ from thermodata.diagnosis.claims.probability import CLAIMED, probability, sharpn
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
-from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
+from thermodata.schema.answers.diagnosis import DetectionLimit, Diagnosis
 from thermodata.view.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data

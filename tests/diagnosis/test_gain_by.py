@@ -20,9 +20,9 @@ from thermodata.errors import UsageError
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import with_candidate
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis, WeakSpot
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import STEP_S, base, make_data

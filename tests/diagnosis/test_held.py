@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.diagnosis.locked import held as rules
 from thermodata.diagnosis.locked.held import as_held, held
-from thermodata.schema import confirmed as results
+from thermodata.schema.answers import confirmed as results
 
 
 def confirmed(*tests: tuple[float, float, bool, int | None], **more: object) -> results.Confirmed:

@@ -11,8 +11,8 @@ import pytest
 
 from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_locked, shape_left_on_locked
 from thermodata.diagnosis.verdict.judge import Judgement
-from thermodata.schema.diagnosis import ClockMoved, PutRight
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.store.catalogue import models as catalogue
 from thermodata.view.dataset import ChannelInfo
 

@@ -9,8 +9,8 @@ import numpy as np
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
-from thermodata.schema.diagnosis import Artefact
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import Artefact
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import make_data

@@ -11,7 +11,7 @@ import pytest
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Diagnosis
 
 from .conftest import CHANNELS, base, make_data
 from .test_answer import of_nut

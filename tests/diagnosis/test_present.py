@@ -11,7 +11,7 @@ from thermodata.diagnosis.question.present import ALL_MODES, Present, modes, pre
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.model_file.transfer import FreeFunction, GivenFunction
 from thermodata.modelling.terms.acting import acting, moved_while
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model
 
 from .conftest import make_data
 

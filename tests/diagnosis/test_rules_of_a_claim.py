@@ -15,7 +15,7 @@ from thermodata.diagnosis.claims.probability import at_best, probability, sharpn
 from thermodata.diagnosis.claims.rules import acting_size, blunt, explained, failed_rules
 from thermodata.diagnosis.verdict.judge import equivalents
 from thermodata.diagnosis.weigh.figures import short
-from thermodata.schema.counted import apart
+from thermodata.schema.words.sentences import apart
 
 from .hand_made import measure, scored
 

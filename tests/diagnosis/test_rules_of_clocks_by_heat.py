@@ -17,8 +17,8 @@ from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
-from thermodata.schema.diagnosis import ClockMoved
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import ClockMoved
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import make_data

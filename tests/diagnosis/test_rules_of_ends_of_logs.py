@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.diagnosis.clocks.ends_of_logs import Ends, OddEnds, is_alike, meets
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
-from thermodata.schema.diagnosis import ClockMoved
+from thermodata.schema.answers.diagnosis import ClockMoved
 
 SHIFT_S = 1560.0
 

@@ -26,7 +26,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel, FittedResponse
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import make_data

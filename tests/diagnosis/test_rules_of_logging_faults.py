@@ -21,7 +21,7 @@ from thermodata.diagnosis.sensors.logging_faults import (
 from thermodata.diagnosis.verdict.investigate import gains_are_wrong_only_where_nothing_is_missing
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, of_one_model, of_tests, problem

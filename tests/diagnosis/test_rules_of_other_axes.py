@@ -16,7 +16,7 @@ from thermodata.diagnosis.claims.rules import blunt
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError
-from thermodata.schema.model import EffectSpec, Model, Response
+from thermodata.schema.files.model import EffectSpec, Model, Response
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from . import stand_ins

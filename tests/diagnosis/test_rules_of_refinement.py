@@ -22,7 +22,7 @@ from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D, Param
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import ChannelInfo
 
 from .conftest import STEP_S, make_data

@@ -26,10 +26,10 @@ from thermodata.diagnosis.weigh.ranking import Ranked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import UsageError
 from thermodata.report.candidate_errors import beside
-from thermodata.schema.diagnosis import Diagnosis, WeakSpot
-from thermodata.schema.missing_heat import Unknown
-from thermodata.schema.model import Model
-from thermodata.schema.result import Parameter
+from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
+from thermodata.schema.answers.missing_heat import Unknown
+from thermodata.schema.answers.result import Parameter
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, a_test, measure, problem, scored

@@ -26,8 +26,8 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .hand_made import Parts, PlainEffect, a_test, candidate, problem, scored

@@ -14,8 +14,8 @@ from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import Diagnosis, PutRight
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import Diagnosis, PutRight
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import STEP_S, make_data

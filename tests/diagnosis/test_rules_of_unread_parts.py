@@ -14,9 +14,9 @@ from thermodata.diagnosis.tell.next_test import to_find, to_log
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.report.verdict import causes, verdict_sentence
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.places import heat_at
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.words.places import heat_at
 from thermodata.view.dataset import ChannelInfo
 
 from .hand_made import scored

@@ -16,8 +16,8 @@ from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.plugin import Float1D
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.view.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, a_test, candidate, measure, problem, scored

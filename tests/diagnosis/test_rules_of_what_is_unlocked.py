@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import base, make_data

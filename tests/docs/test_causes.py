@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 
 from thermodata.effect import all_effects, effects
-from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
+from thermodata.schema.files.model import EffectSpec
 
 PAGE = Path(__file__).parents[2] / "docs" / "model.md"
 IN_FILES = {"prediction"}

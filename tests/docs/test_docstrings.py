@@ -21,7 +21,7 @@ from thermodata.schema.publish import described, documents, models
 def modules() -> Iterator[ModuleType]:
     yield thermodata.plugin
     for package in (thermodata.schema, thermodata.effect, thermodata_effects_machine_tool):
-        for info in pkgutil.iter_modules(package.__path__, f"{package.__name__}."):
+        for info in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             yield importlib.import_module(info.name)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.schema.markdown import table
+from thermodata.schema.words.markdown import table
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*(ROOT / "docs").glob("*.md"), *ROOT.glob("*.md")])

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 

@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.draft.known.by_patterns import ids_in
 from thermodata.draft.known.of_logs import campaign_of_logs
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
 
 Tests = dict[str, dict[str, list[str]]]
 

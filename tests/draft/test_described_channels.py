@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.draft.signals.guess import called
 from thermodata.plugin import Signal
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 

@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 from .labs import numbers, text

@@ -9,7 +9,7 @@ from thermodata.calibration.channel import calibrate
 from thermodata.calibration.static import evaluate_scale
 from thermodata.draft.writing.fill_in import filled_in, questions
 from thermodata.errors import SpecError, UsageError
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
 
 TEXT = """\
 # a head that stays

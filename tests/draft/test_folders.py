@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from thermodata.draft.writing.baseline import model_text_of
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign, load_model
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign, load_model
 
 from .conftest import Said
 from .folders import FOLDERS, Folder

@@ -13,8 +13,8 @@ from thermodata.draft.campaign.plan import plan
 from thermodata.draft.folder.scan import scan
 from thermodata.draft.words.filenames import matches, normal
 from thermodata.draft.writing.write import text_of
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign
 
 from .labs import START, local, numbers, speeds, staircase, tdms, text, warm
 

@@ -12,7 +12,7 @@ import pytest
 
 from thermodata.draft.files.sample import Sample
 from thermodata.draft.files.sheets import recordings_in
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 from .labs import tdms, workbook

@@ -13,7 +13,7 @@ from thermodata.draft.courses.cuts import feeds_with_spindle, is_loaded
 from thermodata.draft.courses.kinds import kind_of
 from thermodata.draft.files.sample import Course
 from thermodata.plugin import Float1D
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 Say = Callable[..., Any]
 N = 600

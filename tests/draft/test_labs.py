@@ -14,7 +14,7 @@ from thermodata.draft.campaign.parts import Draft
 from thermodata.draft.campaign.plan import plan
 from thermodata.draft.folder.scan import scan
 from thermodata.draft.writing.write import text_of
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 from .labs import LABS, Lab

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.schema.left_out import left_out, left_out_for_a_fault
+from thermodata.schema.agreed.left_out import left_out, left_out_for_a_fault
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.folder.table import find_table
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 

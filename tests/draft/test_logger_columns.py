@@ -11,8 +11,8 @@ import pytest
 
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.values import values_of
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 

@@ -11,7 +11,7 @@ from thermodata.draft.signals.guess import guess
 from thermodata.draft.signals.units import from_name, quantities_of
 from thermodata.draft.signals.values import joined, values_of
 from thermodata.draft.words.naming import channel_name, plain, words
-from thermodata.schema.campaign import NAME, RESERVED_NAMES
+from thermodata.schema.files.campaign import NAME, RESERVED_NAMES
 
 EASY = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 UNITS = st.sampled_from(

@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from thermodata.schema.load import load_campaign, load_model
+from thermodata.schema.files.load import load_campaign, load_model
 
 from .conftest import Said
 from .labs import workbook

@@ -10,7 +10,7 @@ import yaml
 
 from thermodata.draft.make import draft_files
 from thermodata.draft.probes.jumps import JumpTest
-from thermodata.schema.campaign import Campaign
+from thermodata.schema.files.campaign import Campaign
 from thermodata.store.ingest.told.unanswered import unanswered
 
 

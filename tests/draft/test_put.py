@@ -11,7 +11,7 @@ from thermodata.draft.writing.baseline import model_text_of
 from thermodata.draft.writing.fill_in import filled_in, questions
 from thermodata.draft.writing.put import EVERY, put
 from thermodata.errors import UsageError
-from thermodata.schema.load import load_campaign, load_model, parse_campaign
+from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 
 TEXT = """\
 schema: thermodata/campaign/1

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 

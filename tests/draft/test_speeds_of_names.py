@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 
 def drafted(folder: Path, speeds: dict[str, float | None]) -> tuple[str, dict[str, object]]:

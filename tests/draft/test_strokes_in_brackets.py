@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.draft.signals.guess import guess
 from thermodata.draft.words.naming import parts_of
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said
 from .labs import numbers, text

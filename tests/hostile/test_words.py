@@ -13,8 +13,8 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.report.fit_text import before_after_text, made_worse
 from thermodata.report.words import in_units
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.result import FitResult, Score
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.campaign import Campaign
 from thermodata.store.ingest.told.unanswered import unanswered
 from thermodata.view import StoreView
 

@@ -14,7 +14,7 @@ from thermodata.export.control.program import Input, Limits, Program, Start, bui
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST
 from thermodata.modelling.seen.laws import Drive, GainLaw, TermLaw
 from thermodata.plugin import Drivers, Effect, Float1D
-from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 
 WIDE = Limits(1e6, 1e9)
 

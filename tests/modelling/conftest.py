@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0

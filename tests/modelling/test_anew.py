@@ -21,7 +21,7 @@ from thermodata.modelling.trust.coordinate import Searched
 from thermodata.modelling.trust.profile import Profile
 from thermodata.modelling.trust.uncertainty import _Estimate
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 CHANNELS = {

@@ -20,8 +20,8 @@ from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.report.fit_text import history_text
 from thermodata.report.history import history_rows
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import open_in
 from thermodata.store.catalogue.models import find_model, load_diagnosis, save_diagnosis

@@ -11,7 +11,7 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.beside import MEAN, beside
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 Spec = Callable[..., Model]

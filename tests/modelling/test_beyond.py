@@ -10,7 +10,7 @@ import pytest
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.predictions.beyond import Beyond, beyond
 from thermodata.modelling.predictions.predict import predict
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import EFFECTS

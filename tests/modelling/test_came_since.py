@@ -12,9 +12,9 @@ from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
 from thermodata.report.collect import collect
 from thermodata.report.page import render
-from thermodata.schema.candidate import Candidate, LeftOut
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.candidate import Candidate, LeftOut
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis
 from thermodata.store.ingest.run import ingest

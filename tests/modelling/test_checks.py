@@ -12,7 +12,7 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.trust.uncertainty import effective_count, memory
 from thermodata.modelling.versions.result import make_result
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import EFFECTS, Spec

@@ -20,8 +20,8 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.plugin import Float1D
-from thermodata.schema.load import parse_model
-from thermodata.schema.model import Model
+from thermodata.schema.files.load import parse_model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0

@@ -9,7 +9,7 @@ import pytest
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.least_squares import search
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.store.base.counting import watched
 from thermodata.view.dataset import Dataset
 

@@ -19,7 +19,7 @@ from thermodata.modelling.fit.orders import free_run_fit
 from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.modelling.predictions.left_out import folds, left_out_fit
 from thermodata.plugin import Float1D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec

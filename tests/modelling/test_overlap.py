@@ -11,8 +11,8 @@ import yaml
 
 from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.modelling import run
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.result import FitResult
+from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import TestData

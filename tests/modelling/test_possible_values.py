@@ -9,8 +9,8 @@ import pytest
 
 from thermodata.errors import SpecError
 from thermodata.modelling import fit_model
-from thermodata.schema.load import load_model
-from thermodata.schema.locate import located
+from thermodata.schema.files.load import load_model
+from thermodata.schema.files.locate import located
 from thermodata.view.dataset import Dataset
 
 from .conftest import Spec

@@ -180,7 +180,7 @@ def test_the_id_follows_the_content_of_the_file(spec: Spec, theirs: Path) -> Non
 
 def test_another_programs_prediction_keeps_its_scale_unless_its_gain_is_freed() -> None:
     from thermodata.modelling.model_file.resolve import as_it_was_made
-    from thermodata.schema.model import EffectSpec
+    from thermodata.schema.files.model import EffectSpec
 
     assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv")).fixed == {"gain": 1.0}
     assert as_it_was_made(EffectSpec(effect="prediction", file="a.csv", bounds={"gain": (0, 3)})).fixed == {}

@@ -19,7 +19,7 @@ from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import interval
 from thermodata.modelling.trust.apart import cooled
 from thermodata.modelling.trust.profile import Profile
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.result import Check, Parameter
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec

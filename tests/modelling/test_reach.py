@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.modelling.versions.candidate import with_effect
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.files.model import EffectSpec
 
 from .conftest import Spec
 

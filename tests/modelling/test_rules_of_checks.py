@@ -17,7 +17,7 @@ from thermodata.modelling.terms.parameters import gain_unit
 from thermodata.modelling.trust import bound_checks, checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.report.fit_text import span
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import ChannelInfo, TestData
 
 TAU = Param("tau", "min", 30.0, 10.0, 100.0, "the time constant")

@@ -27,9 +27,9 @@ from thermodata.report.fit_text import before_after_text, history_text
 from thermodata.report.headline import sentences
 from thermodata.report.history import history_rows
 from thermodata.report.words import pooled
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain, save_diagnosis
 from thermodata.store.ingest.run import ingest

@@ -12,8 +12,8 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.result import make_result
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0

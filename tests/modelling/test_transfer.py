@@ -21,9 +21,9 @@ from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import make_result
 from thermodata.plugin import Float1D
 from thermodata.report.fit_text import fit_text
-from thermodata.schema.load import parse_model
-from thermodata.schema.model import EffectSpec
-from thermodata.schema.printed import WithUnit
+from thermodata.schema.files.load import parse_model
+from thermodata.schema.files.model import EffectSpec
+from thermodata.schema.strict.printed import WithUnit
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from thermodata.modelling.versions.unsound import heeding
-from thermodata.schema.diagnosis import ClockMoved, PutRight
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 from .conftest import CHANNELS, STEP, Spec, make_test

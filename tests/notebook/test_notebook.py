@@ -203,7 +203,7 @@ def test_a_plot_is_a_frame_that_reaches_nothing(better: Fit, tmp_path: Path) -> 
 
 
 def test_a_model_object_and_a_file_fit_alike(made: Path, tmp_path: Path) -> None:
-    from thermodata.schema.load import load_model
+    from thermodata.schema.files.load import load_model
 
     shutil.copytree(made, tmp_path / "lab")
     store = thermodata.open(tmp_path / "lab" / "thermodata.store")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.notebook.verdict import Verdict
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
 
 
 class Asked:

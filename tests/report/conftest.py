@@ -9,10 +9,10 @@ import pytest
 
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, ReportData, TestPart, Version
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Artefact, Diagnosis, WeakSpot
-from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
-from thermodata.schema.result import Check, Parameter, Score
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Artefact, Diagnosis, WeakSpot
+from thermodata.schema.answers.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
+from thermodata.schema.answers.result import Check, Parameter, Score
 
 
 def lagged(u: Float1D, tau_s: float, step_s: float = 30.0) -> Float1D:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.report.diagnosis_text import confirmed_text
-from thermodata.schema import confirmed as results
+from thermodata.schema.answers import confirmed as results
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.report.could_hide import could_be, could_hide
 from thermodata.report.left_over import left_over
-from thermodata.schema.diagnosis import AtRest, DetectionLimit, Diagnosis
+from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis
 
 
 def one(effect: str, least: float | None, seen: float = 0.9, family: str = "", behind: str | None = None) -> Any:

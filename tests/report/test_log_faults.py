@@ -6,7 +6,7 @@ from typing import Any
 
 from thermodata.report.diagnosis_text import diagnosis_text
 from thermodata.report.log_faults import log_faults
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 
 from .conftest import diagnosis
 

@@ -15,7 +15,7 @@ from thermodata.report.headline import sentences
 from thermodata.report.lost import lost_of_compared, lost_sentence
 from thermodata.report.of_response import of_response, some_of, worst_of
 from thermodata.report.page import ranked_spots, render
-from thermodata.schema.diagnosis import ResponseLeft
+from thermodata.schema.answers.diagnosis import ResponseLeft
 
 from .conftest import diagnosis, score
 

@@ -16,8 +16,8 @@ from thermodata.report.figures import part_chart, points_for, residual_scale
 from thermodata.report.glossary import ERRORS
 from thermodata.report.headline import error_sentence, headline, sentences
 from thermodata.report.page import render, what_is_left
-from thermodata.schema.candidate import LeftOut
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.candidate import LeftOut
+from thermodata.schema.answers.result import Check, Parameter
 
 from .conftest import diagnosis
 

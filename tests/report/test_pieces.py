@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from thermodata.report.pieces import names_of_pieces
-from thermodata.schema.candidate import CandidateCourse, LeftOut
-from thermodata.schema.missing_heat import HeatCourse
+from thermodata.schema.answers.candidate import CandidateCourse, LeftOut
+from thermodata.schema.answers.missing_heat import HeatCourse
 
 
 def left_out(test: str, from_h: float, to_h: float, campaign: str = "c") -> LeftOut:

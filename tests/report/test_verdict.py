@@ -19,9 +19,9 @@ from thermodata.report.headline import headline, sentences
 from thermodata.report.page import render
 from thermodata.report.refined import named
 from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
-from thermodata.schema.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
-from thermodata.schema.listed import listed
+from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
+from thermodata.schema.words.sentences import listed
 
 from .conftest import diagnosis
 

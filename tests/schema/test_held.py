@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from thermodata.schema.campaign_channels import Channel
+from thermodata.schema.files.campaign_channels import Channel
 
 LOGGED: dict[str, Any] = {"source": "plc", "signal": "n", "quantity": "rotational_speed", "unit": "rpm"}
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.errors import SpecError
-from thermodata.schema import lines
+from thermodata.schema.strict import lines
 
 HERE = Path(__file__).parent
 scalars = (

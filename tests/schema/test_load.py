@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.schema.load import load_campaign, parse_model
+from thermodata.schema.files.load import load_campaign, parse_model
 
 EXAMPLE = Path(__file__).with_name("campaign.yaml")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.schema.locate import located
+from thermodata.schema.files.locate import located
 
 TEXT = """schema: thermodata/model/1
 name: m

@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.draft.signals.guess import guess
 from thermodata.reader.text import split_unit
-from thermodata.schema.quantity import is_unit, linear_conversion
+from thermodata.schema.units.quantity import is_unit, linear_conversion
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.schema.quantity import (
+from thermodata.schema.units.quantity import (
     AT_HAND,
     CANONICAL_UNIT,
     QUANTITIES,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.schema.unit_letters import encoding_hint, encoding_of
+from thermodata.schema.units.letters import encoding_hint, encoding_of
 
 
 @pytest.mark.parametrize("read_as", ["cp1250", "cp1252"])

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.schema.quantity import is_unit, linear_conversion
-from thermodata.schema.unit_scale import scaled_unit, with_power_of_ten
+from thermodata.schema.units.quantity import is_unit, linear_conversion
+from thermodata.schema.units.scale import scaled_unit, with_power_of_ten
 
 
 @pytest.mark.parametrize(

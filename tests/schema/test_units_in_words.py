@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.schema.quantity import is_unit, linear_conversion
+from thermodata.schema.units.quantity import is_unit, linear_conversion
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.declared import STORED
-from thermodata.schema.load import parse_campaign, parse_model
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import parse_campaign, parse_model
+from thermodata.schema.strict.declared import STORED
 
 TEXT = """
 schema: thermodata/campaign/1

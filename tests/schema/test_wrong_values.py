@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.schema.load import parse_campaign, parse_model
+from thermodata.schema.files.load import parse_campaign, parse_model
 
 TEXT = """schema: thermodata/campaign/1
 id: full
@@ -102,7 +102,7 @@ def test_what_is_wrong_is_refused_with_what_would_be_right(
 
 
 def test_braces_that_stand_in_a_name_of_a_file_are_no_field(tmp_path: Path) -> None:
-    from thermodata.schema.load import load_campaign
+    from thermodata.schema.files.load import load_campaign
 
     path = tmp_path / "c.yaml"
     path.write_text(TEXT.replace("raw/{test}.csv", "log_{A}.csv"))

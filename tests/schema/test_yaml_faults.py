@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.schema.lines import parse_document
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
+from thermodata.schema.strict.lines import parse_document
 
 
 @pytest.mark.parametrize(

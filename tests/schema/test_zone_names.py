@@ -6,7 +6,7 @@ from zoneinfo import available_timezones
 
 import pytest
 
-from thermodata.schema.zone_names import _ZONES, meant_zone
+from thermodata.schema.words.zone_names import _ZONES, meant_zone
 
 KNOWN = sorted(available_timezones())
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 from thermodata.store.catalogue.conditions import plain_value
 from thermodata.store.ingest.told.bare_conditions import UNIT, conditions_without_unit
 

@@ -217,7 +217,7 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
     from thermodata.diagnosis.sensors.logging_faults import faulty_sensors
     from thermodata.effect.registry import effects
     from thermodata.modelling.fit.model import fit_model
-    from thermodata.schema.model import Model
+    from thermodata.schema.files.model import Model
     from thermodata.view.load import load_dataset
 
     wanders = 30 + 8 * np.sin(np.arange(N) / 20)
@@ -251,7 +251,7 @@ def test_a_constant_through_whole_tests_changes_nothing_in_what_counts_from_thei
     import yaml
 
     from thermodata.modelling.run import fit
-    from thermodata.schema.model import Model
+    from thermodata.schema.files.model import Model
     from thermodata.view.load import load_dataset
 
     extra = "tests:\n" + "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))

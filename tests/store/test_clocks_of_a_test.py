@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.errors import SpecError
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.trace.lineage import trace

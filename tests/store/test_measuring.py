@@ -13,7 +13,7 @@ from store_fakes import daq, times, write_log
 
 from thermodata.calibration.measuring import measuring_mask
 from thermodata.plugin import Bool1D, Int1D
-from thermodata.schema.campaign import Measuring
+from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest

@@ -9,10 +9,10 @@ import pyarrow as pa
 import pytest
 
 from thermodata.errors import StoreError, UsageError
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Artefact, Diagnosis, WeakSpot
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult, Parameter, Score
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Artefact, Diagnosis, WeakSpot
+from thermodata.schema.answers.result import FitResult, Parameter, Score
+from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import count_locked_look, locked_looks, looks_of
 from thermodata.store.catalogue.models import (

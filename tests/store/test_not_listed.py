@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from store_fakes import write_campaign
 
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.ingest.told.not_listed import not_listed

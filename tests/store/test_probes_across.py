@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from thermodata.schema.campaign import JumpCalibration
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.campaign import JumpCalibration
+from thermodata.schema.files.load import parse_campaign
 from thermodata.store.tidy.calibrations import probes_across
 
 CAMPAIGN = """\

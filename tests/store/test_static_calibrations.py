@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.schema.campaign import Campaign
+from thermodata.schema.files.campaign import Campaign
 from thermodata.store.tidy.calibrations import evaluate
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
 from thermodata.store.ingest.told.unanswered import unanswered
 
 TEXT = """schema: thermodata/campaign/1

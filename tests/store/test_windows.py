@@ -10,7 +10,7 @@ from store_fakes import daq, write_log
 
 from thermodata.calibration.quality.flags import ColumnInput, QualityEvent, flag_stream
 from thermodata.plugin import Array, Float1D, Int1D
-from thermodata.schema.campaign import Channel
+from thermodata.schema.files.campaign import Channel
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest

@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.schema.terms import ids_of
+from thermodata.schema.agreed.effect_ids import ids_of
 from thermodata.view.contributions import contributions, open_test
 from thermodata.view.models import model_rows, term_order
 

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.schema.load import load_campaign, load_model
+from thermodata.schema.files.load import load_campaign, load_model
 from thermodata.virtual import World, make_world, simulate
 from thermodata.virtual.logbook import Logbook
 
@@ -87,7 +87,7 @@ def test_the_jump_test_gives_back_the_probes_signed_sensitivity(lab: tuple[Path,
     from nptdms import TdmsFile
 
     from thermodata.calibration.jump.evaluate import evaluate_jump
-    from thermodata.schema.campaign import JumpCalibration
+    from thermodata.schema.files.campaign import JumpCalibration
 
     folder, world = lab
     campaign = load_campaign(folder / "campaign.yaml")

@@ -16,7 +16,7 @@ from thermodata.effect.registry import all_effects
 from thermodata.reader.guard import described
 from thermodata.reader.match import match_signal
 from thermodata.reader.registry import reader
-from thermodata.schema.load import load_campaign, load_model
+from thermodata.schema.files.load import load_campaign, load_model
 from thermodata.store.raw.streams import declared
 
 from ..benchmarks.makes.faults import come_loose, slipped

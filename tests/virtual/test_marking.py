@@ -6,8 +6,8 @@ from itertools import permutations
 
 import pytest
 
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.virtual.blind.marking import claims_of, head_of, marks_of, outcome_of, refinements_of
 
 FAMILY = {"feed_screw": "feed_z", "ambient_frame": "ambient", "lag": "", "hydraulics": "hydraulics"}

@@ -12,8 +12,8 @@ import pyarrow as pa
 import pytest
 
 from thermodata.cli import main
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult, Score
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.model import Model
 from thermodata.store.catalogue.models import save_fit
 
 from ..view.conftest import Builder

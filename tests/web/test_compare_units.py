@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult, Score
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.model import Model
 from thermodata.store.catalogue.models import save_fit
 
 from ..view.conftest import Builder

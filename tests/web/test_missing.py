@@ -12,7 +12,7 @@ from markupsafe import Markup
 from thermodata.cli import main
 from thermodata.report.verdict import verdict_sentence
 from thermodata.report.words import typeset
-from thermodata.schema.missing_heat import HeatCourse, MissingHeat, Unknown
+from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import count_locked_look
 from thermodata.store.catalogue.models import load_diagnosis, save_diagnosis

@@ -10,9 +10,9 @@ import pytest
 
 from thermodata.cli import main
 from thermodata.modelling.named import newest_model
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult, Score
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis, save_fit
 from thermodata.view.models import model_rows

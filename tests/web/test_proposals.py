@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.schema.lines import read_document
+from thermodata.schema.strict.lines import read_document
 from thermodata.store import Store
 from thermodata.view.models import model_rows
 from thermodata.view.predictions import predictions

@@ -6,7 +6,7 @@ import html
 import re
 from pathlib import Path
 
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 
 from .client import Client
 from .conftest import client_of

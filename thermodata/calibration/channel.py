@@ -11,9 +11,10 @@ from thermodata.calibration.result import CalibrationResult, Sign
 from thermodata.calibration.scaling import Raw, apply_scaling
 from thermodata.errors import CalibrationError, UsageError
 from thermodata.plugin import Array, Float1D, Scaling
-from thermodata.schema.campaign import Channel, Sensor
+from thermodata.schema.files.campaign import Channel, Sensor
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import (
+from thermodata.schema.units.letters import encoding_hint
+from thermodata.schema.units.quantity import (
     canonical,
     delta_factor,
     is_unit,
@@ -21,7 +22,6 @@ from thermodata.schema.quantity import (
     normal_unit,
     split_value,
 )
-from thermodata.schema.unit_letters import encoding_hint
 
 # A clipped signal stands within noise and a code or two of its limit; 0.05 % of the range holds both.
 _EDGE = 5e-4
@@ -77,7 +77,7 @@ def calibrate(
 
 
 def channel_sign(channel: Channel, calibrations: Sequence[CalibrationResult], operands: Sequence[str] = ()) -> Sign:
-    """Sign of the calibrated channel: "+" where it follows the convention of schema.quantity, else "unknown".
+    """Sign of the calibrated channel: "+" where it follows the convention of schema.units.quantity, else "unknown".
 
     Only a displacement or a tilt can be unknown. operands: the signs of the channels that a derived one reads.
     """

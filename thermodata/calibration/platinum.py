@@ -7,7 +7,7 @@ import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Float1D
-from thermodata.schema.campaign import PlatinumCalibration
+from thermodata.schema.files.campaign import PlatinumCalibration
 
 # IEC 60751: R = R0 (1 + A t + B t^2), and below 0 degC + C (t - 100) t^3 within the brackets; t in degC, -200 to 850
 _A, _B, _C = 3.9083e-3, -5.775e-7, -4.183e-12

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.chart.spec import Band
-from thermodata.schema.certainty import Z95
+from thermodata.schema.agreed.certainty import Z95
 
 if TYPE_CHECKING:
     from thermodata.plugin import Float1D

@@ -15,13 +15,12 @@ from thermodata.errors import UsageError
 from thermodata.report.table import fields
 from thermodata.report.verdict import claims_of, refinements_of, verdict_sentence
 from thermodata.report.words import change, duration, number, pooled
-from thermodata.schema.counted import counted
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import counted, listed
 
 if TYPE_CHECKING:
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.diagnosis import Diagnosis
-    from thermodata.schema.result import FitResult
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.diagnosis import Diagnosis
+    from thermodata.schema.answers.result import FitResult
     from thermodata.store import Store
 
 _MARK = ".thermodata-demo"  # a folder that holds it was made by a demo and may be made anew
@@ -162,7 +161,7 @@ def _ingested(step: Step, folder: Path) -> Store:
 def _fitted(step: Step, store: Store, folder: Path) -> FitResult:
     step.title(3, "fit: the baseline model, with the effects that one would expect")
     from thermodata.modelling.run import fit
-    from thermodata.schema.load import load_model
+    from thermodata.schema.files.load import load_model
 
     base = fit(store, load_model(folder / "model.yaml"), base=folder)
     effects = sorted({key.split(".")[0] for key in base.parameters})

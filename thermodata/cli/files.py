@@ -12,7 +12,7 @@ import click
 from thermodata.cli.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.table import table
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 if TYPE_CHECKING:
     from thermodata.draft.make import Drafted
@@ -36,7 +36,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from thermodata.draft.writing.baseline import responses_of_draft
     from thermodata.draft.writing.write import one_line
     from thermodata.reader.registry import failed_readers
-    from thermodata.schema.counted import counted
+    from thermodata.schema.words.sentences import counted
 
     made = draft_files(folder, force=force, progress=_progress(session))
     for before, after in made.kept:

@@ -23,7 +23,7 @@ from thermodata.report.fit_text import (
 from thermodata.report.table import table
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import FitResult
+    from thermodata.schema.answers.result import FitResult
     from thermodata.store import Store
 
 

@@ -10,7 +10,7 @@ import click
 from thermodata.cli.common import Session, command, plain
 from thermodata.report.causes import said_at_ingest
 from thermodata.report.table import fields, table
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 _NAMED = 4
 _MOSTLY = 0.5  # of the square of an uncertainty
@@ -27,7 +27,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
     from thermodata.cli.progress import progress_line
     from thermodata.draft.writing.baseline import model_text_of
     from thermodata.report.after_ingest import next_step
-    from thermodata.schema.load import load_campaign
+    from thermodata.schema.files.load import load_campaign
     from thermodata.store.ingest.run import ingest, store_for
 
     store = store_for(session.store_path, campaign)
@@ -42,7 +42,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
 
 def ingest_text(summary: dict[str, Any]) -> str:
     """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
-    from thermodata.schema.counted import counted
+    from thermodata.schema.words.sentences import counted
 
     flags = {name: n for name, n in summary["flags"].items() if n}
     parts = [

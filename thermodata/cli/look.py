@@ -53,7 +53,7 @@ def rows_of(session: Session, query: str, campaign: str | None, order: str) -> l
 @click.option("--find", metavar="WORDS", help="Only where all WORDS stand in name, kind, role, conditions or notes.")
 def tests_command(session: Session, campaign: str | None, role: str | None, kind: str | None, find: str | None) -> None:
     """List the tests: kind, role, length and conditions."""
-    from thermodata.schema.campaign import Role, TestKind
+    from thermodata.schema.files.campaign import Role, TestKind
 
     for what, word, known in (("role", role, get_args(Role)), ("kind", kind, get_args(TestKind))):
         if word and word not in known:

@@ -22,7 +22,7 @@ def orders_command(session: Session, model: str, method: str | None) -> None:
     """
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.run import orders
-    from thermodata.schema.load import load_model
+    from thermodata.schema.files.load import load_model
     from thermodata.store.base.counting import watched
     from thermodata.store.catalogue.models import find_model
 

@@ -64,7 +64,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
 
 def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, Reader | None]:
     from thermodata.reader.registry import reader
-    from thermodata.schema.load import load_campaign
+    from thermodata.schema.files.load import load_campaign
     from thermodata.store.raw.streams import declared
 
     at = campaign or campaign_of(file)
@@ -92,7 +92,7 @@ def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, 
 
 def preview_text(found: dict[str, Any]) -> str:
     """A preview for a person."""
-    from thermodata.schema.counted import counted
+    from thermodata.schema.words.sentences import counted
 
     campaign = found["campaign"]
     said = (
@@ -134,7 +134,7 @@ def preview_text(found: dict[str, Any]) -> str:
 
 
 def _stream(s: dict[str, Any]) -> list[str]:
-    from thermodata.schema.counted import counted
+    from thermodata.schema.words.sentences import counted
 
     rate = (
         "no rows"

@@ -19,7 +19,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
     With all that derives from it. The source files stay untouched, and so does how often locked tests were looked at:
     it counts on where the same data are ingested again.
     """
-    from thermodata.schema.counted import counted
+    from thermodata.schema.words.sentences import counted
     from thermodata.store.keep.lifecycle import forget
 
     gone = plain(forget(session.store(), campaign, test, earlier=earlier))
@@ -32,7 +32,7 @@ def forget_command(session: Session, campaign: str, test: str | None, earlier: b
 @click.option("--grace", default="1 h", show_default=True, help="Files younger than this are left alone.")
 def gc_command(session: Session, grace: str) -> None:
     """Delete files of the store that nothing refers to any more."""
-    from thermodata.schema.quantity import value_in
+    from thermodata.schema.units.quantity import value_in
     from thermodata.store.keep.lifecycle import gc
 
     gone = plain(gc(session.store(), grace_s=value_in(grace, "s")))

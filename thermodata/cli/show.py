@@ -14,7 +14,7 @@ from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.table import table
 from thermodata.report.words import MOST_NAMED, duration, number, probability_text
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -44,7 +44,7 @@ from thermodata.diagnosis.verdict.suspect import doubt_of_heat, first, nearest, 
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, AtRest, DetectionLimit, Diagnosis, ResponseLeft
+from thermodata.schema.answers.diagnosis import Artefact, AtRest, DetectionLimit, Diagnosis, ResponseLeft
 from thermodata.view.dataset import Dataset, TestData
 
 

@@ -33,8 +33,8 @@ from thermodata.modelling.add import chosen_id
 from thermodata.modelling.run import Loaded, load
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import candidate_spec, changed, gain_by_of, note_of_response, phases_of
-from thermodata.schema.confirmed import Confirmed, TestConfirmed
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.confirmed import Confirmed, TestConfirmed
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store.base.counting import watched
 from thermodata.version import __version__
 

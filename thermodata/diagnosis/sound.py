@@ -25,8 +25,8 @@ from thermodata.diagnosis.sensors.turned import turned_probes
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Artefact, ClockMoved, PutRight
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, PutRight
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 

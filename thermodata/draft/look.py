@@ -16,9 +16,9 @@ from thermodata.draft.signals.values import values_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Signal
 from thermodata.reader.preview import when
-from thermodata.schema.campaign import Campaign
+from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import canonical, linear_conversion
+from thermodata.schema.units.quantity import canonical, linear_conversion
 
 _MOST_ROWS, _MOST_COLUMNS = 300_000, 200  # of a stream
 _MOST_IN_ALL = 2000  # columns of a file: nobody looks at more, and each takes half a millisecond

@@ -17,8 +17,8 @@ from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_d
 from thermodata.draft.writing.seal import is_as_sealed
 from thermodata.draft.writing.write import questions_in, text_of
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign, load_model, parse_campaign
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign, load_model, parse_campaign
 from thermodata.store.base.files import write_error, write_text
 
 # of a folder in which every campaign keeps its logs

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from thermodata.effect.places import match, part_alone
 from thermodata.plugin import Effect, Need
-from thermodata.schema.quantity import NOT_DRIVERS
+from thermodata.schema.units.quantity import NOT_DRIVERS
 
 ANY = "*"
 

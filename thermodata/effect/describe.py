@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.plugin import Effect
-from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 
 NOT_STATED = "not stated"
 

@@ -23,7 +23,7 @@ from typing import Any, Literal, TypeAlias, cast, get_args
 
 from thermodata.effect.linear import Filter
 from thermodata.errors import PluginError
-from thermodata.schema.quantity import SECONDS_PER_UNIT
+from thermodata.schema.units.quantity import SECONDS_PER_UNIT
 
 Operator = Literal["+", "-", "*", "/", "**"]
 Comparator = Literal["<", "<=", ">", ">=", "==", "!="]

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from thermodata.effect.describe import NOT_STATED, Description, bounds_text, describe
 from thermodata.effect.registry import INSTALL, all_effects
 from thermodata.errors import UsageError
-from thermodata.schema.markdown import code, table
+from thermodata.schema.words.markdown import code, table
 
 LIBRARY = "thermodata_effects_machine_tool"
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
 from thermodata.export.content import LOGGED, check_test, read_content
-from thermodata.schema.exported import TIME_UTC, UNSIGNED
-from thermodata.schema.listed import listed
+from thermodata.schema.agreed.exported import TIME_UTC, UNSIGNED
+from thermodata.schema.words.sentences import listed
 from thermodata.store.base.files import whole_file
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
 from thermodata.export.mat import flag_bits
-from thermodata.schema.exported import TIME_UTC
+from thermodata.schema.agreed.exported import TIME_UTC
 
 MOST_ROWS, MOST_COLUMNS = 1_048_576, 16_384  # of a sheet
 _NAME = 31  # characters of a sheet's name

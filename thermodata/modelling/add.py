@@ -12,8 +12,8 @@ from thermodata.modelling.versions.candidate import note_of_response, with_candi
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.modelling.versions.unsound import heeding
-from thermodata.schema.model import EffectSpec
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.result import FitResult
+from thermodata.schema.files.model import EffectSpec
 
 if TYPE_CHECKING:
     from thermodata.store import Store

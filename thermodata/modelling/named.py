@@ -10,11 +10,11 @@ from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.run import fit, load_data
 from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import model_id
-from thermodata.schema.load import load_model
-from thermodata.schema.locate import located
+from thermodata.schema.files.load import load_model
+from thermodata.schema.files.locate import located
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import FitResult
+    from thermodata.schema.answers.result import FitResult
     from thermodata.store import Store
 
 

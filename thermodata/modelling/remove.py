@@ -10,8 +10,8 @@ from thermodata.modelling.run import fit, load
 from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import is_lag_of
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.result import FitResult
+from thermodata.schema.files.model import Model
 
 if TYPE_CHECKING:
     from thermodata.store import Store

@@ -26,8 +26,8 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.came_since import as_chosen
 from thermodata.modelling.versions.result import make_result, model_id
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import FitResult, Score
+from thermodata.schema.answers.result import FitResult, Score
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
 if TYPE_CHECKING:
@@ -272,7 +272,7 @@ def self_contained(store: Store, spec: Model, base: Path | None = None) -> Model
 
 def _model_named(store: Store, name: str, base: Path | None) -> Model:
     """A file beside the model's own, or a model of the store."""
-    from thermodata.schema.load import load_model
+    from thermodata.schema.files.load import load_model
     from thermodata.store.catalogue.models import find_model
 
     path = (base or Path()) / name

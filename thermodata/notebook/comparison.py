@@ -13,7 +13,7 @@ from thermodata.report.fit_text import compare_text
 from thermodata.report.words import in_units
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import FitResult
+    from thermodata.schema.answers.result import FitResult
     from thermodata.store import Store
 
 SCORES = (

@@ -22,7 +22,7 @@ from thermodata.report.lost import lost_sentence
 from thermodata.report.words import change, in_units
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Check, FitResult, Parameter
+    from thermodata.schema.answers.result import Check, FitResult, Parameter
     from thermodata.store import Store
 
 

@@ -16,7 +16,7 @@ from thermodata.notebook.verdict import Verdict
 from thermodata.view.store_view import StoreView
 
 if TYPE_CHECKING:
-    from thermodata.schema.model import Model
+    from thermodata.schema.files.model import Model
 
 _MODELS = (
     ("name", "name"),

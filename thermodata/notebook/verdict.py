@@ -14,9 +14,9 @@ from thermodata.report.verdict import claims_of, told, verdict_sentence
 from thermodata.report.words import in_unit, in_units
 
 if TYPE_CHECKING:
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.confirmed import Confirmed
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.confirmed import Confirmed
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 _COLUMNS = (
     ("rank", "#"),

@@ -9,7 +9,7 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.by_place import BY_PLACE
 from thermodata.reader.text import split_unit
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 
 class NoSignalError(UsageError):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D
-from thermodata.schema.quantity import converts, is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.quantity import converts, is_unit, linear_conversion, normal_unit
 
 UNIT_OF = "unit_of"  # property of a signal: the one whose unit it says
 

@@ -14,9 +14,8 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Signal
 from thermodata.reader.interleaved import Parting, series_columns, words_of
 from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
 from thermodata.reader.unit_words import holds_units
-from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_dots
-from thermodata.schema.quantity import normal_unit
+from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.words.sentences import counted, with_dots
 
 SERIES = "series"  # the property of a signal that says which it is of
 NEVER = "none"  # declared: rows are of one series

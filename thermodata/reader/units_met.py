@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from thermodata.plugin import Block, Signal
 from thermodata.reader.interleaved import words_of
 from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here
-from thermodata.schema.quantity import normal_unit
+from thermodata.schema.units.quantity import normal_unit
 
 
 @dataclass(slots=True)

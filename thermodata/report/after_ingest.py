@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 from thermodata.effect.places import holds
 from thermodata.errors import ThermodataError
 from thermodata.modelling.inputs.drivers import names_of
-from thermodata.schema.lines import read_document
-from thermodata.schema.listed import listed
-from thermodata.schema.load import load_model, parse_model
-from thermodata.schema.model import Driver, Model, Place, Response
-from thermodata.schema.quantity import NOT_DRIVERS
+from thermodata.schema.files.load import load_model, parse_model
+from thermodata.schema.files.model import Driver, Model, Place, Response
+from thermodata.schema.strict.lines import read_document
+from thermodata.schema.units.quantity import NOT_DRIVERS
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     import duckdb

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import number
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
-    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.answers.candidate import Candidate
 
 
 def left_out_errors(some: Sequence[Candidate], left: float | None, together: float | None = None) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 T = TypeVar("T")
 MOST_PLACES = 3  # named beside the first

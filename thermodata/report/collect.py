@@ -14,8 +14,8 @@ from thermodata.report.parts import by_role, parts_of
 from thermodata.report.records import written_conditions
 from thermodata.report.spots import weak_spots_of
 from thermodata.report.verdict import claims_of
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.result import Score
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import Score
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded

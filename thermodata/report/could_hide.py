@@ -6,10 +6,10 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import number, percent
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import DetectionLimit, Diagnosis
+    from thermodata.schema.answers.diagnosis import DetectionLimit, Diagnosis
 
 SHOWN = 4
 MOST = 3  # in a headline

@@ -8,8 +8,8 @@ from typing import Any
 
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import Diagnosis, WeakSpot
-from thermodata.schema.result import Check, Parameter, Score
+from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
+from thermodata.schema.answers.result import Check, Parameter, Score
 from thermodata.view.response_units import told_together
 
 

@@ -18,9 +18,9 @@ from thermodata.report.words import duration, heat_lines, number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.confirmed import Confirmed
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.confirmed import Confirmed
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 
 def confirmed_text(result: Confirmed) -> str:

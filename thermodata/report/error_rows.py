@@ -12,10 +12,10 @@ from thermodata.report.data import ReportData
 from thermodata.report.glossary import ERRORS, PARTS
 from thermodata.report.verdict import claims_of, in_parts
 from thermodata.report.words import LITTLE, base_role, pooled, tests_of_role
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.listed import listed
-from thermodata.schema.result import Score
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import Score
+from thermodata.schema.words.sentences import listed
 
 MOSTLY = 0.5
 """Of a row's squared error."""

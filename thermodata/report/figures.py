@@ -12,7 +12,7 @@ from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
 from thermodata.plugin import Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import duration, number, typeset
-from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.answers.diagnosis import WeakSpot
 
 TIME = "time from the start of the test"
 PANEL_EXTRA = 48  # [px] of a panel beside its plot: title, keys, margins

@@ -11,15 +11,15 @@ from thermodata.report.glossary import IN_SAMPLE, LEVEL, explained
 from thermodata.report.lost import lost_of_chain, lost_sentence, results_gone_of_chain
 from thermodata.report.table import table
 from thermodata.report.words import base_role, change, duration, number, pooled, tests_of_role
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from thermodata.modelling.compare.differences import TestDifference
     from thermodata.report.data import ReportData
-    from thermodata.schema.diagnosis import WeakSpot
-    from thermodata.schema.result import Check, FitResult, Score
+    from thermodata.schema.answers.diagnosis import WeakSpot
+    from thermodata.schema.answers.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak
 
 _RISES = 1.005  # an error that rises by less is the same

@@ -8,9 +8,9 @@ from thermodata.report.lost import lost_sentence
 from thermodata.report.of_response import of_response
 from thermodata.report.verdict import causes, claims_of, verdict_sentence
 from thermodata.report.words import change, in_unit, number
-from thermodata.schema.begins_on import IF_SO
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.listed import listed
+from thermodata.schema.agreed.begins_on import IF_SO
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.words.sentences import listed
 
 
 def headline(data: ReportData) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.chart import Axis, Chart, Panel, Series
 from thermodata.report.pieces import names_of_pieces
-from thermodata.schema.missing_heat import HeatCourse
+from thermodata.schema.answers.missing_heat import HeatCourse
 
 
 def heat_charts(courses: Sequence[HeatCourse], unit: str, one_way: bool) -> list[Chart]:

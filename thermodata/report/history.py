@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
 from thermodata.report.data import Errors, ResponseError, Version
 from thermodata.report.words import base_role, change, pooled
-from thermodata.schema.model import EffectSpec
-from thermodata.schema.result import Score
+from thermodata.schema.answers.result import Score
+from thermodata.schema.files.model import EffectSpec
 from thermodata.view.response_units import response_units, told_together
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from thermodata.report.could_hide import may_act_instead
 from thermodata.report.refined import named
 from thermodata.report.words import LITTLE, duration, number, percent
-from thermodata.schema.begins_on import begins_on
+from thermodata.schema.agreed.begins_on import begins_on
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 MORE = 1.5
 """An error of the model as it stands of so many times that of its effects free to act otherwise is told."""

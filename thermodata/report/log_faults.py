@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Artefact
+    from thermodata.schema.answers.diagnosis import Artefact
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
-from thermodata.schema.counted import counted
-from thermodata.schema.listed import listed, with_count
+from thermodata.schema.words.sentences import counted, listed, with_count
 
 if TYPE_CHECKING:
     from thermodata.report.data import Version
-    from thermodata.schema.result import Check, Score
+    from thermodata.schema.answers.result import Check, Score
 
 _NAMED = 6  # tests that a sentence names
 

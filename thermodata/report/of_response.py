@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from thermodata.report.words import percent
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 
 def of_response(found: Diagnosis) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store.catalogue.models import StoredModel
 
 

@@ -40,8 +40,8 @@ from thermodata.report.words import (
 from thermodata.report.write import page_values, write_page
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Diagnosis, WeakSpot
-    from thermodata.schema.missing_heat import MissingHeat
+    from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
+    from thermodata.schema.answers.missing_heat import MissingHeat
     from thermodata.store import Store
 
 SPOTS_SHOWN = 10

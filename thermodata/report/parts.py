@@ -11,7 +11,7 @@ from thermodata.modelling.predictions.score import role_of
 from thermodata.plugin import Array, Bool1D, Float1D
 from thermodata.report.data import Curve, TestPart
 from thermodata.report.words import base_role
-from thermodata.schema.result import Score
+from thermodata.schema.answers.result import Score
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from thermodata.schema.candidate import CandidateCourse, LeftOut
-from thermodata.schema.missing_heat import HeatCourse
+from thermodata.schema.answers.candidate import CandidateCourse, LeftOut
+from thermodata.schema.answers.missing_heat import HeatCourse
 
 Piece = LeftOut | CandidateCourse | HeatCourse
 

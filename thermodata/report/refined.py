@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from thermodata.report.candidate_errors import left_out_errors
 from thermodata.report.words import number
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 
 def worth_adding(one: Candidate) -> bool:

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from thermodata.schema.diagnosis import WeakSpot
+from thermodata.schema.answers.diagnosis import WeakSpot
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.diagnosis import Diagnosis
 
 
 def weak_spots_of(loaded: Loaded, diagnoses: Iterable[Diagnosis | None]) -> dict[str, list[WeakSpot]]:

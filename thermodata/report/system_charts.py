@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.modelling.seen.residual_tests import Against
-from thermodata.schema.certainty import Z95
+from thermodata.schema.agreed.certainty import Z95
 
 
 def system_charts(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, Chart]:

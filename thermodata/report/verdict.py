@@ -10,12 +10,12 @@ from thermodata.report.could_hide import could_be
 from thermodata.report.left_over import as_of_nothing, left_over, offered, on_left_out
 from thermodata.report.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words import duration, number, percent
-from thermodata.schema.listed import listed, with_count
-from thermodata.schema.places import heat_at
+from thermodata.schema.words.places import heat_at
+from thermodata.schema.words.sentences import listed, with_count
 
 if TYPE_CHECKING:
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.diagnosis import Diagnosis, PutRight
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.diagnosis import Diagnosis, PutRight
 
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""

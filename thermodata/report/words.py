@@ -6,13 +6,13 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
-from thermodata.schema.listed import listed, with_count
+from thermodata.schema.words.sentences import listed, with_count
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
 
-    from thermodata.schema.missing_heat import HeatCompanion, MissingHeat
-    from thermodata.schema.result import Score
+    from thermodata.schema.answers.missing_heat import HeatCompanion, MissingHeat
+    from thermodata.schema.answers.result import Score
 
 COMPANIONS = 8  # most channels that are named beside a missing heat
 _SMALLEST = 1e-10  # probability that is told as a number

@@ -14,21 +14,12 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from thermodata.schema import (
-    campaign,
-    campaign_channels,
-    campaign_sources,
-    campaign_tests,
-    candidate,
-    diagnosis,
-    missing_heat,
-    model,
-    result,
-)
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers import candidate, diagnosis, missing_heat, result
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import FitResult
+from thermodata.schema.files import campaign, campaign_channels, campaign_sources, campaign_tests, model
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.model import Model
 
 _DOCUMENTED = (
     campaign,

@@ -22,7 +22,7 @@ from thermodata.effect.law_run import evaluate
 from thermodata.effect.places import can_bind
 from thermodata.errors import PluginError
 from thermodata.plugin import Drivers, Effect, Float1D
-from thermodata.schema.quantity import QUANTITIES
+from thermodata.schema.units.quantity import QUANTITIES
 from thermodata.testing.effect_drivers import FINER, STEP_S, on_finer_grid, shortened, start, variants
 
 # of a column's rms: what switches is a ramp of one sample on either grid

@@ -16,7 +16,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Float1D
-from thermodata.schema.certainty import Z95
+from thermodata.schema.agreed.certainty import Z95
 from thermodata.view.predictions import Prediction, predictions
 from thermodata.view.residuals import Key, predicted_tests
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from thermodata.calibration.measuring import measuring_names
-from thermodata.schema.campaign import Measuring
+from thermodata.schema.files.campaign import Measuring
 from thermodata.store.catalogue.conditions import plain_value
 from thermodata.store.tidy.finer_steps import resolution_in
 from thermodata.store.views.catalogue import SCHEDULE

@@ -20,7 +20,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.view.bins import Binned, Series, bin_tests
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.view.describe import channel_infos, describe_tests

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
-from thermodata.schema.quantity import difference_unit
-from thermodata.schema.terms import ids_of
+from thermodata.schema.agreed.effect_ids import ids_of
+from thermodata.schema.units.quantity import difference_unit
 from thermodata.store.base.connection import fetch
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.view.what_is_read import Read, what_is_read
 
 if TYPE_CHECKING:

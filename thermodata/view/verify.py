@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import StoreError
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.store.base.files import is_whole
 from thermodata.store.keep.check import altered
 

@@ -11,7 +11,7 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.virtual.binned import to_dataset
 from thermodata.virtual.world import make_world
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.virtual.catalogue import EFFECTS, drivers_of
 from thermodata.virtual.hall import BOUNDARIES, Hall, air, smooth
 from thermodata.virtual.levers import draw_levers

@@ -33,7 +33,7 @@ def add(store: Path, tell: Tell, model: str, candidate: str) -> dict[str, Any]:
 def fit(store: Path, tell: Tell, path: str) -> dict[str, Any]:
     """`thermodata fit MODEL.yaml`."""
     from thermodata.modelling.run import fit as run
-    from thermodata.schema.load import load_model
+    from thermodata.schema.files.load import load_model
 
     with watched(tell):
         result = run(Store(store), load_model(Path(path)), base=Path(path).parent)

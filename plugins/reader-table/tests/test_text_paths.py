@@ -77,7 +77,7 @@ def test_seconds_with_milliseconds_are_exact(seconds: int, milli: int) -> None:
 
 
 def test_tests_from_file_names_and_a_workbook_of_tests(tmp_path: Path) -> None:
-    from thermodata.schema.load import load_campaign
+    from thermodata.schema.files.load import load_campaign
     from thermodata.store import Store
     from thermodata.store.ingest.run import ingest
     from thermodata.view import StoreView

@@ -27,7 +27,7 @@ from thermodata.calibration.expression.nodes import (
 )
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array
-from thermodata.schema.quantity import compound_unit, delta_factor, linear_conversion, normal_unit
+from thermodata.schema.units.quantity import compound_unit, delta_factor, linear_conversion, normal_unit
 
 _OFFSET_UNITS = ("degC", "degF")
 _COMPARE = {

@@ -27,7 +27,7 @@ from thermodata.calibration.expression.evaluation import Evaluation, Logic, Numb
 from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
-from thermodata.schema.quantity import is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.quantity import is_unit, linear_conversion, normal_unit
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"

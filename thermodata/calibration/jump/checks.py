@@ -11,8 +11,8 @@ from thermodata.calibration.jump.plausible import probe_exists
 from thermodata.calibration.result import Check, check
 from thermodata.calibration.static import ratio_units
 from thermodata.errors import UsageError
-from thermodata.schema.campaign import JumpCalibration
-from thermodata.schema.quantity import delta_factor, split_value
+from thermodata.schema.files.campaign import JumpCalibration
+from thermodata.schema.units.quantity import delta_factor, split_value
 
 DATA_SHEET_PCT = 10.0
 UNCERTAINTY_PCT = 5.0

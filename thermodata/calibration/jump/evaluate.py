@@ -20,8 +20,8 @@ from thermodata.calibration.quality.value import run_stats
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
-from thermodata.schema.campaign import JumpCalibration
-from thermodata.schema.counted import counted
+from thermodata.schema.files.campaign import JumpCalibration
+from thermodata.schema.words.sentences import counted
 
 _LEAST_SAMPLES = 20
 _LEAST_ON_RAIL = 0.05  # of a jump test's samples

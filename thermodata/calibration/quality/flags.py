@@ -21,7 +21,7 @@ from thermodata.calibration.quality.time import TimeFlags, time_flags
 from thermodata.calibration.quality.value import RunStats, held_runs, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
-from thermodata.schema.places import is_at_tool
+from thermodata.schema.words.places import is_at_tool
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
 ANALOG = frozenset(

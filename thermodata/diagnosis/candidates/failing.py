@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from thermodata.errors import EffectError
 from thermodata.plugin import Effect
-from thermodata.schema.diagnosis import NotAsked
+from thermodata.schema.answers.diagnosis import NotAsked
 
 _T = TypeVar("_T")
 

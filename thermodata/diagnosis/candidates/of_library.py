@@ -26,9 +26,9 @@ from thermodata.modelling.inputs.drivers import has_drivers, make_drivers
 from thermodata.modelling.inputs.lead import columns, with_lead
 from thermodata.modelling.versions.candidate import with_effect
 from thermodata.plugin import Effect, Float1D, Float2D, Param
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.places import is_around, is_beside, is_casting, is_scale
-from thermodata.schema.quantity import NOT_DRIVERS, SECONDS_PER_UNIT
+from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.schema.units.quantity import NOT_DRIVERS, SECONDS_PER_UNIT
+from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale
 from thermodata.view.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)

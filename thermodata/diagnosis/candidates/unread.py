@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from thermodata.effect.binding import Described
 from thermodata.effect.places import holds
 from thermodata.plugin import Effect
-from thermodata.schema.places import is_spindle
+from thermodata.schema.words.places import is_spindle
 
 AXIS = "axis."
 LINEAR = "xyzuvw"

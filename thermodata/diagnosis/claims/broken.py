@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from thermodata.diagnosis.weigh.figures import HARDLY, from_to
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import apart, in_percent
+from thermodata.schema.words.sentences import apart, in_percent
 
 
 def too_little(scored: Scored, fall: float, unit: str, tests: str, doubles: float) -> str:

@@ -16,8 +16,8 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import apart, in_percent
-from thermodata.schema.places import heat_at
+from thermodata.schema.words.places import heat_at
+from thermodata.schema.words.sentences import apart, in_percent
 
 P_LIMIT = 0.01
 # so much evidence a sample outweighs what left-out tests say: how far their error falls, for the known effects take

@@ -18,9 +18,9 @@ from thermodata.diagnosis.clocks.sides import Key, Part, either, in_order, in_wo
 from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.places import holds
-from thermodata.schema.counted import in_percent
-from thermodata.schema.diagnosis import Artefact, ClockMoved
-from thermodata.schema.places import AROUND
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
+from thermodata.schema.words.places import AROUND
+from thermodata.schema.words.sentences import in_percent
 from thermodata.view.dataset import ChannelInfo, TestData
 
 # share of the squared rises of the response that commands foretell at the right time at least, and beyond the other one

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
-from thermodata.schema.diagnosis import Artefact, ClockMoved
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded

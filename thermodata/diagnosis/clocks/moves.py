@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from thermodata.schema.diagnosis import ClockMoved
+from thermodata.schema.answers.diagnosis import ClockMoved
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from thermodata.diagnosis.clocks.sides import Key, Part, in_words, part_of
 from thermodata.diagnosis.question.problem import Problem
-from thermodata.schema.counted import in_percent
-from thermodata.schema.diagnosis import Artefact, ClockMoved
+from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
+from thermodata.schema.words.sentences import in_percent
 
 MOST_S = 1800.0  # shifts that are asked, either way,
 HOURS, ABOUT_S = (1, 2), 300.0  # and whole hours, give or take: a time zone, or daylight saving,

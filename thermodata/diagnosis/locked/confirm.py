@@ -18,8 +18,8 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.trust.bound_checks import IMPLAUSIBLE
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 

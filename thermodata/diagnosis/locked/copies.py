@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.question.once import same_recording
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 from thermodata.view.shared_samples import shared_samples
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.diagnosis.weigh.foretold import LEAST
-from thermodata.schema.confirmed import Confirmed, TestConfirmed
+from thermodata.schema.answers.confirmed import Confirmed, TestConfirmed
 
 RESTS = "it hardly acts in the locked tests, so they say nothing of it"
 HOLDS = "the error falls by what a cause of its size takes away"

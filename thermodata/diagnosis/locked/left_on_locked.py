@@ -17,15 +17,15 @@ from thermodata.diagnosis.claims.rules import HALVES
 from thermodata.diagnosis.question.known import rms
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.modelling.versions.with_claims import is_fit_with_claims
-from thermodata.schema.counted import in_percent
+from thermodata.schema.words.sentences import in_percent
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted_response import FittedResponse
-    from thermodata.schema.candidate import Candidate
+    from thermodata.schema.answers.candidate import Candidate
     from thermodata.store import Store
     from thermodata.view.dataset import TestData
-from thermodata.schema.quantity import difference_unit
+from thermodata.schema.units.quantity import difference_unit
 
 
 def left_on_locked(store: Store, model: Loaded) -> dict[str, float]:

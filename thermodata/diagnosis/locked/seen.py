@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from thermodata.modelling.inputs.roles import Key
     from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted_response import FittedResponse
-    from thermodata.schema.candidate import Candidate
-    from thermodata.schema.confirmed import TestConfirmed
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.candidate import Candidate
+    from thermodata.schema.answers.confirmed import TestConfirmed
+    from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
     from thermodata.view.dataset import TestData
 

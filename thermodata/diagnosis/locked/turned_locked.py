@@ -11,7 +11,7 @@ from thermodata.diagnosis.locked.confirm import shape_of
 from thermodata.diagnosis.question.known import rms
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
 # [%] of the test, turned round: what only runs the other way (a day that cools, where the others warm) is no mirror

@@ -18,7 +18,7 @@ from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.errors import ThermodataError
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
 

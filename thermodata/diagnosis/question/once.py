@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Bool1D
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import Dataset, TestData
 from thermodata.view.shared_samples import shared_spans
 

@@ -15,7 +15,7 @@ from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect
-from thermodata.schema.quantity import SECONDS_PER_UNIT
+from thermodata.schema.units.quantity import SECONDS_PER_UNIT
 from thermodata.view.dataset import ChannelInfo
 
 GENERIC = "generic"

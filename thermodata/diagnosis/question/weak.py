@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.diagnosis import WeakSpot
-from thermodata.schema.places import is_spindle
+from thermodata.schema.answers.diagnosis import WeakSpot
+from thermodata.schema.words.places import is_spindle
 from thermodata.view.dataset import TestData
 
 WINDOW_S = 1800.0

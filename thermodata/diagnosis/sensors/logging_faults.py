@@ -11,8 +11,8 @@ from thermodata.diagnosis.clocks.moves import moved
 from thermodata.diagnosis.clocks.timings import what_to_declare
 from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.plugin import Float2D
-from thermodata.schema.diagnosis import Artefact
-from thermodata.schema.quantity import NOT_DRIVERS
+from thermodata.schema.answers.diagnosis import Artefact
+from thermodata.schema.units.quantity import NOT_DRIVERS
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)

@@ -20,8 +20,8 @@ from thermodata.diagnosis.question.known import FloatND
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.schema.counted import counted
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
+from thermodata.schema.words.sentences import counted
 from thermodata.view.dataset import Dataset, TestData
 
 EVERY_S = 300.0  # means over so much: bodies are slower

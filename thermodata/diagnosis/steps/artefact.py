@@ -31,7 +31,7 @@ from thermodata.diagnosis.steps.sudden import (
 from thermodata.diagnosis.steps.who_made import BODY, which
 from thermodata.diagnosis.steps.windows import in_windows
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 
 SIDE_S = 1200.0
 Z_LIMIT = 12.0

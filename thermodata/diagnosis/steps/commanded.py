@@ -19,7 +19,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.steps.changes import POWERS, WARM, Course, courses, moves, warmth
 from thermodata.diagnosis.steps.sudden import over_three
 from thermodata.plugin import Float1D, Int1D
-from thermodata.schema.places import is_around
+from thermodata.schema.words.places import is_around
 from thermodata.view.dataset import ChannelInfo
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")

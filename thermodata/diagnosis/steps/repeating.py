@@ -16,7 +16,7 @@ from thermodata.diagnosis.steps.artefact import NOTHING_ELSEWHERE
 from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.who_made import BODY, evenly
 from thermodata.plugin import Bool1D
-from thermodata.schema.diagnosis import Artefact
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.view.dataset import TestData
 
 LEAST = 3  # of two that are alike by chance there are many

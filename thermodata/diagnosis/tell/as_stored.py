@@ -12,7 +12,7 @@ from thermodata.diagnosis.question.weak import weak_spots
 from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.modelling.run import Loaded
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.view.dataset import TestData
 
 

@@ -10,7 +10,7 @@ from thermodata.diagnosis.claims.rules import rules, surely
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Float1D
-from thermodata.schema.candidate import CandidateCourse, LeftOut, Rung
+from thermodata.schema.answers.candidate import CandidateCourse, LeftOut, Rung
 
 _QUANTILES = 41
 

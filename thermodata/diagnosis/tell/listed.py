@@ -20,7 +20,7 @@ from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.candidate import Candidate
+from thermodata.schema.answers.candidate import Candidate
 from thermodata.view.dataset import Dataset
 
 SHOWN = 15

@@ -9,10 +9,9 @@ from thermodata.diagnosis.candidates.unread import reads
 from thermodata.diagnosis.claims.probability import elsewhere
 from thermodata.diagnosis.question.problem import MIN_ROWS
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import counted
-from thermodata.schema.diagnosis import WeakSpot
-from thermodata.schema.listed import listed
-from thermodata.schema.places import heat_at, is_around
+from thermodata.schema.answers.diagnosis import WeakSpot
+from thermodata.schema.words.places import heat_at, is_around
+from thermodata.schema.words.sentences import counted, listed
 from thermodata.view.dataset import ChannelInfo
 
 # share of machines whose one missing cause was named, by number of open tests: of the lathe, where most tests work all

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.trust.started_on import started_on
-from thermodata.schema.diagnosis import StartedOn
+from thermodata.schema.answers.diagnosis import StartedOn
 from thermodata.view.dataset import TestData
 
 

@@ -19,8 +19,7 @@ from thermodata.diagnosis.weigh.figures import from_to, way
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import in_percent
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import in_percent, listed
 from thermodata.view.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule

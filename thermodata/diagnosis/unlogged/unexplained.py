@@ -11,8 +11,8 @@ from thermodata.diagnosis.unlogged import first_seen, goes_with
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, Course, missing_heat
 from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
 from thermodata.plugin import Float1D
-from thermodata.schema.diagnosis import WeakSpot
-from thermodata.schema.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
+from thermodata.schema.answers.diagnosis import WeakSpot
+from thermodata.schema.answers.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown
 
 DIGITS = 4  # of a course, which is many numbers
 

@@ -51,7 +51,7 @@ from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
-from thermodata.schema.diagnosis import Artefact, WeakSpot
+from thermodata.schema.answers.diagnosis import Artefact, WeakSpot
 from thermodata.view.dataset import Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)

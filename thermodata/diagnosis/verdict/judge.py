@@ -17,7 +17,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.figures import short
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import in_percent
+from thermodata.schema.words.sentences import in_percent
 
 # rules of size and likeness, that few open tests break for a cause now and then; locked tests may outweigh one of them
 OUTWEIGHED = ("fall", "gain", "others", "worth")

@@ -16,7 +16,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.schema.counted import apart, in_percent
+from thermodata.schema.words.sentences import apart, in_percent
 
 Doubt = Literal["none", "some", "all"]
 """Whether any heat is missing: more is left than of machines that lack nothing, as much, or as a good model leaves."""

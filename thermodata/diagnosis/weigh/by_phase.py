@@ -26,7 +26,7 @@ from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.versions.candidate import phase_ids, phases_id, with_phases
 from thermodata.plugin import Effect, Gain, Param
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import TestData
 
 HEATING, COOLING = "heating", "cooling"

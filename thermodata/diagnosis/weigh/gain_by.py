@@ -21,7 +21,7 @@ from thermodata.modelling.terms.bound import OF_TESTS, group_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
 from thermodata.plugin import Effect, Gain
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import TestData
 
 MOST_VALUES = 8  # of a condition: more are no groups of tests

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from thermodata.draft.campaign.parts import DraftSource
 from thermodata.draft.folder.sources import Group
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _SHOWN = 4
 _FIRST = re.compile(r"(?P<what>[^?;:(]+)[?:]")  # "timezone" of "timezone? it logs local times"

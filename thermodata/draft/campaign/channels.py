@@ -32,10 +32,9 @@ from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
-from thermodata.schema.counted import counted
-from thermodata.schema.exported import OF_TEST, PLAIN, UNSIGNED, is_own_export, own_sign
-from thermodata.schema.listed import listed, with_count
-from thermodata.schema.quantity import CANONICAL_UNIT, normal_unit
+from thermodata.schema.agreed.exported import OF_TEST, PLAIN, UNSIGNED, is_own_export, own_sign
+from thermodata.schema.units.quantity import CANONICAL_UNIT, normal_unit
+from thermodata.schema.words.sentences import counted, listed, with_count
 
 _MOST_SIGNALS, _MOST_LINES = 2000, 2
 _STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")

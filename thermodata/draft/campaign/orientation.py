@@ -15,7 +15,7 @@ from thermodata.draft.signals.units import converts
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words
 from thermodata.plugin import Signal
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _SHOWN_STEPS = 12
 

@@ -47,7 +47,7 @@ from thermodata.draft.times.date_order import with_orders_told
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.named_days import over_midnight
 from thermodata.draft.words.roles import said_by_list
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 
 def plan(campaign: str, folder: Path, found: Scan) -> Draft:

@@ -13,9 +13,9 @@ from thermodata.draft.files.sample import Course
 from thermodata.draft.signals.guess import guess_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Float1D, Int1D
-from thermodata.schema.listed import with_count
-from thermodata.schema.places import is_spindle
-from thermodata.schema.quantity import canonical, linear_conversion
+from thermodata.schema.units.quantity import canonical, linear_conversion
+from thermodata.schema.words.places import is_spindle
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.tidy.on_change import come_at_no_rate
 
 _DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")

@@ -10,8 +10,8 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.times.clocks import Named
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.schema.places import is_spindle
-from thermodata.schema.quantity import linear_conversion
+from thermodata.schema.units.quantity import linear_conversion
+from thermodata.schema.words.places import is_spindle
 
 _WARMER_K = 3.0
 _FEWEST = 3  # tests, of which the coolest tells what the machine at rest reads

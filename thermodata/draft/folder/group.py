@@ -10,7 +10,7 @@ from itertools import pairwise
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 _NEAR_NS = 15 * 60 * 1_000_000_000
 _HOUR_NS = 3_600_000_000_000

@@ -15,9 +15,9 @@ from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
 from thermodata.reader.text import decode, split_unit
-from thermodata.schema.exported import is_own_about, sign_key
-from thermodata.schema.listed import with_count
-from thermodata.schema.quantity import is_unit
+from thermodata.schema.agreed.exported import is_own_about, sign_key
+from thermodata.schema.units.quantity import is_unit
+from thermodata.schema.words.sentences import with_count
 
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
 _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3

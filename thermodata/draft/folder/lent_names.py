@@ -14,7 +14,7 @@ from thermodata.errors import ThermodataError
 from thermodata.reader.registry import reader
 from thermodata.reader.rotated import unrotated
 from thermodata.reader.text.tables.find_table import open_table
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 _NUMBER = re.compile(r"[\W_]*\d+\)?")
 

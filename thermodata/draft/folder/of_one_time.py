@@ -8,7 +8,7 @@ from dataclasses import replace
 from thermodata.draft.files.raw_file import Asked, RawFile
 from thermodata.draft.files.sheets import recordings_in
 from thermodata.draft.folder.one_or_many import told_apart
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _NAMED = 4
 

@@ -12,7 +12,7 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import without_part
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.reader.rotated import age, unrotated
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _NAMED = 4
 # what programs call a sheet that nobody named, and what anything is called

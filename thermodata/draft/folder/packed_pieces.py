@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 
 from thermodata.draft.folder.sources import Group
 from thermodata.reader.rotated import age, unrotated
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _PACKED = (".gz", ".bz2", ".xz", ".zst")
 _SHOWN = 4

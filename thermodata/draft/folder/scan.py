@@ -20,9 +20,9 @@ from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
 from thermodata.reader.stores import within_stores
-from thermodata.schema.counted import counted
-from thermodata.schema.left_out import CANT_READ
-from thermodata.schema.lines import is_text
+from thermodata.schema.agreed.left_out import CANT_READ
+from thermodata.schema.strict.lines import is_text
+from thermodata.schema.words.sentences import counted
 
 _SAMPLES_S, _HEADERS_S = 15.0, 40.0  # of the whole folder
 _UNREAD = (ThermodataError, OSError, MemoryError)  # of one file: the others are drafted all the same

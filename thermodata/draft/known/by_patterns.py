@@ -17,8 +17,8 @@ from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Recording
 from thermodata.reader.match import match_signal
 from thermodata.reader.registry import reader
-from thermodata.schema.campaign import SourceSpec
-from thermodata.schema.tests_from import pattern_of
+from thermodata.schema.files.campaign import SourceSpec
+from thermodata.schema.files.tests_from import pattern_of
 
 
 @dataclass(frozen=True, slots=True)

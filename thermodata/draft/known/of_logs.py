@@ -10,8 +10,8 @@ from pathlib import Path
 from thermodata.calibration.expression.parser import parse
 from thermodata.draft.known.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
-from thermodata.schema.campaign import Campaign, SourceSpec, Test
-from thermodata.schema.tests_from import pattern_of
+from thermodata.schema.files.campaign import Campaign, SourceSpec, Test
+from thermodata.schema.files.tests_from import pattern_of
 from thermodata.store.ingest.reading.resolve import natural
 
 MOST_FILES = 100_000

@@ -16,7 +16,7 @@ from thermodata.errors import UsageError, unknown_name
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.predict import Predicted
     from thermodata.modelling.terms.fitted import FittedModel
-    from thermodata.schema.campaign import Campaign
+    from thermodata.schema.files.campaign import Campaign
     from thermodata.store import Store
     from thermodata.store.ingest.progress import Progress
     from thermodata.view.dataset import Dataset

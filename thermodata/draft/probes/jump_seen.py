@@ -12,7 +12,7 @@ from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D
 from thermodata.reader.match import match_signal
-from thermodata.schema.lines import read_document
+from thermodata.schema.strict.lines import read_document
 
 MOST_BYTES = 64 << 20  # a jump test takes minutes
 

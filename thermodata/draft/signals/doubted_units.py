@@ -8,7 +8,7 @@ from dataclasses import replace
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.values import Values
-from thermodata.schema.places import AROUND
+from thermodata.schema.words.places import AROUND
 
 _NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
 _NO_REST_C = 60.0  # no bearing, column or oil begins a log above that, though a motor may run there

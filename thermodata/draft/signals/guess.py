@@ -25,8 +25,8 @@ from thermodata.plugin import Signal
 from thermodata.reader.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
-from thermodata.schema.quantity import is_unit, normal_unit
-from thermodata.schema.unit_letters import encoding_hint
+from thermodata.schema.units.letters import encoding_hint
+from thermodata.schema.units.quantity import is_unit, normal_unit
 
 # 'CH1', 'U1-1', 'Kanal 3', '101': where a wire goes into a logger
 _ADDRESS = re.compile(r"[^\W\d]{0,8}[ _-]?\d+(?:[-_.:]\d+)*(?:#\d+)?")

@@ -10,8 +10,8 @@ from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import OTHERS, units_in
-from thermodata.schema.listed import with_count
-from thermodata.schema.quantity import CANONICAL_UNIT, converts, normal_unit
+from thermodata.schema.units.quantity import CANONICAL_UNIT, converts, normal_unit
+from thermodata.schema.words.sentences import with_count
 
 _FILES, _HEADS = 2, 4  # that are shown
 _LENGTHS_AND_HEAT = ("temperature", "temperature_difference", "displacement", "position")

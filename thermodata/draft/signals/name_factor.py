@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.reader.text import split_unit
-from thermodata.schema.unit_scale import with_power_of_ten
+from thermodata.schema.units.scale import with_power_of_ten
 
 _SIGN = re.compile(r"^(?P<said>[-−–])\s*(?=[^\W\d_])")
 _NUMBER = r"(?P<minus>[-−–]?)\s*(?P<number>\d+(?:[.,]\d+)?)"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from statistics import median
 
 from thermodata.draft.signals.values import Values
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.ingest.told.other_units import APART_K, ZERO_K
 
 THOUSAND = (300.0, 3000.0)  # of how much the rows differ: um and mm, W and kW

@@ -12,8 +12,8 @@ from thermodata.draft.signals.values import Values
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.vocabulary import DIFFERENCE, foreign_in, places_in, quantities_in, says
 from thermodata.reader.time_units import found_epoch
-from thermodata.schema.quantity import normal_unit
-from thermodata.schema.unit_spelling import bare_unit, is_of_humidity
+from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.units.spelling import bare_unit, is_of_humidity
 
 NO_READING = "no reading"  # begins what is said of a column that nobody need be asked about
 _WEAK = ("a time stamp", "a number")  # words that stand beside others: 'Temp block 3'

@@ -10,7 +10,7 @@ from thermodata.draft.signals.values import Values
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.stated_scale import line_that_applies, stated_scales
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 _FILES = 3  # that are shown
 

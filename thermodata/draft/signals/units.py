@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 from thermodata.errors import UsageError
-from thermodata.schema.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
-from thermodata.schema.quantity import converts as converts_to
-from thermodata.schema.unit_scale import scaled_unit
-from thermodata.schema.unit_spelling import bare_unit
+from thermodata.schema.units.quantity import CANONICAL_UNIT, is_unit, linear_conversion, normal_unit
+from thermodata.schema.units.quantity import converts as converts_to
+from thermodata.schema.units.scale import scaled_unit
+from thermodata.schema.units.spelling import bare_unit
 
 _BY_UNIT: dict[str, tuple[str, ...]] = {
     "degC": ("temperature", "temperature_difference"),

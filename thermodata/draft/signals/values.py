@@ -13,7 +13,7 @@ from thermodata.calibration.quality.limit import impossible, sentinels
 from thermodata.calibration.quality.value import run_stats
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D
-from thermodata.schema.quantity import linear_conversion
+from thermodata.schema.units.quantity import linear_conversion
 
 _FEW = 8
 _NUMERAL, _MOSTLY = re.compile(r"[-+]?\d*[.,]?\d+([eE][-+]?\d+)?"), 0.9

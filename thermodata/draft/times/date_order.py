@@ -17,7 +17,7 @@ from thermodata.draft.times.named_days import day_of_name
 from thermodata.errors import ThermodataError
 from thermodata.reader.guard import described
 from thermodata.reader.registry import reader
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 _ORDERS = ("dmy", "mdy")
 _EITHER = "format of the dates: dmy or mdy?"

@@ -11,7 +11,7 @@ from datetime import UTC, datetime, timedelta
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.said_by_names import said_by
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 _DAY_NS = 86_400 * 10**9
 _PAUSE_ROWS, _PAUSE_NS = 3, 60 * 10**9

@@ -7,7 +7,7 @@ import unicodedata
 
 from anyascii import anyascii
 
-from thermodata.schema.campaign import RESERVED_NAMES
+from thermodata.schema.files.campaign import RESERVED_NAMES
 
 _LETTERS = str.maketrans(
     {

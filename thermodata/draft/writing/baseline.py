@@ -10,9 +10,9 @@ from thermodata.draft.writing.seal import sealed
 from thermodata.draft.writing.write import flow, one_line, scalar
 from thermodata.effect.binding import unnamed
 from thermodata.effect.registry import effects
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.listed import with_count
-from thermodata.schema.places import is_around
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.words.places import is_around
+from thermodata.schema.words.sentences import with_count
 
 # what a lab's first model has, the strongest first; what else moves the tool is for `diagnose` to find
 _PLAIN = ("spindle_bearing", "feed_screw", "column_bending", "table_bearing", "ambient_frame")

@@ -20,10 +20,10 @@ from thermodata.draft.probes.which_way import (
 from thermodata.draft.writing.unread import GUESSED, WHAT, come_to_life, quantity_and_unit, unread
 from thermodata.draft.writing.write import scalar
 from thermodata.errors import UsageError
-from thermodata.schema.campaign import Role, TestKind
-from thermodata.schema.lines import Document, Place, parse_document
-from thermodata.schema.load import parse_campaign
-from thermodata.schema.places import PLACES
+from thermodata.schema.files.campaign import Role, TestKind
+from thermodata.schema.files.load import parse_campaign
+from thermodata.schema.strict.lines import Document, Place, parse_document
+from thermodata.schema.words.places import PLACES
 
 Kind = Literal["place", "axis", "what", "way", "role", "kind", "start", "zone", "moves", "text"]
 ROLES: tuple[str, ...] = get_args(Role)

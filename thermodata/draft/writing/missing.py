@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from thermodata.draft.writing.baseline import responses_of
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.listed import with_count
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.words.sentences import with_count
 
 _ASKED = re.compile(r"^  (?:# )?(\w+): \{(?=[^#]*\b(?:source|signal): )(.*?)# \? (.*)$", re.MULTILINE)
 _MOST = 6

@@ -9,8 +9,8 @@ from typing import Any
 from thermodata.draft.writing.fill_in import set_in_line
 from thermodata.draft.writing.write import flow, scalar
 from thermodata.errors import UsageError
-from thermodata.schema.lines import Document, parse_document
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.load import parse_campaign
+from thermodata.schema.strict.lines import Document, parse_document
 
 EVERY = "*"  # no name of a test
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.quantity import CANONICAL_UNIT, QUANTITIES, linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, QUANTITIES, linear_conversion
 
 WHAT: tuple[str, ...] = tuple(f"{q} [{CANONICAL_UNIT[q]}]" for q in QUANTITIES if q != "label")
 GUESSED = "# ? quantity:"

@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.probes.which_way import calibration_for
 from thermodata.draft.writing.testsfrom import Pattern, pattern_of
-from thermodata.schema.left_out import left_out
+from thermodata.schema.agreed.left_out import left_out
 
 _PLACES = "at: where on the machine, e.g. spindle.bearing.front, axis.z.nut, column.rear, hall.top, floor"
 _ROLES = "? role of each: calibration (fitted), verification (checked), locked (for the last word), none (kept only)"

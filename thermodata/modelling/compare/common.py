@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from thermodata.schema.result import Check, LostTest, Score
+    from thermodata.schema.answers.result import Check, LostTest, Score
 
 Course = tuple[str, str, str]
 """(campaign, test, response)."""
@@ -30,7 +30,7 @@ def on_common(versions: Sequence[Sequence[Score]]) -> list[list[Score]]:
 
 def lost_tests(before: Iterable[Score], after: Iterable[Score], checks: Iterable[Check] = ()) -> list[LostTest]:
     """What was predicted before, and is no more. checks: of the fit after, for they say why."""
-    from thermodata.schema.result import LostTest
+    from thermodata.schema.answers.result import LostTest
 
     left = predicted(after)
     why = {c.name.partition(":")[2]: c.advice for c in checks if c.name.startswith(("skipped:", "not_predicted:"))}

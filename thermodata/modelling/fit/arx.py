@@ -17,7 +17,7 @@ from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.terms.identified import Identified
 from thermodata.plugin import Bool1D, Effect, Float1D
-from thermodata.schema.counted import in_percent
+from thermodata.schema.words.sentences import in_percent
 from thermodata.view.dataset import TestData
 
 FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample

@@ -20,7 +20,7 @@ from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, fit_mask
 from thermodata.plugin import Effect
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.files.model import EffectSpec
 from thermodata.view.dataset import TestData
 
 AS_GOOD = 0.5  # points of FIT

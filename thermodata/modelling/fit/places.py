@@ -12,7 +12,7 @@ from dataclasses import replace
 from thermodata.errors import SpecError
 from thermodata.modelling.terms.bound import PLACE, BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.files.model import EffectSpec
 from thermodata.view.dataset import Dataset, TestData
 
 RESPONSE = "response's value"  # no channel has such a name

@@ -16,8 +16,8 @@ from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.usable import usable_tests
-from thermodata.schema.counted import in_percent
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
+from thermodata.schema.words.sentences import in_percent
 from thermodata.view.dataset import Dataset, TestData
 
 MOVED = 0.2  # of what the effect itself does in its own tests

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from thermodata.modelling.inputs.roles import Key, Roles
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import Dataset, TestData
 from thermodata.view.shared_samples import shared_samples
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.errors import SpecError
-from thermodata.schema.printed import rounding
+from thermodata.schema.strict.printed import rounding
 
 CLEAR = 5.0  # a sum is known where it exceeds its rounding so many times
 SLOWEST_H = 100.0  # no record shows a slower function, and a pole so near 1 is rounding

@@ -9,7 +9,7 @@ from thermodata.calibration.expression.parser import Expression, parse
 from thermodata.effect.binding import ANY
 from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect, Need
-from thermodata.schema.quantity import CANONICAL_UNIT, canonical, linear_conversion
+from thermodata.schema.units.quantity import CANONICAL_UNIT, canonical, linear_conversion
 from thermodata.view.dataset import ChannelInfo
 
 _ALIKE = (frozenset({"temperature", "temperature_difference"}),)  # a driver counts from its start

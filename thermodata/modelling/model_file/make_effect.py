@@ -10,8 +10,8 @@ from thermodata.effect import effect as find_effect
 from thermodata.errors import PluginError, SpecError, UsageError
 from thermodata.modelling.model_file import nested, prediction, transfer
 from thermodata.plugin import Effect
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.terms import ids_of
+from thermodata.schema.agreed.effect_ids import ids_of
+from thermodata.schema.files.model import EffectSpec, Model
 
 _OWNED = {
     "method": transfer.NAME,

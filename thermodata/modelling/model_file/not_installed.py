@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from thermodata.effect import effect as find_effect
 from thermodata.errors import PluginError, UsageError
 from thermodata.modelling.model_file import nested, prediction, transfer
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 
 
 class NotInstalledError(UsageError):

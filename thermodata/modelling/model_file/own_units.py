@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from thermodata.errors import SpecError, UsageError
 from thermodata.plugin import Effect
-from thermodata.schema.model import EffectSpec
-from thermodata.schema.printed import WithUnit
-from thermodata.schema.quantity import difference_unit, value_in
+from thermodata.schema.files.model import EffectSpec
+from thermodata.schema.strict.printed import WithUnit
+from thermodata.schema.units.quantity import difference_unit, value_in
 
 
 def in_own_units(

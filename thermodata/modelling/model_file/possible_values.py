@@ -13,9 +13,9 @@ from math import isfinite
 from thermodata.errors import SpecError, nearest
 from thermodata.modelling.terms.bound import group_of
 from thermodata.plugin import Effect, Param
-from thermodata.schema.model import EffectSpec
-from thermodata.schema.printed import Printed
-from thermodata.schema.quantity import converts
+from thermodata.schema.files.model import EffectSpec
+from thermodata.schema.strict.printed import Printed
+from thermodata.schema.units.quantity import converts
 from thermodata.view.dataset import Dataset, TestData
 
 _NAME = re.compile(r"[^\W\d]\w*")

@@ -21,9 +21,9 @@ from thermodata.modelling.model_file.said_conditions import refuse_unsaid_of
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.nuisance import known_weights
 from thermodata.plugin import Effect
-from thermodata.schema.counted import counted
-from thermodata.schema.model import Driver, EffectSpec, Model, Place, Response
-from thermodata.schema.terms import ids_of
+from thermodata.schema.agreed.effect_ids import ids_of
+from thermodata.schema.files.model import Driver, EffectSpec, Model, Place, Response
+from thermodata.schema.words.sentences import counted
 from thermodata.view.dataset import ChannelInfo, Dataset
 
 Found = TypeVar("Found")

@@ -14,7 +14,7 @@ from thermodata.modelling.inputs.phases import phases
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D
-from thermodata.schema.result import Score
+from thermodata.schema.answers.result import Score
 from thermodata.view.dataset import Dataset, TestData
 
 ALL = "all"

@@ -23,7 +23,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.modelling.trust.bound_checks import at_bounds
 from thermodata.plugin import Float1D
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
 POINTS = 240  # of a curve

@@ -15,7 +15,7 @@ from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
-from thermodata.schema.model import EffectSpec
+from thermodata.schema.files.model import EffectSpec
 from thermodata.view.dataset import TestData
 
 OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions,

@@ -10,8 +10,8 @@ from thermodata.modelling.inputs.overlap import Overlap, overlap_checks
 from thermodata.modelling.inputs.roles import Key, Roles
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.terms.parameters import parameters
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check, Parameter
+from thermodata.schema.answers.result import Check, Parameter
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 

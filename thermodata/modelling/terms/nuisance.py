@@ -12,7 +12,7 @@ from thermodata.errors import unknown_name
 from thermodata.modelling.inputs.phases import TOLD, phases
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.plugin import Bool1D, Float1D, Float2D
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset, TestData
 
 WARM = "warm"

@@ -9,8 +9,8 @@ from thermodata.calibration.expression.parser import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
 from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param
-from thermodata.schema.quantity import difference_unit
-from thermodata.schema.result import SAMPLE, Parameter
+from thermodata.schema.answers.result import SAMPLE, Parameter
+from thermodata.schema.units.quantity import difference_unit
 
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
 

@@ -18,7 +18,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.trust.sensitivity import Name, Sensitivity, sensitivity
 from thermodata.modelling.trust.slow_noise import Noise, make_noise
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import TestData
 
 HOURS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 36, 48)

@@ -8,7 +8,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.parameters import UNDETERMINED, interval, name_of
 from thermodata.modelling.trust.usual_gain import usual_gain
 from thermodata.plugin import Param
-from thermodata.schema.result import Check
+from thermodata.schema.answers.result import Check
 
 IMPLAUSIBLE = "implausible:"  # before the name of a gain, in the name of a check
 AT_BOUND = 1e-3  # of the bound, or of the range where that may be zero

@@ -19,8 +19,8 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.nuisance import WARM
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Float1D
-from thermodata.schema.begins_on import IF_SO, begins_on, values_of
-from thermodata.schema.result import Check
+from thermodata.schema.agreed.begins_on import IF_SO, begins_on, values_of
+from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import Dataset, TestData
 
 # of the test's error, had it run before. One that reached a share s of its rest before the test is off by s, and by

@@ -17,7 +17,7 @@ from thermodata.modelling.trust.profile import Profile
 from thermodata.modelling.trust.slow_noise import Scatter, make_noise, nothing
 from thermodata.modelling.trust.start_unknown import disturbances
 from thermodata.plugin import Float1D, Float2D
-from thermodata.schema.certainty import Z95
+from thermodata.schema.agreed.certainty import Z95
 
 Rough = Callable[[], Problem | None]
 UNKNOWN = 3.0  # half an interval, in units of the search (a factor of 20): of what nobody knows no profile is asked

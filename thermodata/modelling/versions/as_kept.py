@@ -20,8 +20,8 @@ from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values
 from thermodata.plugin import Effect
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.result import SAMPLE, Check, FitResult
+from thermodata.schema.answers.result import SAMPLE, Check, FitResult
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset, TestData
 
 IN_SAMPLE = " (in-sample)"

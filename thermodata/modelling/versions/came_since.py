@@ -6,12 +6,12 @@ from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
-from thermodata.schema.listed import listed
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
+from thermodata.schema.words.sentences import listed
 from thermodata.view.dataset import Dataset
 
 if TYPE_CHECKING:
-    from thermodata.schema.diagnosis import Diagnosis
+    from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store.catalogue.models import StoredModel
 
 

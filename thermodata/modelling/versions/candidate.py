@@ -13,7 +13,7 @@ from thermodata.effect import effects
 from thermodata.effect.binding import Described, bindings, unnamed
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model
 
 GAIN_BY = "gain_by:"
 PHASES = "phases:"

@@ -11,8 +11,8 @@ from thermodata.modelling.compare.common import lost_tests
 from thermodata.modelling.predictions.score import ALL, FEWEST, scores
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.trust.started_on import started_on_checks
-from thermodata.schema.model import Model
-from thermodata.schema.result import Check, FitResult, Score
+from thermodata.schema.answers.result import Check, FitResult, Score
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 ID_LENGTH = 12

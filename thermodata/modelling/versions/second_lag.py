@@ -21,9 +21,9 @@ from thermodata.modelling.model_file.transfer import NAME as TRANSFER
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedTerm
 from thermodata.plugin import Param
-from thermodata.schema.counted import counted as in_words
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.quantity import SECONDS_PER_UNIT
+from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.schema.units.quantity import SECONDS_PER_UNIT
+from thermodata.schema.words.sentences import counted as in_words
 from thermodata.store.base.counting import counted
 from thermodata.view.dataset import Dataset
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from thermodata.modelling.inputs.roles import in_full, resolve_roles
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
-from thermodata.schema.diagnosis import ClockMoved, PutRight
-from thermodata.schema.model import Model
+from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 
 

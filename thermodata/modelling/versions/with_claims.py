@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from thermodata.errors import UsageError
 from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
 from thermodata.modelling.versions.candidate import with_candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import EffectSpec, Model
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.view.dataset import Dataset
 
 

@@ -13,8 +13,8 @@ from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, draw_test, when
 from thermodata.report.words import duration, typeset
 from thermodata.report.write import page_values, write_page
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
+from thermodata.schema.words.sentences import counted
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView

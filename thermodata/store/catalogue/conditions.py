@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from thermodata.errors import UsageError
-from thermodata.schema.quantity import linear_conversion, normal_unit, split_value
+from thermodata.schema.units.quantity import linear_conversion, normal_unit, split_value
 
 # tried in this order: what a condition of a thermal test is usually given in
 _TARGETS = ("rpm", "m/min", "degC", "mm", "kW", "s", "bar", "l/min", "A", "N*m", "V", "percent", "deg", "kg", "N")

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError, UsageError, nearest
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import Model
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.result import FitResult
+from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.encoder import COMPRESSION
 from thermodata.store.base.files import publish, safe_name, temporary, write_error

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from thermodata.schema.listed import with_count
-from thermodata.schema.model import Model
+from thermodata.schema.files.model import Model
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
 from thermodata.store.catalogue.store import Store

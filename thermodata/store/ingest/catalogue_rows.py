@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
-from thermodata.schema.campaign import Campaign, Measuring
-from thermodata.schema.quantity import canonical
+from thermodata.schema.files.campaign import Campaign, Measuring
+from thermodata.schema.units.quantity import canonical
 from thermodata.store.catalogue.conditions import plain_value, plain_values
 from thermodata.store.ingest.known.inventory import Row
 from thermodata.store.ingest.told.beyond_the_end import phases_of

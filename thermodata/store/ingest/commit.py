@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.schema.campaign import Campaign
+from thermodata.schema.files.campaign import Campaign
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
 from thermodata.store.ingest.known.files_taken_out import keep_files

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import StoreError, UsageError
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.load import load_campaign
-from thermodata.schema.locate import located, placed
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.load import load_campaign
+from thermodata.schema.files.locate import located, placed
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.catalogue_rows import calibration_row

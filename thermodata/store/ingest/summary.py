@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.calibration.jump.limits import MOVES, with_limits
-from thermodata.schema.left_out import left_out_for_a_fault
+from thermodata.schema.agreed.left_out import left_out_for_a_fault
 from thermodata.store.ingest.known.inventory import Inventory, Row
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.layers import Layers

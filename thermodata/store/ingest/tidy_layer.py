@@ -14,8 +14,8 @@ from pathlib import Path
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import SpecError, StoreError, ThermodataError
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.places import is_around, is_powered
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.words.places import is_around, is_powered
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.ingest import catalogue_rows
 from thermodata.store.ingest.known.inventory import BY_TEST, Inventory, Row, meta_of

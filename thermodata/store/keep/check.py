@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import is_whole, write_error
 from thermodata.store.catalogue.store import Store

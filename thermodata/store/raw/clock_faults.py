@@ -15,7 +15,7 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.clock_leaps import LEAP_NS
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 JITTER_NS = 1_000_000_000  # a step back up to this is disorder
 SMALL_NS = 120_000_000_000  # up to this, what a time server corrects

@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.plugin import Int1D
 from thermodata.reader.clock_leaps import LEAP_NS
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.clock_faults import JITTER_NS, MOST_STRAYS, Faults, shifted
 
 CHUNK_ROWS = 500_000

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from thermodata.plugin import Array, Bool1D, Int1D
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.clock_faults import JITTER_NS
 
 CHUNK_ROWS = 500_000

@@ -12,7 +12,7 @@ from thermodata.plugin import Loss, Reader, Recording, Signal, Source
 from thermodata.reader import newest_first, registry
 from thermodata.reader.guard import described, guarded
 from thermodata.reader.units_met import units_met
-from thermodata.schema.campaign import SourceSpec
+from thermodata.schema.files.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
 from thermodata.store.raw.open_pass import pass_notes
 from thermodata.store.raw.raw_stream import RawStream

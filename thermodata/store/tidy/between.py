@@ -19,7 +19,7 @@ from thermodata.calibration.quality.still import Reading, read_elsewhere
 from thermodata.calibration.quality.value import RunStats, refreshed, run_stats
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.flag import INVALID, Flag
-from thermodata.schema.places import is_at_tool
+from thermodata.schema.words.places import is_at_tool
 
 if TYPE_CHECKING:
     from thermodata.store.tidy.chunk import Column

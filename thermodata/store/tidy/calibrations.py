@@ -8,9 +8,9 @@ from pathlib import Path
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, RailError, ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
-from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
-from thermodata.schema.counted import counted
-from thermodata.schema.quantity import converts, linear_conversion
+from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, PlatinumCalibration
+from thermodata.schema.units.quantity import converts, linear_conversion
+from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.in_parts import find_signal

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.campaign import Campaign, Channel
+from thermodata.schema.files.campaign import Campaign, Channel
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import effective
 

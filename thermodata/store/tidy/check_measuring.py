@@ -9,8 +9,8 @@ import numpy as np
 from thermodata.calibration.expression.parser import parse
 from thermodata.calibration.measuring import long_form
 from thermodata.errors import UsageError, unknown_name
-from thermodata.schema.campaign import Campaign, Channel, Test
-from thermodata.schema.quantity import canonical
+from thermodata.schema.files.campaign import Campaign, Channel, Test
+from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.check_derived import names_in
 from thermodata.store.tidy.plan import effective
 

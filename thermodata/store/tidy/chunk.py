@@ -14,7 +14,7 @@ from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import canonical
+from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import Bound, TestPlan
 from thermodata.store.tidy.timeline import Timeline

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Float1D
-from thermodata.schema.quantity import canonical, linear_conversion
+from thermodata.schema.units.quantity import canonical, linear_conversion
 from thermodata.store.tidy.plan import Bound
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.quantity import canonical, linear_conversion, split_value
+from thermodata.schema.units.quantity import canonical, linear_conversion, split_value
 from thermodata.store.tidy.plan import Bound
 from thermodata.store.tidy.series import TestSeries
 

@@ -12,8 +12,8 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Array, Signal
 from thermodata.reader.match import match_signal
 from thermodata.reader.text import split_unit
-from thermodata.schema.campaign import Channel
-from thermodata.schema.quantity import delta_factor, is_unit, linear_conversion
+from thermodata.schema.files.campaign import Channel
+from thermodata.schema.units.quantity import delta_factor, is_unit, linear_conversion
 from thermodata.store.raw.raw_stream import RawStream
 
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 
 from thermodata.calibration.measuring import measuring_names
 from thermodata.calibration.result import CalibrationResult
-from thermodata.schema.campaign import Channel
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.files.campaign import Channel
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.base.files import key_of
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import derive

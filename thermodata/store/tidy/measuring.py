@@ -11,8 +11,8 @@ import numpy as np
 
 from thermodata.calibration.measuring import BREAK, long_form, measuring_mask, measuring_names
 from thermodata.plugin import Array, Bool1D, Int1D
-from thermodata.schema.campaign import Measuring
-from thermodata.schema.quantity import canonical
+from thermodata.schema.files.campaign import Measuring
+from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.chunk import Chunk, Column
 from thermodata.store.tidy.plan import TestPlan
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Float1D
-from thermodata.schema.campaign import Campaign, Overrule
+from thermodata.schema.files.campaign import Campaign, Overrule
 from thermodata.schema.flag import OVERRULED, Flag
 from thermodata.store.tidy.chunk import Column
 from thermodata.store.tidy.event import Event

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
 from thermodata.reader.match import NoSignalError
-from thermodata.schema.campaign import Campaign, Channel, SourceSpec, Test
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.in_parts import Found, InPart, find_in_parts

@@ -13,9 +13,9 @@ from thermodata.calibration.quality.concise import concise
 from thermodata.calibration.quality.flags import ANALOG, QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Bool1D, Int1D
-from thermodata.schema.campaign import Measuring
+from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.tidy import windows
 from thermodata.store.tidy.between import Verdict
 from thermodata.store.tidy.chunk import Chunk, Column, calibrated

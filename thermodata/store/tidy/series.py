@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
-from thermodata.schema.quantity import HELD_QUANTITIES
+from thermodata.schema.units.quantity import HELD_QUANTITIES
 from thermodata.store.tidy import schedule
 from thermodata.store.tidy.chunk import Chunk
 from thermodata.store.tidy.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand

@@ -14,9 +14,9 @@ from thermodata.errors import UsageError
 from thermodata.plugin import Array, Float1D, Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.stated_scale import Stated, line_that_applies, stated_scales
-from thermodata.schema.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, ScaleCalibration
-from thermodata.schema.quantity import linear_conversion, split_value
-from thermodata.schema.unit_scale import scaled_unit
+from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, ScaleCalibration
+from thermodata.schema.units.quantity import linear_conversion, split_value
+from thermodata.schema.units.scale import scaled_unit
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import Bound, TestPlan

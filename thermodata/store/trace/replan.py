@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.schema.campaign import STORED, Campaign
+from thermodata.schema.files.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_from_json

@@ -9,7 +9,7 @@ from thermodata.errors import ThermodataError
 from thermodata.plugin import Block
 from thermodata.reader.guard import guarded
 from thermodata.reader.locate import locate
-from thermodata.schema.campaign import SourceSpec
+from thermodata.schema.files.campaign import SourceSpec
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.streams import declared, find_reader
 

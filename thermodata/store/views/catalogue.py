@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from thermodata.schema.quantity import CANONICAL_UNIT, HELD_QUANTITIES
+from thermodata.schema.units.quantity import CANONICAL_UNIT, HELD_QUANTITIES
 from thermodata.store.base.connection import literal
 
 if TYPE_CHECKING:

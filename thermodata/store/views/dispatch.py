@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Group
 from thermodata.store.views.wide import file_list

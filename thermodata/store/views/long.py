@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from thermodata.schema.flag import INVALID
-from thermodata.schema.quantity import MEASURED
+from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Column, Group
 from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, refuse

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from itertools import product
 
 from thermodata.effect.places import holds
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.virtual.lathe.causes import CAUSES
 from thermodata.virtual.lathe.right_names import Mark, mark
 from thermodata.virtual.lathe.sensors import BY_NAME

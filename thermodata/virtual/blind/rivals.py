@@ -15,7 +15,7 @@ from scipy.signal import lfilter
 
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Float2D, Int1D
-from thermodata.schema.quantity import NOT_DRIVERS
+from thermodata.schema.units.quantity import NOT_DRIVERS
 from thermodata.view.dataset import Dataset, TestData
 
 STEP_S = 300.0

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from statistics import mean, median
 from typing import Any, get_args
 
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.virtual.blind.rivals import RIVALS
 from thermodata.virtual.lathe.strata import STRATA
 

@@ -13,9 +13,9 @@ from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import with_candidate, with_effect
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
-from thermodata.schema.model import Model
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.files.model import Model
 from thermodata.view.dataset import Dataset
 from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of, refinements_of
 from thermodata.virtual.blind.rivals import RIVALS, ask

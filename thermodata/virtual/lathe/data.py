@@ -9,8 +9,8 @@ import numpy as np
 from thermodata.modelling.inputs.coarse_readings import drawn
 from thermodata.modelling.versions.candidate import candidate_spec
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.schema.model import EffectSpec, Model
-from thermodata.schema.quantity import CANONICAL_UNIT
+from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.schema.units.quantity import CANONICAL_UNIT
 from thermodata.view.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
 from thermodata.virtual.lathe.recording import Run

@@ -8,8 +8,8 @@ from starlette.responses import Response
 from thermodata.errors import UsageError
 from thermodata.modelling.add import chosen_id
 from thermodata.modelling.versions.candidate import with_candidate
-from thermodata.schema.candidate import Candidate
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.candidate import Candidate
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
 from thermodata.view.describe import channel_infos

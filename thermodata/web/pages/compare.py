@@ -21,7 +21,7 @@ from thermodata.report.headline import capital
 from thermodata.report.history import chain_units, how_it_went, versions
 from thermodata.report.lost import lost_of_compared, lost_of_versions
 from thermodata.report.of_response import some_of
-from thermodata.schema.result import FitResult
+from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.view.contributions import Contributions, contributions, open_test, test_names

@@ -10,7 +10,7 @@ from thermodata.chart.spec import Axis, Chart, Panel, Series, Span
 from thermodata.draft.probes.jump_seen import JumpSeen, jump_seen
 from thermodata.draft.writing.fill_in import questions
 from thermodata.errors import UsageError
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.web.render import desk_of, page
 
 

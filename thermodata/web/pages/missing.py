@@ -20,8 +20,8 @@ from thermodata.report.older import is_of_other_data
 from thermodata.report.pieces import names_of_pieces
 from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
 from thermodata.report.words import heat_lines, in_unit, number
-from thermodata.schema.candidate import Candidate, LeftOut, Rung
-from thermodata.schema.diagnosis import Diagnosis
+from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
+from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.looks import looks_of

@@ -9,7 +9,7 @@ from starlette.responses import Response
 
 from thermodata.draft.writing.put import put
 from thermodata.errors import UsageError
-from thermodata.schema.load import load_campaign
+from thermodata.schema.files.load import load_campaign
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of
 from thermodata.web.pages.start import campaign_text, changes, written

@@ -16,8 +16,8 @@ from thermodata.draft.writing.baseline import responses_of
 from thermodata.draft.writing.fill_in import Question, filled_in, questions
 from thermodata.draft.writing.unread import WHAT
 from thermodata.errors import SpecError, UsageError
-from thermodata.schema.campaign import Channel
-from thermodata.schema.load import parse_campaign
+from thermodata.schema.files.campaign import Channel
+from thermodata.schema.files.load import parse_campaign
 from thermodata.web.command import command
 from thermodata.web.desk import Desk
 from thermodata.web.form import form_of

@@ -23,7 +23,7 @@ from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns
 from thermodata_reader_table.workbook_related import with_related

@@ -38,8 +38,8 @@ from thermodata.reader.text.times.time_cells import belongs_to_time
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook_cells import joined, joined_words, part_of_date, seconds_of
 from thermodata_reader_table.workbook_days import local_times
 from thermodata_reader_table.workbook_start import begun

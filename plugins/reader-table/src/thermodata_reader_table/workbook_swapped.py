@@ -18,7 +18,7 @@ from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 
 SWAPPED, SHOWN = "swapped", "shown"
 _TURNED = "day and month of its dates were exchanged: turned, for its rows go on from day to day only so"

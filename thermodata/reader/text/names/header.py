@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 from functools import lru_cache
 
-from thermodata.schema.unit_scale import scaled_unit
-from thermodata.schema.unit_spelling import bare_unit, plain_letters, spelled
+from thermodata.schema.units.scale import scaled_unit
+from thermodata.schema.units.spelling import bare_unit, plain_letters, spelled
 
 _BASE = (
     r"(?:[kMGmunµμcdh]?(?:m|g|s|A|V|W|K|N|Pa|Hz|J|C|F|bar|l|L|rad|Ohm|ohm|Ω|VA|Wh|mol|lm|lx|T)|min|h|d|rpm|RPM|"

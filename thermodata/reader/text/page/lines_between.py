@@ -10,7 +10,7 @@ from thermodata.errors import QuestionError
 from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.names.header_rows import rows_between, texts_of
-from thermodata.schema.unit_scale import with_power_of_ten
+from thermodata.schema.units.scale import with_power_of_ten
 
 _FACTOR = re.compile(
     r"(?i)(?:(?P<factor>fa[kc]tors?|faktoren|scal(?:e|ing)(?: factor)?|skalierung(?:sfaktor)?|gain|multiplier|slope|"

@@ -12,7 +12,7 @@ from typing import Literal
 from thermodata.plugin import Signal
 from thermodata.reader.text.cells.number import of_either_mark
 from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, TURNED, is_called, stated_of
-from thermodata.schema.unit_scale import with_power_of_ten
+from thermodata.schema.units.scale import with_power_of_ten
 
 _TURNS = re.compile(r"(?i)-1(?:[.,]0*)?|-|neg(?:ative|ativ)?|invert(?:ed|iert)?|revers(?:ed)?|true|yes|ja")
 _LEAST, _MOST = 1e-12, 1e12

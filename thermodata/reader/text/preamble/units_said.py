@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.schema.quantity import normal_unit
+from thermodata.schema.units.quantity import normal_unit
 
 HEAD = "head"  # property of a signal: what the head of its file says of units
 _UNITS = re.compile(

@@ -21,8 +21,8 @@ from thermodata.reader.set_values import are_set
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.no_value import EMPTY
 from thermodata.reader.text.names.header import split_unit
-from thermodata.schema.listed import with_count
-from thermodata.schema.quantity import normal_unit
+from thermodata.schema.units.quantity import normal_unit
+from thermodata.schema.words.sentences import with_count
 
 KEY = "stands"  # of a table's layout
 _LEAST = 30  # written cells that prove it

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _STATISTIC = re.compile(
     r"(?i)(min|max)(imum|imal|\.)?([ -]?(value|wert))?|mean|average|avg|mittel(wert)?|mw|durchschnitt|median|"

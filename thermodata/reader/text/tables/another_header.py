@@ -13,7 +13,7 @@ from thermodata.reader.text.names.header_rows import texts_of
 from thermodata.reader.text.names.units_row import as_units, of_units
 from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import Table
-from thermodata.schema.unit_spelling import spelled
+from thermodata.schema.units.spelling import spelled
 
 _SHOWN = 120  # letters of a line
 

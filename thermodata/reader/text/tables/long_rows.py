@@ -12,7 +12,7 @@ from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
 from thermodata.reader.interleaved import STATES
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.schema.listed import with_dots
+from thermodata.schema.words.sentences import with_dots
 
 _FEWEST_ROWS = 10
 _MAY_NAME = re.compile(r"column \d+(?:#\d+)?")  # nobody called it anything

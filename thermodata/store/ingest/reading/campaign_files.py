@@ -11,7 +11,7 @@ from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Reader, Source
 from thermodata.reader import registry
 from thermodata.reader.guard import described
-from thermodata.schema.campaign import Campaign, JumpCalibration, SourceSpec, Test
+from thermodata.schema.files.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.ingest.known.unchanged import Seen, seen
 from thermodata.store.ingest.progress import Progress
 from thermodata.store.ingest.reading.resolve import SourceFiles, resolve

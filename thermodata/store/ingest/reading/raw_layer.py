@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
-from thermodata.schema.campaign import JumpCalibration, SourceSpec, Test
+from thermodata.schema.files.campaign import JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import is_whole, with_room_for, write_error
 from thermodata.store.ingest.known.file_versions import pinned, read_otherwise, twins
 from thermodata.store.ingest.known.inventory import Inventory

@@ -14,8 +14,8 @@ from pathlib import Path, PurePosixPath
 from thermodata.errors import SpecError
 from thermodata.reader.regular import kind_of
 from thermodata.reader.rotated import age, unrotated
-from thermodata.schema.campaign import Campaign, Test
-from thermodata.schema.lines import is_text
+from thermodata.schema.files.campaign import Campaign, Test
+from thermodata.schema.strict.lines import is_text
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.lines import read_document
-from thermodata.schema.quantity import CANONICAL_UNIT, split_value
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.strict.lines import read_document
+from thermodata.schema.units.quantity import CANONICAL_UNIT, split_value
 from thermodata.store.catalogue.conditions import plain_value
 
 # what a condition is called -> the unit in which `plain_value` keeps what has one; a count (`nr: 3`) has none

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Float2D
-from thermodata.schema.listed import listed
+from thermodata.schema.words.sentences import listed
 
 LEAST_S = 120.0  # by which both ends are off; people switch two loggers on within it,
 APART = 10.0  # and so many times what the ends of the other tests differ by

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.schema.campaign import Test
+from thermodata.schema.files.campaign import Test
 
 _MORE = 1.001  # an end that is written as it was planned is not behind the end
 

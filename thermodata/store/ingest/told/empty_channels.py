@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_count
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.words.sentences import counted, with_count
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.told.losses import Losses, loss_row
 from thermodata.store.tidy.derive import names

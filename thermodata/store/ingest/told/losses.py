@@ -9,7 +9,7 @@ from typing import Any
 from thermodata.errors import UsageError
 from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
-from thermodata.schema.campaign import Campaign, JumpCalibration
+from thermodata.schema.files.campaign import Campaign, JumpCalibration
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.in_parts import find_signal
 

@@ -7,10 +7,10 @@ import re
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
-from thermodata.schema.campaign import Campaign, JumpCalibration
-from thermodata.schema.lines import is_text
-from thermodata.schema.listed import with_count
-from thermodata.schema.tests_from import pattern_of
+from thermodata.schema.files.campaign import Campaign, JumpCalibration
+from thermodata.schema.files.tests_from import pattern_of
+from thermodata.schema.strict.lines import is_text
+from thermodata.schema.words.sentences import with_count
 
 _NAMED = 4
 _AROUND = re.compile(r"[\w./-]")

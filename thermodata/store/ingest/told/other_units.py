@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.calibration.between_tests.levels import Levels
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 from thermodata.store.ingest.told.losses import Losses, loss_row
 
 ZERO_K = 273.15

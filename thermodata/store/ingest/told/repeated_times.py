@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from thermodata.schema.counted import in_percent
+from thermodata.schema.words.sentences import in_percent
 
 MANY = 0.2  # of the samples: fewer are single rows that were written twice
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import ThermodataError
-from thermodata.schema.lines import Document, Place, read_document
+from thermodata.schema.strict.lines import Document, Place, read_document
 
 _OF_CHANNEL = re.compile(r"channel '([^']+)': ")
 _OF_TEST = {

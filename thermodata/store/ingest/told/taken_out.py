@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 
 _NAMED = 4
 

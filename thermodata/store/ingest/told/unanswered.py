@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from thermodata.schema.campaign import Campaign
-from thermodata.schema.campaign_channels import Calibration, Channel
-from thermodata.schema.listed import with_count
-from thermodata.schema.places import called_here, is_known, nearest_place
+from thermodata.schema.files.campaign import Campaign
+from thermodata.schema.files.campaign_channels import Calibration, Channel
+from thermodata.schema.words.places import called_here, is_known, nearest_place
+from thermodata.schema.words.sentences import with_count
 
 _PLACED = ("temperature", "rotational_speed", "feed", "power", "load", "current", "torque", "flow")
 _SHOWN = 6

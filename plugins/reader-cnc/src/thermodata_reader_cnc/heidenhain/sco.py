@@ -17,8 +17,8 @@ from thermodata.plugin import Array, Block, Int1D, Loss, Recording, Signal, Sour
 from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_cnc.heidenhain.sco_header import Curve, Header, read_header
 from thermodata_reader_cnc.number_rows import NumberRows, number_rows
 

@@ -10,7 +10,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_empty, to_float
 from thermodata.reader.text.cells.quotes import clean
-from thermodata.schema.quantity import linear_conversion
+from thermodata.schema.units.quantity import linear_conversion
 from thermodata_reader_cnc.opcua.long_layout import Layout
 
 

@@ -23,7 +23,7 @@ from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.time_header import unit_of_time
 from thermodata.reader.time_units import SECONDS, check_unit, to_ns
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_cnc.number_rows import everywhere, number_rows
 
 STREAM = "trace"

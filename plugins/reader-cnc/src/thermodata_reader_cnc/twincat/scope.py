@@ -20,8 +20,7 @@ from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.time_units import EPOCHS, to_ns
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import counted, with_count
 from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows
 from thermodata_reader_cnc.twincat.scope_header import Header, read_header
 

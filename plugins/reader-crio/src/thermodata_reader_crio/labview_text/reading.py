@@ -13,8 +13,8 @@ from thermodata.plugin import Array, Block, Bool1D, Int1D, Loss, Recording, Sign
 from thermodata.reader.text.file.lines import ODD, Chunk, chunks, sample, without_cut_line
 from thermodata.reader.text.rows.grid import Grid, Rows
 from thermodata.reader.text.rows.typed import parse
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, step_ns
 from thermodata_reader_crio.labview_text.layout import Layout, find_layout

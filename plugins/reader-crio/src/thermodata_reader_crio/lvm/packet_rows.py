@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Loss, Source
 from thermodata.reader.text.rows.grid import Grid, Rows
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_crio.comments import flags_of, is_odd, texts
 from thermodata_reader_crio.lvm.header import Packet
 from thermodata_reader_crio.lvm.recording import comment_name

@@ -11,7 +11,7 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Loss
 from thermodata.reader.text.file.encoding import is_wide
 from thermodata.reader.text.file.lines import CHUNK, ODD, Chunk, chunks
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_crio.lvm.header import (
     END_SPECIAL,
     MARK,

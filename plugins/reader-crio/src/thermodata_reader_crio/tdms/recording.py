@@ -9,9 +9,8 @@ from typing import BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Recording, Source
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import counted, with_count
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.file import File, open_file
 from thermodata_reader_crio.tdms.losses import losses

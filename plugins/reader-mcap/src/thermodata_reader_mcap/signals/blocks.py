@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D, Loss, Source
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import U64, Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS, Content

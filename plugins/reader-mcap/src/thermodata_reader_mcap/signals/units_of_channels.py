@@ -11,7 +11,7 @@ import numpy as np
 
 from thermodata.reader.row_units import converts_here
 from thermodata.reader.unit_words import is_surely_unit
-from thermodata.schema.quantity import linear_conversion, normal_unit
+from thermodata.schema.units.quantity import linear_conversion, normal_unit
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.encodings.columns import MISSING, Columns, Wrong
 from thermodata_reader_mcap.encodings.decoder import Decoder, hints

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Source
-from thermodata.schema.listed import with_count
+from thermodata.schema.words.sentences import with_count
 from thermodata_reader_table.mat.files import opened
 from thermodata_reader_table.mat.timed_streams import Clocked
 from thermodata_reader_table.timed_rows import nth_timed_row

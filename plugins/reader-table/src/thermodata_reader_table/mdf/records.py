@@ -11,8 +11,8 @@ from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss
 from thermodata.reader import time_units
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
 from thermodata.schema.flag import Flag
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.mdf.groups import File, Group
 from thermodata_reader_table.mdf.library import damage_as_format_error
 

@@ -15,7 +15,7 @@ from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at
 from thermodata.reader.typed_units import unit_in_rows
 from thermodata.reader.zone import NAT
-from thermodata.schema.counted import counted
+from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table, damage_as_format_error
 

@@ -1,0 +1,32 @@
+"""Names and counts in a sentence."""
+
+from __future__ import annotations
+
+import pytest
+
+from thermodata.schema.words.sentences import counted, listed, with_count, with_dots
+
+
+@pytest.mark.parametrize(("n", "said"), [(0, ""), (1, "a"), (2, "a or b"), (4, "a, b, c or d")])
+def test_the_last_of_several_has_a_word_before_it(n: int, said: str) -> None:
+    assert listed("abcd"[:n], "or") == said
+
+
+@pytest.mark.parametrize(
+    ("n", "counted", "dotted"), [(0, "", ""), (2, "a, b", "a, b"), (4, "a, b and 2 more", "a, b, ...")]
+)
+def test_of_many_the_first_are_named(n: int, counted: str, dotted: str) -> None:
+    assert with_count("abcd"[:n], 2) == counted
+    assert with_dots(iter("abcd"[:n]), 2) == dotted
+
+
+@pytest.mark.parametrize(
+    ("n", "one", "said"), [(1, "row", "1 row"), (2, "row", "2 rows"), (1, "loss", "1 loss"), (0, "loss", "0 losses")]
+)
+def test_one_of_a_thing_is_no_many(n: int, one: str, said: str) -> None:
+    assert counted(n, one) == said
+
+
+@pytest.mark.parametrize(("n", "said"), [(1, "1 more file was"), (0, "0 more files were"), (3, "3 more files were")])
+def test_what_they_do_goes_with_how_many_they_are(n: int, said: str) -> None:
+    assert counted(n, "more file", "was", "were") == said

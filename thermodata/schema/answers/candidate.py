@@ -1,0 +1,146 @@
+"""What is said of one candidate: its rules, the tests that were left out, what it would take away."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from thermodata.schema.answers.result import Parameter, Result
+
+
+class Rung(Result):
+    """One rule of a claim.
+
+    name: of the rule: chance, fall, tests, gain, others, worth and more
+    asks: what is measured
+    value: measured; null where it can't be
+    limit: of the rule
+    unit: of value and limit; 1 for shares
+    at: whether the value has to be at least or at most the limit
+    holds: whether the rule is met
+    asked: whether it decides; false where the value misses the limit and something stronger outweighs it
+    fails: why who breaks it is no cause, in a sentence; null where it is met, or in an answer of an older version
+    """
+
+    name: str
+    asks: str
+    value: float | None
+    limit: float
+    unit: str
+    at: Literal["least", "most"]
+    holds: bool
+    asked: bool = True
+    fails: str | None = None
+
+
+class LeftOut(Result):
+    """A test, or a part of one, as the others foretell it.
+
+    campaign: id
+    test: id
+    from_s: where the part begins, from the test's start [s]
+    to_s: where it ends [s]
+    acts: whether the candidate does there at least a fifth of what it does in the test in which it does most
+    rmse_um_before: error without the candidate, in the response's unit
+    rmse_um_after: with it
+    """
+
+    campaign: str
+    test: str
+    from_s: float
+    to_s: float
+    acts: bool
+    rmse_um_before: float
+    rmse_um_after: float
+
+
+class CandidateCourse(Result):
+    """What a candidate would take of the residual in one test, free offsets removed; lists have one entry a sample.
+
+    campaign: id
+    test: id
+    t_s: from the test's start [s]
+    residual_um: what the model leaves over, in the response's unit
+    contribution_um: the candidate's, with its gains as all open tests give them
+    """
+
+    campaign: str
+    test: str
+    t_s: list[float]
+    residual_um: list[float]
+    contribution_um: list[float]
+
+
+class Candidate(Result):
+    """An effect, bound to channels, that may be missing; with its evidence on left-out tests.
+
+    rank: 1 is the head
+    id: effect:channels; gain_by:effect,condition; or phases:effect,phase,phase
+    effect: its name
+    family: effects of one cause share it
+    drivers: channels, in the order of the effect's roles
+    gain_by: the effect is in the model, and would have a gain for each value of this condition; null for all others
+    phases: the effect is in the model, and would have a function for each of these phases; empty for all others
+    claimed: whether the evidence suffices for a missing cause
+    refinement: whether it refines an effect that the model has (a second mode, a switch, a lead), which is never a
+        missing cause
+    probability: posterior probability that this cause is missing, given the data; of claims, of the first cause and of
+        causes that keep all other rules, null for all else
+    p_value: share of responses in which nothing is missing on which the best of all candidates does as well
+    rmse_um_before: error on left-out tests without it, in the response's unit
+    rmse_um_after: with it
+    fit_before: the same as FIT [%]
+    fit_after: with it
+    locked_rmse_um_before: error on the locked tests without it; for a claimed one only
+    locked_rmse_um_after: with it
+    locked_shape_um_before: the same over those in which the claims act, a free offset for each; of a refinement that
+        they were opened for, over those in which it acts
+    locked_shape_um_after: with it
+    locked_tests_asked: in how many locked tests the claims act, and are asked, or what is likely and no claim; null
+        where it is not known, or nothing was opened for it
+    beside: ids of the effects that stand in the model too where the errors and FITs before and after are told; empty
+        where these are of the user's own model without and with this one; null in an answer of an older version
+    as_modelled: whether errors and FITs before and after are beside the effects of the model as it has them, which are
+        else free to act otherwise than by one lag each
+    parameters: of the effect, fitted to all open tests; for a claimed one only
+    equivalent: ids that the data cannot tell from it
+    unread: places of other parts that it may be as well, for nothing that it reads tells them apart
+    also_on: displacements along other axes at the same place that miss it too, each with its probability there; asked
+        only where that decides
+    why: the evidence in a sentence
+    evidence: log Bayes factor of the model with it against the model without
+    rungs: every rule of a claim with its value and limit
+    left_out: each left-out test before and after; beside the user's own model, or beside all that is chosen
+    courses: the residual and the contribution; for claims, refinements and the head of the list only
+    """
+
+    rank: int
+    id: str
+    effect: str
+    family: str
+    drivers: list[str]
+    gain_by: str | None = None
+    phases: list[str] = []
+    claimed: bool
+    refinement: bool = False
+    probability: float | None = None
+    p_value: float | None
+    rmse_um_before: float | None
+    rmse_um_after: float | None
+    fit_before: float | None
+    fit_after: float | None
+    locked_rmse_um_before: float | None = None
+    locked_rmse_um_after: float | None = None
+    locked_shape_um_before: float | None = None
+    locked_shape_um_after: float | None = None
+    locked_tests_asked: int | None = None
+    beside: list[str] | None = None
+    as_modelled: bool = False
+    parameters: dict[str, Parameter] = {}
+    equivalent: list[str] = []
+    unread: list[str] = []
+    also_on: dict[str, float] = {}
+    why: str = ""
+    evidence: float | None = None
+    rungs: list[Rung] = []
+    left_out: list[LeftOut] = []
+    courses: list[CandidateCourse] = []

@@ -1,0 +1,67 @@
+"""The answer of confirm."""
+
+from __future__ import annotations
+
+from thermodata.schema.answers.diagnosis import PutRight
+from thermodata.schema.answers.result import Parameter, Result
+
+
+class TestConfirmed(Result):
+    """One locked test of a confirmation.
+
+    campaign: id
+    test: id
+    rmse_um_before: free-run error without the effect, in the response's unit
+    rmse_um_after: with it
+    acts: whether the effect does there at least a fifth of what it does in the open test in which it does most
+    n: samples that count; null in an answer of an older version
+    """
+
+    campaign: str
+    test: str
+    rmse_um_before: float
+    rmse_um_after: float
+    acts: bool = True
+    n: int | None = None
+
+
+class Confirmed(Result):
+    """Answer of confirm: the locked tests, opened for a choice of the user's own.
+
+    model: id of the model that the effect was tried on
+    response: name
+    candidate: effect:channels
+    holds: whether it holds by its shape, and the error as scored does not rise (by more than 2 %), both in the locked
+        tests in which the effect acts; null where it rests in all of them, and nothing can be said
+    holds_by_shape: whether there the error about each test's mean falls by what a cause would take away; beside `holds`
+        false, the course fits and where it starts does not; null as `holds`
+    why: the reason, in a sentence
+    locked_rmse_um_before: error over all locked tests without the effect, in the response's unit
+    locked_rmse_um_after: with it
+    locked_shape_um_before: the same over those in which it acts, a free offset for each, which is what `holds_by_shape`
+        goes by
+    locked_shape_um_after: with it
+    parameters: of the effect, fitted to all open tests
+    tests: each locked test
+    looks: how often the locked tests have been opened so far, this look included; the most of any test
+    probability: that the stored diagnosis claims it with; null where it does not
+    put_right: what of the logs was put right before, as a diagnosis does; null where nothing was
+    note: why it is no cause whatever the tests say; null where nothing forbids it
+    """
+
+    model: str
+    response: str
+    candidate: str
+    holds: bool | None
+    holds_by_shape: bool | None = None
+    why: str | None = None
+    locked_rmse_um_before: float | None
+    locked_rmse_um_after: float | None
+    locked_shape_um_before: float | None = None
+    locked_shape_um_after: float | None = None
+    parameters: dict[str, Parameter]
+    tests: list[TestConfirmed]
+    looks: int
+    probability: float | None = None
+    put_right: PutRight | None = None
+    note: str | None = None
