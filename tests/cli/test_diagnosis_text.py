@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from thermodata.report.diagnosis_text import diagnosis_text
+from thermodata.report.text.diagnosis import diagnosis_text
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis, Unknown
 from thermodata.schema.answers.result import Parameter

@@ -16,9 +16,9 @@ from thermodata.cli.common import plain
 from thermodata.cli.json_text import json_text
 from thermodata.cli.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
-from thermodata.report.fit_text import check_text
-from thermodata.report.table import table
-from thermodata.report.words import change, duration, number, typeset
+from thermodata.report.text.fit import check_text
+from thermodata.report.words.numbers import change, duration, number, typeset
+from thermodata.report.words.table import table
 from thermodata.schema.answers.result import Check
 
 

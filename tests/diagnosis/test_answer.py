@@ -17,7 +17,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.run import Loaded
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
-from thermodata.report.spots import weak_spots_of
+from thermodata.report.collected.spots import weak_spots_of
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec, Model

@@ -25,7 +25,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.ranking import Ranked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import UsageError
-from thermodata.report.candidate_errors import beside
+from thermodata.report.verdict.candidate_errors import beside
 from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.schema.answers.result import Parameter

@@ -13,7 +13,7 @@ from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.next_test import to_find, to_log
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
-from thermodata.report.verdict import causes, verdict_sentence
+from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.places import heat_at

@@ -14,7 +14,7 @@ import pytest
 from thermodata.cli.common import known_failure
 from thermodata.errors import ThermodataError
 from thermodata.export import export_test
-from thermodata.report.write import write_page
+from thermodata.report.page.write import write_page
 from thermodata.store.base.files import not_written, whole_file, write_error
 from thermodata.view import StoreView
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.report.fit_text import before_after_text, made_worse
-from thermodata.report.words import in_units
+from thermodata.report.text.fit import before_after_text, made_worse
+from thermodata.report.words.numbers import in_units
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.campaign import Campaign
 from thermodata.store.ingest.told.unanswered import unanswered

@@ -18,8 +18,8 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
-from thermodata.report.fit_text import history_text
-from thermodata.report.history import history_rows
+from thermodata.report.collected.history import history_rows
+from thermodata.report.text.fit import history_text
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import Model
 from thermodata.store import Store

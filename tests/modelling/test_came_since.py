@@ -10,8 +10,8 @@ from thermodata.modelling import run
 from thermodata.modelling.add import add
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
-from thermodata.report.collect import collect
-from thermodata.report.page import render
+from thermodata.report.collected.collect import collect
+from thermodata.report.page.page import render
 from thermodata.schema.answers.candidate import Candidate, LeftOut
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import FitResult

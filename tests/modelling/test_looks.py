@@ -6,8 +6,8 @@ from pathlib import Path
 
 from thermodata.diagnosis.run import confirm_choice, diagnose
 from thermodata.modelling import run
-from thermodata.report.collect import collect
-from thermodata.report.page import locked_note
+from thermodata.report.collected.collect import collect
+from thermodata.report.page.page import locked_note
 from thermodata.store.catalogue.looks import count_locked_look, locked_looks
 from thermodata.store.ingest.run import ingest
 from thermodata.view.dataset import Dataset

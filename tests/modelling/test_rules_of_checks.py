@@ -16,7 +16,7 @@ from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import gain_unit
 from thermodata.modelling.trust import bound_checks, checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
-from thermodata.report.fit_text import span
+from thermodata.report.text.fit import span
 from thermodata.schema.answers.result import Check
 from thermodata.view.dataset import ChannelInfo, TestData
 

@@ -21,12 +21,12 @@ from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.modelling.versions.with_claims import adds_what_was_offered
-from thermodata.report.collect import collect
-from thermodata.report.error_rows import error_rows
-from thermodata.report.fit_text import before_after_text, history_text
-from thermodata.report.headline import sentences
-from thermodata.report.history import history_rows
-from thermodata.report.words import pooled
+from thermodata.report.collected.collect import collect
+from thermodata.report.collected.history import history_rows
+from thermodata.report.page.error_rows import error_rows
+from thermodata.report.page.headline import sentences
+from thermodata.report.text.fit import before_after_text, history_text
+from thermodata.report.words.numbers import pooled
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec

@@ -20,7 +20,7 @@ from thermodata.modelling.model_file.transfer import GivenFunction, given
 from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import make_result
 from thermodata.plugin import Float1D
-from thermodata.report.fit_text import fit_text
+from thermodata.report.text.fit import fit_text
 from thermodata.schema.files.load import parse_model
 from thermodata.schema.files.model import EffectSpec
 from thermodata.schema.strict.printed import WithUnit

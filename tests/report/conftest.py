@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Float1D
-from thermodata.report.data import Curve, ReportData, TestPart, Version
+from thermodata.report.collected.data import Curve, ReportData, TestPart, Version
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis, WeakSpot
 from thermodata.schema.answers.missing_heat import HeatCompanion, HeatCourse, MissingHeat, Unknown

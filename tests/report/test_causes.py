@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.causes import by_cause, cause_of, losses_in_words, notes_in_words
 from thermodata.report.quality.told import by_cause as flags_by_cause
 from thermodata.report.quality.told import by_channel, with_reason
+from thermodata.report.words.causes import by_cause, cause_of, losses_in_words, notes_in_words
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.diagnosis_text import confirmed_text
+from thermodata.report.text.diagnosis import confirmed_text
 from thermodata.schema.answers import confirmed as results
 
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from thermodata.report.could_hide import could_be, could_hide
-from thermodata.report.left_over import left_over
+from thermodata.report.verdict.could_hide import could_be, could_hide
+from thermodata.report.verdict.left_over import left_over
 from thermodata.schema.answers.diagnosis import AtRest, DetectionLimit, Diagnosis
 
 

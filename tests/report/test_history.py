@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from thermodata.report.history import how_it_went
+from thermodata.report.collected.history import how_it_went
 
 
 @pytest.mark.parametrize(

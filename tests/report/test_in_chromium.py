@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.report.data import ReportData
-from thermodata.report.page import render
+from thermodata.report.collected.data import ReportData
+from thermodata.report.page.page import render
 from thermodata.report.quality.data import TestQuality, Trace
 from thermodata.report.quality.page import render as render_quality
 from thermodata.schema.flag import Flag

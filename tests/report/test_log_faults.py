@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.report.log_faults import log_faults
+from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.verdict.log_faults import log_faults
 from thermodata.schema.answers.diagnosis import Artefact
 
 from .conftest import diagnosis

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.report.data import ReportData
-from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.report.heat_charts import heat_charts
-from thermodata.report.page import render
-from thermodata.report.words import heat_lines
+from thermodata.report.charts.heat import heat_charts
+from thermodata.report.collected.data import ReportData
+from thermodata.report.page.page import render
+from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.words.numbers import heat_lines
 
 from .conftest import missing_heat
 from .test_page import _FIGURE, _keep, body

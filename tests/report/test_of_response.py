@@ -8,13 +8,13 @@ import re
 
 import pytest
 
-from thermodata.report.data import ReportData
-from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.report.error_rows import error_rows
-from thermodata.report.headline import sentences
-from thermodata.report.lost import lost_of_compared, lost_sentence
-from thermodata.report.of_response import of_response, some_of, worst_of
-from thermodata.report.page import ranked_spots, render
+from thermodata.report.collected.data import ReportData
+from thermodata.report.collected.lost import lost_of_compared, lost_sentence
+from thermodata.report.page.error_rows import error_rows
+from thermodata.report.page.headline import sentences
+from thermodata.report.page.page import ranked_spots, render
+from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.words.of_response import of_response, some_of, worst_of
 from thermodata.schema.answers.diagnosis import ResponseLeft
 
 from .conftest import diagnosis, score

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from thermodata.chart import Strip
-from thermodata.report.data import ReportData
-from thermodata.report.error_rows import error_rows, headline_error
-from thermodata.report.figures import part_chart, points_for, residual_scale
-from thermodata.report.glossary import ERRORS
-from thermodata.report.headline import error_sentence, headline, sentences
-from thermodata.report.page import render, what_is_left
+from thermodata.report.charts.figures import part_chart, points_for, residual_scale
+from thermodata.report.collected.data import ReportData
+from thermodata.report.page.error_rows import error_rows, headline_error
+from thermodata.report.page.headline import error_sentence, headline, sentences
+from thermodata.report.page.page import render, what_is_left
+from thermodata.report.words.glossary import ERRORS
 from thermodata.schema.answers.candidate import LeftOut
 from thermodata.schema.answers.result import Check, Parameter
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.export.control.names import identifier
-from thermodata.report.write import page_name
+from thermodata.report.page.write import page_name
 
 ID = "4521b9f6cc44"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.report.pieces import names_of_pieces
+from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import CandidateCourse, LeftOut
 from thermodata.schema.answers.missing_heat import HeatCourse
 

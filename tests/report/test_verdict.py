@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 
 from thermodata.diagnosis.claims import measure, rules
-from thermodata.report import left_over, verdict
-from thermodata.report.candidate_errors import beside
-from thermodata.report.collect import _reason
-from thermodata.report.data import ReportData
-from thermodata.report.diagnosis_text import diagnosis_text
-from thermodata.report.error_rows import error_rows
-from thermodata.report.headline import headline, sentences
-from thermodata.report.page import render
-from thermodata.report.refined import named
-from thermodata.report.verdict import explainable, in_parts, probability, told, verdict_sentence
+from thermodata.report.collected.collect import _reason
+from thermodata.report.collected.data import ReportData
+from thermodata.report.page.error_rows import error_rows
+from thermodata.report.page.headline import headline, sentences
+from thermodata.report.page.page import render
+from thermodata.report.text.diagnosis import diagnosis_text
+from thermodata.report.verdict import left_over, verdict
+from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.refined import named
+from thermodata.report.verdict.verdict import explainable, in_parts, probability, told, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, Diagnosis, NotAsked, PutRight, StartedOn
 from thermodata.schema.words.sentences import listed

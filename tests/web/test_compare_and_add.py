@@ -17,7 +17,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.remove import remove
 from thermodata.modelling.seen.residual_tests import autocorrelation
-from thermodata.report.glossary import IN_SAMPLE
+from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.keep.check import check_store

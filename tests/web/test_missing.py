@@ -10,8 +10,8 @@ import pytest
 from markupsafe import Markup
 
 from thermodata.cli import main
-from thermodata.report.verdict import verdict_sentence
-from thermodata.report.words import typeset
+from thermodata.report.verdict.verdict import verdict_sentence
+from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import count_locked_look

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.cli.common import Session, in_units_of, plain
 from thermodata.cli.layout import LAYOUTS
-from thermodata.report.glossary import LEVEL
+from thermodata.report.words.glossary import LEVEL
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -30,7 +30,7 @@ def answer_against(
 ) -> None:
     """Print the table of `compare --against`. models, against: as the store knows them; tests: none for all."""
     from thermodata.modelling.run import compare_against
-    from thermodata.report.fit_text import leveled
+    from thermodata.report.text.fit import leveled
 
     rows = [plain(row) for row in compare_against(store, models, against, tests)]
     names = list(dict.fromkeys(str(row["response"]) for row in rows))
@@ -46,7 +46,7 @@ def answer_against(
 
 def answer_contributions(session: Session, store: Store, models: Sequence[str], test: str) -> None:
     """Print what each effect gives in a test. models: ids, prefixes or names."""
-    from thermodata.report.fit_text import contributions_text
+    from thermodata.report.text.fit import contributions_text
     from thermodata.store.catalogue.models import find_model
     from thermodata.view.contributions import contributions, open_test
     from thermodata.view.models import model_rows

@@ -10,7 +10,7 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
-from thermodata.report.table import fields
+from thermodata.report.words.table import fields
 
 _TARGETS = ("st", "scl", "c", "python", "json", "mat")
 

@@ -9,7 +9,7 @@ import click
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of
 from thermodata.cli.stored_model import resolve, with_stale
-from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
+from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
 
 if TYPE_CHECKING:
     from thermodata.store import Store

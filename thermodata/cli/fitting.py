@@ -11,7 +11,7 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command, in_units_of, plain
 from thermodata.cli.stored_model import resolve, with_stale
 from thermodata.errors import UsageError
-from thermodata.report.fit_text import (
+from thermodata.report.text.fit import (
     before_after_text,
     compare_text,
     differences_text,
@@ -20,7 +20,7 @@ from thermodata.report.fit_text import (
     made_worse,
     spots_text,
 )
-from thermodata.report.table import table
+from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult
@@ -119,7 +119,7 @@ def compare_command(
 def _answer_scores(session: Session, store: Store, models: list[str]) -> None:
     from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
-    from thermodata.report.spots import weak_spots_of
+    from thermodata.report.collected.spots import weak_spots_of
     from thermodata.store.catalogue.models import find_model, load_diagnosis
     from thermodata.store.catalogue.stale import stale_line
 
@@ -220,7 +220,7 @@ def history_command(session: Session, model: str | None) -> None:
 
     Of the one fitted last where no MODEL is named.
     """
-    from thermodata.report.history import history_rows
+    from thermodata.report.collected.history import history_rows
 
     store = session.store()
     chain = history_rows(store, resolve(store, model, session))

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from thermodata.cli.common import Session, command, plain
-from thermodata.report.causes import said_at_ingest
-from thermodata.report.table import fields, table
+from thermodata.report.words.causes import said_at_ingest
+from thermodata.report.words.table import fields, table
 from thermodata.schema.words.sentences import with_count
 
 _NAMED = 4
@@ -26,7 +26,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
     """
     from thermodata.cli.progress import progress_line
     from thermodata.draft.writing.baseline import model_text_of
-    from thermodata.report.after_ingest import next_step
+    from thermodata.report.text.after_ingest import next_step
     from thermodata.schema.files.load import load_campaign
     from thermodata.store.ingest.run import ingest, store_for
 

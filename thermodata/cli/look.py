@@ -11,9 +11,9 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.ingest import calibrations_text
 from thermodata.errors import UsageError, unknown_name
-from thermodata.report.records import records, written_conditions
-from thermodata.report.table import table
-from thermodata.report.words import duration
+from thermodata.report.collected.records import records, written_conditions
+from thermodata.report.words.numbers import duration
+from thermodata.report.words.table import table
 from thermodata.view.overview import Asked, find_tests
 
 campaign_option = click.option("--campaign", "-c", help="Only this campaign.", shell_complete=completing.campaigns)

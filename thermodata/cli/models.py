@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.cli.common import Session, command
 from thermodata.cli.look import campaign_option
 from thermodata.errors import unknown_name
-from thermodata.report.table import table
+from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from thermodata.view.models import ModelRow

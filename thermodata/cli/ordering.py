@@ -8,7 +8,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
-from thermodata.report.table import table
+from thermodata.report.words.table import table
 
 
 @command("orders")

@@ -9,7 +9,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command
-from thermodata.report.table import table
+from thermodata.report.words.table import table
 
 
 @command("plugins")

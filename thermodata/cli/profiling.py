@@ -8,8 +8,8 @@ import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.stored_model import resolve
-from thermodata.report.table import table
-from thermodata.report.words import number
+from thermodata.report.words.numbers import number
+from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from thermodata.modelling.seen.profiles import Curve, Profiles

@@ -10,8 +10,8 @@ import click
 
 from thermodata.cli.common import Session, command
 from thermodata.cli.look import campaign_option, rows_of
-from thermodata.report.table import table
-from thermodata.report.words import duration
+from thermodata.report.words.numbers import duration
+from thermodata.report.words.table import table
 
 
 @command("quality")
@@ -120,7 +120,7 @@ def _bare(signal: str) -> str:
 def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]) -> list[str]:
     """What could not be read or made, a line a cause. What is lost of a file is one loss, of the tests and sources that
     miss it."""
-    from thermodata.report.causes import losses_in_words
+    from thermodata.report.words.causes import losses_in_words
 
     once: dict[str, dict[str, Any]] = {}
     for row in files:

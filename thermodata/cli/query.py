@@ -15,7 +15,7 @@ import click
 from thermodata.cli.common import Session, command, plain
 from thermodata.cli.interrupting import interruptible
 from thermodata.errors import UsageError
-from thermodata.report.table import table
+from thermodata.report.words.table import table
 
 _CHUNK = 10_000
 

@@ -6,7 +6,7 @@ import click
 
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
-from thermodata.report.table import fields
+from thermodata.report.words.table import fields
 
 
 @command("forget")

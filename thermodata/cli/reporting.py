@@ -33,7 +33,7 @@ def report_command(session: Session, model: str | None, out: Path | None) -> Non
     last where none is named.
     """
     from thermodata.report import build_report
-    from thermodata.report.write import page_name
+    from thermodata.report.page.write import page_name
     from thermodata.store.catalogue.models import find_model
 
     store = session.store()

@@ -12,8 +12,8 @@ from thermodata.cli import completing
 from thermodata.cli.common import Session, command
 from thermodata.cli.stored_model import resolve
 from thermodata.errors import UsageError
-from thermodata.report.table import table
-from thermodata.report.words import MOST_NAMED, duration, number, probability_text
+from thermodata.report.words.numbers import MOST_NAMED, duration, number, probability_text
+from thermodata.report.words.table import table
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
     loaded = load(store, stored.model)
     seen = [_only(s, effects) for s in see(loaded.fitted, loaded.data)]
     if png is not None:
-        from thermodata.report.system_png import draw
+        from thermodata.report.charts.system_png import draw
 
         draw(seen, png, f"{loaded.fitted.spec.name} {loaded.identity}")
     payload = {
@@ -77,7 +77,7 @@ def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) ->
     """What the fit stored of a model that can't be run here; it has no system to show."""
     from thermodata.cli.common import plain
     from thermodata.modelling.model_file.not_installed import as_stored
-    from thermodata.report.fit_text import fit_text
+    from thermodata.report.text.fit import fit_text
     from thermodata.store.catalogue.stale import stale_line
 
     warnings.warn(as_stored(lacking, stored.name), stacklevel=2)
@@ -173,7 +173,7 @@ def _text(seen: Seen) -> str:
         if len(p.system.poles):
             parts.append(_coefficients(p))
     if seen.at_bounds:
-        from thermodata.report.fit_text import check_text
+        from thermodata.report.text.fit import check_text
 
         parts.append("\n".join(f"! {check_text(c)}" for c in seen.at_bounds))
     if seen.not_shown:

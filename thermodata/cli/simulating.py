@@ -11,7 +11,7 @@ import click
 
 from thermodata.cli.common import Session, command, plain
 from thermodata.errors import UsageError, unknown_name
-from thermodata.report.table import fields, table
+from thermodata.report.words.table import fields, table
 
 MACHINES = ("gantry", "lathe")
 
@@ -138,7 +138,7 @@ def _lathe(
     picture: Path | None,
 ) -> None:
     from thermodata.cli.progress import counting_line
-    from thermodata.report.write import write_page
+    from thermodata.report.page.write import write_page
     from thermodata.virtual.blind.diagram import diagram
     from thermodata.virtual.blind.goals import overall
     from thermodata.virtual.blind.reliability import reliability

@@ -9,7 +9,7 @@ import click
 from thermodata.cli import completing
 from thermodata.cli.common import Session, command, plain
 from thermodata.errors import UsageError
-from thermodata.report.table import fields
+from thermodata.report.words.table import fields
 
 
 @command("snapshot")

@@ -9,8 +9,8 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.own_units import in_own_units
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.stale import heed
-from thermodata.report.fit_text import compare_text
-from thermodata.report.words import in_units
+from thermodata.report.text.fit import compare_text
+from thermodata.report.words.numbers import in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult

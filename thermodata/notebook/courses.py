@@ -12,9 +12,9 @@ from thermodata.chart import Axis, Chart, Panel, Series, effect_styles
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D
-from thermodata.report.figures import TIME
-from thermodata.report.table import table
-from thermodata.report.words import duration
+from thermodata.report.charts.figures import TIME
+from thermodata.report.words.numbers import duration
+from thermodata.report.words.table import table
 from thermodata.view.rows import with_units
 
 if TYPE_CHECKING:

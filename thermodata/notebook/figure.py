@@ -8,9 +8,9 @@ from pathlib import Path
 
 from thermodata.chart import Chart, HeatMap, script, script_json, style
 from thermodata.notebook.shown import Shown
-from thermodata.report.figures import height_of
-from thermodata.report.words import typeset
-from thermodata.report.write import policy, write_page
+from thermodata.report.charts.figures import height_of
+from thermodata.report.page.write import policy, write_page
+from thermodata.report.words.numbers import typeset
 
 _CSS = """
 body{margin:0;padding:.2rem .4rem;font:14px/1.4 system-ui,sans-serif;background:var(--page,#fff);color:var(--ink,#222)}

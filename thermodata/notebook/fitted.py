@@ -17,9 +17,9 @@ from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, Shown, html_table
 from thermodata.notebook.stale import heed
 from thermodata.notebook.verdict import Confirmation, Verdict
-from thermodata.report.fit_text import before_after_text, fit_text, span
-from thermodata.report.lost import lost_sentence
-from thermodata.report.words import change, in_units
+from thermodata.report.collected.lost import lost_sentence
+from thermodata.report.text.fit import before_after_text, fit_text, span
+from thermodata.report.words.numbers import change, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import Check, FitResult, Parameter
@@ -240,8 +240,8 @@ def stored_fit(store: Store, ref: str) -> Fit:
 
 def history_of(store: Store, ref: str) -> Listed:
     """The versions that led to a model, as `thermodata history` lists them."""
-    from thermodata.report.fit_text import history_lost, history_table
-    from thermodata.report.history import history_rows
+    from thermodata.report.collected.history import history_rows
+    from thermodata.report.text.fit import history_lost, history_table
 
     rows = history_rows(store, ref)
     shown, columns = history_table(rows)

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import MOST_POINTS
-from thermodata.report.figures import in_one_unit, overview_map, part_chart, residual_scale
-from thermodata.report.parts import test_parts
-from thermodata.report.spots import weak_spots_of
+from thermodata.report.charts.figures import in_one_unit, overview_map, part_chart, residual_scale
+from thermodata.report.collected.parts import test_parts
+from thermodata.report.collected.spots import weak_spots_of
 from thermodata.schema.units.quantity import difference_unit
 
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
-    from thermodata.report.data import TestPart
+    from thermodata.report.collected.data import TestPart
     from thermodata.store import Store
 
 

@@ -11,8 +11,8 @@ from thermodata.modelling.seen.residual_tests import Against, LjungBox
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D
-from thermodata.report.system_charts import system_charts
-from thermodata.report.table import table
+from thermodata.report.charts.system import system_charts
+from thermodata.report.words.table import table
 
 
 class ResidualTests(Shown):

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 from thermodata.errors import UsageError
 from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Listed, Shown, html_table
-from thermodata.report.course_chart import course_chart
-from thermodata.report.diagnosis_text import confirmed_text, diagnosis_text
-from thermodata.report.headline import capital
-from thermodata.report.verdict import claims_of, told, verdict_sentence
-from thermodata.report.words import in_unit, in_units
+from thermodata.report.charts.courses import course_chart
+from thermodata.report.page.headline import capital
+from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
+from thermodata.report.verdict.verdict import claims_of, told, verdict_sentence
+from thermodata.report.words.numbers import in_unit, in_units
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.candidate import Candidate

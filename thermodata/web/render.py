@@ -11,10 +11,10 @@ import jinja2
 from starlette.requests import Request
 from starlette.responses import HTMLResponse
 
-from thermodata.report.fit_text import span
-from thermodata.report.glossary import LEVEL_SENTENCE
-from thermodata.report.verdict import probability
-from thermodata.report.words import base_role, change, duration, number, percent, typeset
+from thermodata.report.text.fit import span
+from thermodata.report.verdict.verdict import probability
+from thermodata.report.words.glossary import LEVEL_SENTENCE
+from thermodata.report.words.numbers import base_role, change, duration, number, percent, typeset
 from thermodata.version import __version__
 from thermodata.web.assets import SCRIPTS, STYLES
 from thermodata.web.desk import Desk

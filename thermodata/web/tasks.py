@@ -50,7 +50,7 @@ def draft(store: Path, tell: Tell, folder: str) -> dict[str, Any]:
 
 def ingest(store: Path, tell: Tell, campaign: str) -> dict[str, Any]:
     """`thermodata ingest CAMPAIGN.yaml`."""
-    from thermodata.report.causes import said_at_ingest
+    from thermodata.report.words.causes import said_at_ingest
     from thermodata.store.ingest.run import ingest as run
     from thermodata.store.ingest.run import store_for
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Array, Float1D
-from thermodata.report.records import records
+from thermodata.report.collected.records import records
 from thermodata.schema.flag import INVALID, Flag
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ import numpy as np
 
 from thermodata.chart import Axis, Chart, Marks, Panel, Row, Series, Span, Strip, effect_styles
 from thermodata.plugin import Array, Float1D
-from thermodata.report.figures import TIME
+from thermodata.report.charts.figures import TIME
 from thermodata.report.quality.data import TestQuality, Trace, flag_names
-from thermodata.report.words import duration
+from thermodata.report.words.numbers import duration
 from thermodata.schema.flag import INVALID, Flag
 
 # the worst of a bin's flags gives its colour: from what is only worth knowing to what must not be believed

@@ -8,11 +8,11 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.causes import Cause, by_cause
+from thermodata.report.page.write import page_values, write_page
 from thermodata.report.quality.data import TestQuality, Trace, collect
 from thermodata.report.quality.figure import SEVERITY, draw_test, when
-from thermodata.report.words import duration, typeset
-from thermodata.report.write import page_values, write_page
+from thermodata.report.words.causes import Cause, by_cause
+from thermodata.report.words.numbers import duration, typeset
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 from thermodata.schema.words.sentences import counted
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from thermodata.report.causes import cause_of
-from thermodata.report.words import duration
+from thermodata.report.words.causes import cause_of
+from thermodata.report.words.numbers import duration
 from thermodata.schema.flag import OVERRULED
 
 Row = dict[str, Any]

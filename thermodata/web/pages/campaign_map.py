@@ -7,8 +7,8 @@ from typing import Any, cast
 from starlette.requests import Request
 from starlette.responses import Response
 
-from thermodata.report.glossary import IN_SAMPLE
-from thermodata.report.words import base_role
+from thermodata.report.words.glossary import IN_SAMPLE
+from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
 from thermodata.view.models import ModelRow, model_rows
 from thermodata.view.overview import Asked, Sort, find_tests

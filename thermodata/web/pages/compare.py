@@ -15,12 +15,12 @@ from thermodata.chart.pack import script_json
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.compare.differences import Course
 from thermodata.plugin import Float1D
-from thermodata.report.data import Version
-from thermodata.report.glossary import IN_SAMPLE
-from thermodata.report.headline import capital
-from thermodata.report.history import chain_units, how_it_went, versions
-from thermodata.report.lost import lost_of_compared, lost_of_versions
-from thermodata.report.of_response import some_of
+from thermodata.report.collected.data import Version
+from thermodata.report.collected.history import chain_units, how_it_went, versions
+from thermodata.report.collected.lost import lost_of_compared, lost_of_versions
+from thermodata.report.page.headline import capital
+from thermodata.report.words.glossary import IN_SAMPLE
+from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from thermodata.modelling.compare.difference import Difference
 from thermodata.modelling.compare.differences import Course, between, over_tests
 from thermodata.plugin import Float1D
-from thermodata.report.words import base_role, pooled
+from thermodata.report.words.numbers import base_role, pooled
 from thermodata.schema.answers.result import Score
 
 _SAME = 0.005  # of the pinned error: less is no difference

@@ -10,16 +10,16 @@ from starlette.responses import Response
 from thermodata.chart.pack import script_json
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
-from thermodata.report.could_hide import could_hide
-from thermodata.report.course_chart import course_chart
-from thermodata.report.headline import capital
-from thermodata.report.heat_charts import heat_charts
-from thermodata.report.log_faults import log_faults
-from thermodata.report.of_response import of_response, worst_of
-from thermodata.report.older import is_of_other_data
-from thermodata.report.pieces import names_of_pieces
-from thermodata.report.verdict import claims_of, explainable, told, verdict_sentence
-from thermodata.report.words import heat_lines, in_unit, number
+from thermodata.report.charts.courses import course_chart
+from thermodata.report.charts.heat import heat_charts
+from thermodata.report.collected.older import is_of_other_data
+from thermodata.report.page.headline import capital
+from thermodata.report.verdict.could_hide import could_hide
+from thermodata.report.verdict.log_faults import log_faults
+from thermodata.report.verdict.verdict import claims_of, explainable, told, verdict_sentence
+from thermodata.report.words.numbers import heat_lines, in_unit, number
+from thermodata.report.words.of_response import of_response, worst_of
+from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store

@@ -6,7 +6,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response
 
 from thermodata.errors import UsageError
-from thermodata.report.write import page_name
+from thermodata.report.page.write import page_name
 from thermodata.view.models import model_rows
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command

@@ -12,8 +12,8 @@ from starlette.responses import JSONResponse, Response
 from thermodata.chart.pack import script_json
 from thermodata.chart.spec import Chart, Strip
 from thermodata.errors import UsageError
-from thermodata.report.glossary import IN_SAMPLE
-from thermodata.report.words import base_role
+from thermodata.report.words.glossary import IN_SAMPLE
+from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
 from thermodata.view.events import About, about_test
 from thermodata.view.models import ModelRow, model_rows, role_in_model, term_order

@@ -7,7 +7,7 @@ import numpy as np
 from thermodata.chart.colour import EFFECTS
 from thermodata.chart.spec import Axis, Chart, Panel, Series
 from thermodata.plugin import Float1D, Int1D
-from thermodata.report.pieces import names_of_pieces
+from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, CandidateCourse
 
 PAUSE = 3.0  # steps as on either side of it: no sample counts for so long, and no line is drawn over it

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.candidate_errors import left_out_errors, locked_errors
-from thermodata.report.could_hide import could_be
-from thermodata.report.left_over import as_of_nothing, left_over, offered, on_left_out
-from thermodata.report.refined import can_be_refined, named, told_with_errors
-from thermodata.report.words import duration, number, percent
+from thermodata.report.verdict.candidate_errors import left_out_errors, locked_errors
+from thermodata.report.verdict.could_hide import could_be
+from thermodata.report.verdict.left_over import as_of_nothing, left_over, offered, on_left_out
+from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
+from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import listed, with_count
 

@@ -1,10 +1,10 @@
-"""Figures in words (report/words.py)."""
+"""Figures in words (report/words/numbers.py)."""
 
 from __future__ import annotations
 
 import pytest
 
-from thermodata.report.words import change, in_units, number, probability_text, typeset
+from thermodata.report.words.numbers import change, in_units, number, probability_text, typeset
 
 
 @pytest.mark.parametrize(

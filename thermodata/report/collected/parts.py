@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.modelling.predictions.score import role_of
 from thermodata.plugin import Array, Bool1D, Float1D
-from thermodata.report.data import Curve, TestPart
-from thermodata.report.words import base_role
+from thermodata.report.collected.data import Curve, TestPart
+from thermodata.report.words.numbers import base_role
 from thermodata.schema.answers.result import Score
 
 if TYPE_CHECKING:

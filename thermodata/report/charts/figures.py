@@ -10,8 +10,8 @@ from thermodata.chart import Axis, Chart, HeatMap, Limit, Panel, Series, Span, S
 from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.decimate import MOST_POINTS, block_mean, block_size
 from thermodata.plugin import Float1D
-from thermodata.report.data import Curve, TestPart
-from thermodata.report.words import duration, number, typeset
+from thermodata.report.collected.data import Curve, TestPart
+from thermodata.report.words.numbers import duration, number, typeset
 from thermodata.schema.answers.diagnosis import WeakSpot
 
 TIME = "time from the start of the test"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from thermodata.report.candidate_errors import left_out_errors
-from thermodata.report.words import number
+from thermodata.report.verdict.candidate_errors import left_out_errors
+from thermodata.report.words.numbers import number
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
-from thermodata.report.glossary import IN_SAMPLE, LEVEL, explained
-from thermodata.report.lost import lost_of_chain, lost_sentence, results_gone_of_chain
-from thermodata.report.table import table
-from thermodata.report.words import base_role, change, duration, number, pooled, tests_of_role
+from thermodata.report.collected.lost import lost_of_chain, lost_sentence, results_gone_of_chain
+from thermodata.report.words.glossary import IN_SAMPLE, LEVEL, explained
+from thermodata.report.words.numbers import base_role, change, duration, number, pooled, tests_of_role
+from thermodata.report.words.table import table
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from thermodata.modelling.compare.differences import TestDifference
-    from thermodata.report.data import ReportData
+    from thermodata.report.collected.data import ReportData
     from thermodata.schema.answers.diagnosis import WeakSpot
     from thermodata.schema.answers.result import Check, FitResult, Score
     from thermodata.view.contributions import Contributions, Peak
@@ -116,7 +116,7 @@ def compare_text(results: list[FitResult]) -> str:
 
 
 def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
-    """The versions of a model, as rows of `report.history.history_rows`."""
+    """The versions of a model, as rows of `history_rows`."""
     lost = history_lost(chain)
     head = f"{lost}\n\n" if lost else ""
     told = f"\nin-sample: {IN_SAMPLE}" if any(row["in_sample"] for row in chain) else ""
@@ -124,7 +124,7 @@ def history_text(chain: Sequence[Mapping[str, Any]]) -> str:
 
 
 def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
-    """Which tests versions lost, of rows of `report.history.history_rows`; '' where all predict the same. Then those
+    """Which tests versions lost, of rows of `history_rows`; '' where all predict the same. Then those
     that were forgotten after a fit: the errors are without them."""
     compared = chain[-1]["common"]["tests"] if chain else 0
     lost = lost_of_chain([(row["model"], row["lost"], row["tests"]) for row in chain], compared)
@@ -132,8 +132,8 @@ def history_lost(chain: Sequence[Mapping[str, Any]]) -> str:
 
 
 def history_table(chain: Sequence[Mapping[str, Any]]) -> tuple[list[dict[str, Any]], list[tuple[str, str]]]:
-    """(rows, columns) that show rows of `report.history.history_rows`: one a version and response, with its errors over
-    the tests that all versions predict."""
+    """(rows, columns) that show rows of `history_rows`: one a version and response, with its errors over the tests that
+    all versions predict."""
     rows = [{**row, **one, **one["common"]} for row in chain for one in row["responses"]]
     several = {key for key in ("response", "unit") if len({row[key] for row in rows}) > 1}
     unit = "" if "unit" in several or not rows else f" [{rows[0]['unit']}]"

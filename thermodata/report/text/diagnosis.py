@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from thermodata.report.candidate_errors import beside
-from thermodata.report.could_hide import could_hide
-from thermodata.report.fit_text import spots_text
-from thermodata.report.glossary import PARTS, explained
-from thermodata.report.left_over import noise_words
-from thermodata.report.log_faults import log_faults
-from thermodata.report.of_response import of_response
-from thermodata.report.table import table
-from thermodata.report.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
-from thermodata.report.words import duration, heat_lines, number
+from thermodata.report.text.fit import spots_text
+from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.could_hide import could_hide
+from thermodata.report.verdict.left_over import noise_words
+from thermodata.report.verdict.log_faults import log_faults
+from thermodata.report.verdict.verdict import explainable, in_parts, probability, put_right, told, verdict_sentence
+from thermodata.report.words.glossary import PARTS, explained
+from thermodata.report.words.numbers import duration, heat_lines, number
+from thermodata.report.words.of_response import of_response
+from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import number
+from thermodata.report.words.numbers import number
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from thermodata.report.could_hide import may_act_instead
-from thermodata.report.refined import named
-from thermodata.report.words import LITTLE, duration, number, percent
+from thermodata.report.verdict.could_hide import may_act_instead
+from thermodata.report.verdict.refined import named
+from thermodata.report.words.numbers import LITTLE, duration, number, percent
 from thermodata.schema.agreed.begins_on import begins_on
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from thermodata.report.words import number
+from thermodata.report.words.numbers import number
 
 Column = tuple[str, str]  # (key of the row, heading)
 _WORD = r"[^\s:]+:(?=[A-Za-z])|\S+"

@@ -7,13 +7,13 @@ import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from thermodata.report.data import ReportData, TestPart
-from thermodata.report.history import chain_units, versions
-from thermodata.report.older import what_is_older
-from thermodata.report.parts import by_role, parts_of
-from thermodata.report.records import written_conditions
-from thermodata.report.spots import weak_spots_of
-from thermodata.report.verdict import claims_of
+from thermodata.report.collected.data import ReportData, TestPart
+from thermodata.report.collected.history import chain_units, versions
+from thermodata.report.collected.older import what_is_older
+from thermodata.report.collected.parts import by_role, parts_of
+from thermodata.report.collected.records import written_conditions
+from thermodata.report.collected.spots import weak_spots_of
+from thermodata.report.verdict.verdict import claims_of
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import Score
 

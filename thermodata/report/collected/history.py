@@ -7,8 +7,8 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from thermodata.modelling.compare.common import lost_tests, on_common, predicted
-from thermodata.report.data import Errors, ResponseError, Version
-from thermodata.report.words import base_role, change, pooled
+from thermodata.report.collected.data import Errors, ResponseError, Version
+from thermodata.report.words.numbers import base_role, change, pooled
 from thermodata.schema.answers.result import Score
 from thermodata.schema.files.model import EffectSpec
 from thermodata.view.response_units import response_units, told_together

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.chart.colour import DASHES, effect_styles, light
 from thermodata.errors import UsageError
 from thermodata.modelling.seen.as_system import Seen
-from thermodata.report.words import probability_text
+from thermodata.report.words.numbers import probability_text
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.store.base.files import whole_file
 

@@ -1,11 +1,11 @@
-"""A candidate's courses (report/course_chart.py): no line where nothing counts."""
+"""A candidate's courses (report/charts/courses.py): no line where nothing counts."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from thermodata.report.course_chart import pauses
+from thermodata.report.charts.courses import pauses
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from thermodata.report.data import Version
-from thermodata.report.words import number
+from thermodata.report.collected.data import Version
+from thermodata.report.words.numbers import number
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from thermodata.modelling.compare.common import lost_tests, on_common, predicted
 from thermodata.schema.words.sentences import counted, listed, with_count
 
 if TYPE_CHECKING:
-    from thermodata.report.data import Version
+    from thermodata.report.collected.data import Version
     from thermodata.schema.answers.result import Check, Score
 
 _NAMED = 6  # tests that a sentence names

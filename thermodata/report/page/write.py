@@ -32,9 +32,9 @@ def page_values(figures: Mapping[str, Chart | HeatMap]) -> dict[str, Any]:
     """What every page's template needs: styles, scripts, figures as JSON, and the policy that allows just these."""
     from markupsafe import Markup
 
-    from thermodata.report.figures import height_of
+    from thermodata.report.charts.figures import height_of
 
-    own = files("thermodata.report")
+    own = files("thermodata.report.page")
     css = style() + (own / "page.css").read_text(encoding="utf-8")
     js = script() + "\n" + (own / "page.js").read_text(encoding="utf-8")
     return {

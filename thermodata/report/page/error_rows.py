@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from thermodata.modelling.compare.common import on_common
-from thermodata.report.candidate_errors import beside
-from thermodata.report.data import ReportData
-from thermodata.report.glossary import ERRORS, PARTS
-from thermodata.report.verdict import claims_of, in_parts
-from thermodata.report.words import LITTLE, base_role, pooled, tests_of_role
+from thermodata.report.collected.data import ReportData
+from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.verdict import claims_of, in_parts
+from thermodata.report.words.glossary import ERRORS, PARTS
+from thermodata.report.words.numbers import LITTLE, base_role, pooled, tests_of_role
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import Score

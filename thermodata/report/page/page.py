@@ -11,23 +11,22 @@ import numpy as np
 
 from thermodata.chart import Chart, HeatMap, effect_styles
 from thermodata.chart.decimate import block_mean
-from thermodata.report.bars import waterfall
-from thermodata.report.candidate_errors import beside
-from thermodata.report.could_hide import could_hide
-from thermodata.report.data import ReportData, TestPart
-from thermodata.report.error_rows import error_rows, headline_error
-from thermodata.report.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
-from thermodata.report.fit_text import span
-from thermodata.report.glossary import HOW, NOISE
-from thermodata.report.headline import capital, headline, sentences
-from thermodata.report.heat_charts import heat_charts
-from thermodata.report.log_faults import log_faults
-from thermodata.report.lost import lost_of_versions
-from thermodata.report.of_response import of_response, some_of
-from thermodata.report.pieces import names_of_pieces
-from thermodata.report.system_charts import system_charts
-from thermodata.report.verdict import probability, told, verdict_sentence
-from thermodata.report.words import (
+from thermodata.report.charts.bars import waterfall
+from thermodata.report.charts.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
+from thermodata.report.charts.heat import heat_charts
+from thermodata.report.charts.system import system_charts
+from thermodata.report.collected.data import ReportData, TestPart
+from thermodata.report.collected.lost import lost_of_versions
+from thermodata.report.page.error_rows import error_rows, headline_error
+from thermodata.report.page.headline import capital, headline, sentences
+from thermodata.report.page.write import page_values, write_page
+from thermodata.report.text.fit import span
+from thermodata.report.verdict.candidate_errors import beside
+from thermodata.report.verdict.could_hide import could_hide
+from thermodata.report.verdict.log_faults import log_faults
+from thermodata.report.verdict.verdict import probability, told, verdict_sentence
+from thermodata.report.words.glossary import HOW, NOISE
+from thermodata.report.words.numbers import (
     base_role,
     change,
     duration,
@@ -37,7 +36,8 @@ from thermodata.report.words import (
     probability_text,
     typeset,
 )
-from thermodata.report.write import page_values, write_page
+from thermodata.report.words.of_response import of_response, some_of
+from thermodata.report.words.pieces import names_of_pieces
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
@@ -53,7 +53,7 @@ FEW = 2
 
 def build_report(store: Store, ref: str, out: Path | str) -> Path:
     """Write the page about a model (id, prefix or name) to `out`; a cut write leaves no half page."""
-    from thermodata.report.collect import collect
+    from thermodata.report.collected.collect import collect
 
     return write_page(out, render(collect(store, ref)))
 
@@ -71,7 +71,7 @@ def render(data: ReportData) -> str:
         change=change,
         number=lambda value, digits=3: typeset(number(value, digits)),
     )
-    template = environment.from_string((files("thermodata.report") / "page.html.j2").read_text(encoding="utf-8"))
+    template = environment.from_string((files("thermodata.report.page") / "page.html.j2").read_text(encoding="utf-8"))
     styles = effect_styles([*data.effects, *(c.name for t in data.tests for c in t.contributions)])
     spots = ranked_spots(data)
     heat = _heat(data)

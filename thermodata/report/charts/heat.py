@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.chart import Axis, Chart, Panel, Series
-from thermodata.report.pieces import names_of_pieces
+from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.missing_heat import HeatCourse
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from thermodata.report.data import ReportData
-from thermodata.report.error_rows import ErrorRow, added_claims, error_rows, headline_error
-from thermodata.report.lost import lost_sentence
-from thermodata.report.of_response import of_response
-from thermodata.report.verdict import causes, claims_of, verdict_sentence
-from thermodata.report.words import change, in_unit, number
+from thermodata.report.collected.data import ReportData
+from thermodata.report.collected.lost import lost_sentence
+from thermodata.report.page.error_rows import ErrorRow, added_claims, error_rows, headline_error
+from thermodata.report.verdict.verdict import causes, claims_of, verdict_sentence
+from thermodata.report.words.numbers import change, in_unit, number
+from thermodata.report.words.of_response import of_response
 from thermodata.schema.agreed.begins_on import IF_SO
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.sentences import listed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from thermodata.report.words import percent
+from thermodata.report.words.numbers import percent
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
