@@ -28,7 +28,7 @@ def test_its_reader_reads_and_reports_losses(tmp_path: Path) -> None:
     assert len(code.splitlines()) < 50
     names: dict[str, object] = {}
     exec(code, names)
-    from thermodata.reader.guard import guarded
+    from thermodata.reader.contract.guard import guarded
 
     reader = names["Reader"]()  # type: ignore[operator]
     path = tmp_path / "a.foo"

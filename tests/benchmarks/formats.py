@@ -169,7 +169,7 @@ def read_ours(case: Case, path: Path) -> peers.Answer:
 
     from thermodata.plugin import Block, Source
     from thermodata.reader import reader
-    from thermodata.reader.guard import guarded
+    from thermodata.reader.contract.guard import guarded
 
     values, total, first, last = 0, 0.0, math.inf, -math.inf
     for item in guarded(reader(case.reader), path, Source(**declared(case))):
@@ -192,7 +192,7 @@ def write_campaign(case: Case, path: Path) -> Path:
     """campaign.yaml beside the file, with every column as a channel."""
     from thermodata.plugin import Source
     from thermodata.reader import reader
-    from thermodata.reader.guard import described
+    from thermodata.reader.contract.guard import described
 
     said = described(reader(case.reader), path, Source(**declared(case)))
     signals = [s for s in said.signals if "S0" <= bare(s.name)[:2] <= "S9"]

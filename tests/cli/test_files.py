@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.reader import registry
+from thermodata.reader.finding import registry
 
 from .conftest import Said, write_campaign
 

@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Recording, Signal, Source
-from thermodata.reader import registry
+from thermodata.reader.finding import registry
 from thermodata.schema.files.load import load_campaign
 
 from .conftest import Said

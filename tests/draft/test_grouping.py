@@ -209,7 +209,7 @@ def test_a_file_that_two_readers_claim_is_said_with_both_reasons(
 ) -> None:
     log(tmp_path / "a.tdms", 0)
     (tmp_path / "b.dat").write_text("x\n")
-    real = __import__("thermodata.reader.registry", fromlist=["claims"]).claims
+    real = __import__("thermodata.reader.finding.registry", fromlist=["claims"]).claims
     monkeypatch.setattr(
         "thermodata.draft.files.raw_file.claims",
         lambda path: {"crio": "one reason", "table": "another"} if Path(path).name == "b.dat" else real(path),

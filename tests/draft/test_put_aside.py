@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.reader.rotated import age, unrotated
+from thermodata.reader.files.rotated import age, unrotated
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 

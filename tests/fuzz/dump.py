@@ -87,7 +87,7 @@ def read_one(path: Path, entry: Entry) -> Entry:
     from thermodata.errors import ThermodataError
     from thermodata.plugin import Block, Head, Source
     from thermodata.reader import reader
-    from thermodata.reader.guard import described, guarded
+    from thermodata.reader.contract.guard import described, guarded
 
     one, source = reader(entry["reader"]), Source(**entry["source"])
     result: Entry = {}

@@ -16,8 +16,8 @@ and has
 Nothing but `rng` may decide a mutation: file number i of a run is made again from (--seed, i) alone.
 
 A file fails when
-  - anything but a ThermodataError is raised by describe or blocks through thermodata.reader.guard, or anything at all
-    by sniff (PluginError counts as a failure: it is the plugin's bug);
+  - anything but a ThermodataError is raised by describe or blocks through thermodata.reader.contract.guard, or anything
+    at all by sniff (PluginError counts as a failure: it is the plugin's bug);
   - it takes more than the limit (--limit, 5 s of processor time; 12 times that of wall time kills a wait);
   - it needs more memory than the limit (--memory, MiB of address space above what the imports take), or the worker
     dies (the file it was reading is counted, the run goes on behind it);

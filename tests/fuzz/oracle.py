@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Block, Loss, Reader, Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 
 _ROW = np.dtype([("t", "<i8"), ("v", "<i8")])
 

@@ -153,7 +153,9 @@ def _out_of_time(number: int, frame: FrameType | None) -> None:
 
 def _failed(why: str, error: BaseException) -> Verdict:
     frames = traceback.extract_tb(error.__traceback__)
-    inner = [f for f in frames if "/fuzz/" not in f.filename and not f.filename.endswith("reader/guard.py")] or frames
+    inner = [
+        f for f in frames if "/fuzz/" not in f.filename and not f.filename.endswith("reader/contract/guard.py")
+    ] or frames
     ours = [f for f in inner if "thermodata" in f.filename] or inner
     place = " < ".join(f"{Path(f.filename).name}:{f.lineno}" for f in reversed(ours[-2:]))
     trace = "".join(traceback.format_exception(error))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Block
-from thermodata.reader.events import HeldRows, Value, fill_forward
+from thermodata.reader.signals.events import HeldRows, Value, fill_forward
 from thermodata.schema.flag import INVALID, Flag
 
 EVENTS = [

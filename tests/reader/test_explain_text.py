@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.reader.explain import explain, looks_for, why_no_table
+from thermodata.reader.finding.explain import explain, looks_for, why_no_table
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from thermodata.draft.make import draft_files
-from thermodata.reader.explain import explain
+from thermodata.reader.finding.explain import explain
 
 TABLE = pa.table({"t": np.arange(5.0), "T": np.linspace(20, 21, 5)})
 

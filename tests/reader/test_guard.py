@@ -11,9 +11,9 @@ import pytest
 
 from thermodata.errors import FormatError, PluginError
 from thermodata.plugin import Block, Head, Loss, Reader, Recording, Signal, Source
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.locate import locate
-from thermodata.reader.preview import beginning_of
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.contract.locate import locate
+from thermodata.reader.finding.preview import beginning_of
 
 GOOD = Block("s", np.arange(2, dtype=np.int64), {"a": np.zeros(2)})
 BAD = Block("s", np.arange(2, dtype=np.int64), {"a": np.zeros(3)})

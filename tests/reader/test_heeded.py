@@ -15,8 +15,8 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Recording, Signal, Source
-from thermodata.reader.guard import described
-from thermodata.reader.registry import readers
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.registry import readers
 
 Look = Callable[[dict[str, Any]], Any]
 CSV = "time,T1\n" + "".join(f"2026-03-02 08:00:{s:02},{20 + s}\n" for s in range(30))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Array
-from thermodata.reader.interleaved import series_columns
+from thermodata.reader.signals.interleaved import series_columns
 
 S = 10**9
 RNG = np.random.default_rng(18)

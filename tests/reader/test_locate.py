@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
-from thermodata.reader.locate import locate
+from thermodata.reader.contract.locate import locate
 
 
 class Plain:

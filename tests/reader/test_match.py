@@ -6,7 +6,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.reader.match import match_signal
+from thermodata.reader.finding.match import match_signal
 
 SIGNALS = [
     Signal(n, s)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
-from thermodata.reader.preview import preview
+from thermodata.reader.finding.preview import preview
 
 S = 1_000_000_000
 START = np.datetime64("2026-03-01T08:00:00", "ns").astype(np.int64).item()
@@ -53,7 +53,7 @@ def test_a_small_file_is_read_whole_however_long_it_takes(tmp_path: Path, monkey
     path = tmp_path / "x.log"
     path.write_bytes(b"x")
     assert preview(path, reader=Fake(), most_s=0.0)["whole"]
-    monkeypatch.setattr("thermodata.reader.preview._SMALL", 0)
+    monkeypatch.setattr("thermodata.reader.finding.preview._SMALL", 0)
     assert not preview(path, reader=Fake(), most_s=0.0)["whole"]
 
 

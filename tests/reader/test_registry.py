@@ -11,8 +11,8 @@ import pytest
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Head
-from thermodata.reader import registry
-from thermodata.reader.explain import explain
+from thermodata.reader.finding import registry
+from thermodata.reader.finding.explain import explain
 
 
 class Fake:

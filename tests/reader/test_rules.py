@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from thermodata.plugin import Block, Loss, Recording, Signal
-from thermodata.reader import rules
+from thermodata.reader.contract import rules
 
 T = np.arange(3, dtype=np.int64)
 GOOD = Recording((Signal("a", "s"), Signal("n", "s", dtype="int16"), Signal("w", "s", dtype="str")), "relative")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.reader.step_back import in_words, likely_cause, said
+from thermodata.reader.times.step_back import in_words, likely_cause, said
 
 
 def ns(text: str) -> int:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
-from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, to_ns, with_step
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, to_ns, with_step
+from thermodata.reader.times.zone import NAT
 
 T0 = int(np.datetime64("2026-03-02T08:00:00", "ns").astype(np.int64))
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 MIN = 60_000_000_000
 

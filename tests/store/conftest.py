@@ -28,7 +28,7 @@ def npz_reader(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def installed_readers(npz_reader: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """The installed readers, which another process finds too."""
-    from thermodata.reader import registry
+    from thermodata.reader.finding import registry
     from thermodata.store.ingest.reading import campaign_files
 
     monkeypatch.setattr(campaign_files, "find_reader", registry.reader)

@@ -17,7 +17,7 @@ import pytest
 
 from thermodata.errors import FormatError, PluginError, QuestionError, StoreError, ThermodataError
 from thermodata.plugin import Block, Loss, Source
-from thermodata.reader import registry
+from thermodata.reader.finding import registry
 from thermodata.store import Store
 from thermodata.store.ingest.reading import side_by_side, worker
 from thermodata.store.ingest.run import ingest

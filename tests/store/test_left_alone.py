@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.reader import registry
+from thermodata.reader.finding import registry
 from thermodata.store import Store
 from thermodata.store.base.connection import insert
 from thermodata.store.ingest import layers, run

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from thermodata.plugin import Source
-from thermodata.reader import registry
-from thermodata.reader.preview import preview
+from thermodata.reader.finding import registry
+from thermodata.reader.finding.preview import preview
 from thermodata.store.raw.streams import read_raw
 
 

@@ -13,9 +13,9 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from thermodata.effect.registry import all_effects
-from thermodata.reader.guard import described
-from thermodata.reader.match import match_signal
-from thermodata.reader.registry import reader
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.match import match_signal
+from thermodata.reader.finding.registry import reader
 from thermodata.schema.files.load import load_campaign, load_model
 from thermodata.store.raw.streams import declared
 

@@ -35,7 +35,7 @@ def init_command(session: Session, folder: Path, force: bool) -> int:
     from thermodata.draft.writing.answer import as_json
     from thermodata.draft.writing.baseline import responses_of_draft
     from thermodata.draft.writing.write import one_line
-    from thermodata.reader.registry import failed_readers
+    from thermodata.reader.finding.registry import failed_readers
     from thermodata.schema.words.sentences import counted
 
     made = draft_files(folder, force=force, progress=_progress(session))
@@ -156,8 +156,8 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     What to declare is said where that helps. FILE may be a folder: then all files in it, but for stores. Exit code 2
     where none or several readers claim a file, 3 where a reader does not load, so that another may claim its files.
     """
-    from thermodata.reader.explain import explain
-    from thermodata.reader.registry import failed_readers
+    from thermodata.reader.finding.explain import explain
+    from thermodata.reader.finding.registry import failed_readers
 
     found = [explain(path) for path in _each(files)]
     if not found:
@@ -180,7 +180,7 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
 
 def _each(given: tuple[Path, ...]) -> list[Path]:
     """Files as given; of a folder all below it, without hidden ones, links and what a store holds."""
-    from thermodata.reader.stores import is_store, within_stores
+    from thermodata.reader.files.stores import is_store, within_stores
 
     found: list[Path] = []
     for path in given:

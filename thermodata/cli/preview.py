@@ -12,14 +12,14 @@ from thermodata.report.words.table import fields, table
 
 
 def previewed(file: Path, name: str | None, timezone: str | None, rows: int, campaign: Path | None) -> dict[str, Any]:
-    """A file as JSON has it: what thermodata.reader.preview finds, the campaign's word on it, and flags.
+    """A file as JSON has it: what thermodata.reader.finding.preview finds, the campaign's word on it, and flags.
 
     campaign: a campaign file, or None: the one found beside the file, where it names the file. A declared time zone and
     reader stand over the campaign's.
     """
-    from thermodata.reader.guard import described
-    from thermodata.reader.preview import beginning_of, preview
-    from thermodata.reader.registry import reader, sniff
+    from thermodata.reader.contract.guard import described
+    from thermodata.reader.finding.preview import beginning_of, preview
+    from thermodata.reader.finding.registry import reader, sniff
 
     meant, source, chosen = _declared(file, campaign)
     chosen = reader(name) if name else chosen
@@ -63,7 +63,7 @@ def previewed(file: Path, name: str | None, timezone: str | None, rows: int, cam
 
 
 def _declared(file: Path, campaign: Path | None) -> tuple[Meant | None, Source, Reader | None]:
-    from thermodata.reader.registry import reader
+    from thermodata.reader.finding.registry import reader
     from thermodata.schema.files.load import load_campaign
     from thermodata.store.raw.streams import declared
 

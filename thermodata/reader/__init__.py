@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from thermodata.reader.registry import claims, failed_readers, head, reader, readers, sniff
+from thermodata.reader.finding.registry import claims, failed_readers, head, reader, readers, sniff
 
 __all__ = ["claims", "failed_readers", "head", "reader", "readers", "sniff"]

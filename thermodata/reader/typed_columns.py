@@ -1,5 +1,5 @@
 """What columns of typed tables (workbooks, Parquet) say of each other, by the rules of text: which stand over the empty
-cells behind them, and which tell the quality of others."""
+cells behind them, which tell the quality of others, and which the unit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D, Int1D
+from thermodata.reader.signals.header_words import UNIT_SHORT, UNIT_WORDS
+from thermodata.reader.signals.interleaved import bare_header, words_of
+from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
 from thermodata.reader.text.rows.quality_columns import (
     Pairs,
@@ -21,7 +25,7 @@ from thermodata.reader.text.rows.quality_columns import (
     shared,
     with_bad_rows,
 )
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _MOST_ROWS, _LEAST_ROWS, _MOST_CELLS = 20_000, 2000, 400_000  # that are looked at: of a wide table fewer rows
 _NO_NUMBER = "NaN"  # a cell that says it, where others say nothing
@@ -114,6 +118,21 @@ def related(
         of_rows,
         codes,
     )
+
+
+def unit_in_rows(values: Mapping[str, Array], units: Mapping[str, str | None]) -> tuple[UnitColumn | None, str | None]:
+    """(what says the unit of which column, a note). values: the first rows of each column, shape (n,); units: of those
+    whose header or metadata say one."""
+    bare = {name: v for name, v in values.items() if units.get(name) is None}
+    kinds: dict[str, str | None] = {
+        name: "str" if v.dtype.kind == "O" else "bool" if v.dtype.kind == "b" else "float64" for name, v in bare.items()
+    }
+    called = [n for n, kind in kinds.items() if kind == "str" and bare_header(n) in {*UNIT_WORDS, *UNIT_SHORT}]
+    if not called:
+        return None, None
+    cells: dict[str, list[str]] = {n: words_of(n, bare[n]) if n in called else [] for n in kinds}
+    found = unit_column(kinds, cells)
+    return found, found.note() if found is not None else unit_column_note(kinds, cells)
 
 
 def _declared(said: object, names: Sequence[str], beyond: Collection[str], where: str) -> frozenset[str] | None:

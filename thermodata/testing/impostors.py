@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 
 from thermodata.plugin import Reader
-from thermodata.reader.registry import readers
+from thermodata.reader.finding.registry import readers
 
 _TDMS = b"TDSm" + struct.pack("<IIQQ", 0x0E, 4713, 64, 32) + b"\x01\0\0\0\x01\0\0\0/" + bytes(64)
 _SPREADSHEET = b"PK\x03\x04\x14\0\x06\0\x08\0\0\0!\0" + bytes(12) + b"\x13\0\0\0[Content_Types].xml" + bytes(80)

@@ -11,7 +11,7 @@ from thermodata_reader_cnc.mtconnect import documents, streams
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
-from thermodata.reader.registry import head
+from thermodata.reader.finding.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import Data, load, reader_checks
 

@@ -11,7 +11,7 @@ from thermodata_reader_cnc import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 from thermodata.testing.reader import load, reader_checks
 
 PRAGUE = Source(timezone="Europe/Prague")

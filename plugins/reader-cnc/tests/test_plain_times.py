@@ -11,8 +11,8 @@ from thermodata_reader_cnc import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.guard import described
-from thermodata.reader.registry import head
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.registry import head
 from thermodata.testing.reader import load
 
 from .test_plain import ASIAN, HEADER, PRAGUE, ns, read, rows, write

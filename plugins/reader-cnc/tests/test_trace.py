@@ -11,7 +11,7 @@ from thermodata_reader_cnc.sinumerik import trace_records
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.registry import head
+from thermodata.reader.finding.registry import head
 from thermodata.schema.flag import Flag
 from thermodata.testing.reader import load, reader_checks
 

@@ -10,7 +10,7 @@ from thermodata_reader_cnc import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.registry import head
+from thermodata.reader.finding.registry import head
 from thermodata.testing.reader import load, reader_checks
 
 HEADER = """Name\tproject

@@ -12,7 +12,7 @@ from thermodata_reader_crio import Reader
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 
 nptdms = pytest.importorskip("nptdms")
 T0 = np.datetime64("2026-03-12T07:00:00", "ns").astype(np.int64)

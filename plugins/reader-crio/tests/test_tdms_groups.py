@@ -11,7 +11,7 @@ from thermodata_reader_crio import Reader
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Source
-from thermodata.reader.guard import described
+from thermodata.reader.contract.guard import described
 from thermodata.testing.reader import load
 
 

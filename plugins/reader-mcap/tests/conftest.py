@@ -13,7 +13,7 @@ from mcap.writer import CompressionType, Writer
 from thermodata_reader_mcap import Reader
 
 from thermodata.plugin import Loss, Recording, Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 
 T0 = 1_772_434_800_000_000_000
 STEP = 10_000_000

@@ -12,8 +12,8 @@ from thermodata_reader_table import Reader
 from tests.draft.labs import workbook
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Source
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.match import match_signal
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.finding.match import match_signal
 
 
 def names_of(path: Path) -> list[str]:

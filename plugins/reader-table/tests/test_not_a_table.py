@@ -10,8 +10,8 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
-from thermodata.reader.explain import explain
-from thermodata.reader.registry import head
+from thermodata.reader.finding.explain import explain
+from thermodata.reader.finding.registry import head
 
 from .test_sheets import seconds, sheet, workbook
 

@@ -12,7 +12,7 @@ from thermodata_reader_table import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.time_units import to_ns
+from thermodata.reader.times.time_units import to_ns
 from thermodata.testing.reader import Data, load
 
 PRAGUE = Source(timezone="Europe/Prague")

@@ -12,7 +12,7 @@ from thermodata_reader_table import Reader, workbook_beginning
 from thermodata.cli import main
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.preview import preview
+from thermodata.reader.finding.preview import preview
 from thermodata.testing.reader import load
 
 from .test_sheets import MAIN, workbook

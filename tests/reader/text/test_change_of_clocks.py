@@ -9,8 +9,8 @@ from zoneinfo import ZoneInfo
 import pytest
 
 from thermodata.plugin import Source
-from thermodata.reader.guard import described
-from thermodata.reader.registry import readers
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.registry import readers
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Block, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.clocks.counts_of_days import counted_by, quick_note
-from thermodata.reader.time_units import EPOCHS
+from thermodata.reader.times.time_units import EPOCHS
 
 SEVEN = 1772434800 * 10**9  # 2026-03-02 07:00 UTC
 DAYS = np.arange(60) * 20 / 86400

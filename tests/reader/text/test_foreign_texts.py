@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.explain import explain
+from thermodata.reader.finding.explain import explain
 from thermodata.reader.text.file.foreign_texts import foreign_text
 from thermodata.reader.text.tables.find_table import open_table
 

@@ -15,8 +15,8 @@ from tests.draft.labs import workbook
 from thermodata.draft.make import draft_files
 from thermodata.errors import QuestionError
 from thermodata.plugin import Block, Source
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.registry import readers
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.finding.registry import readers
 
 AT = datetime(2026, 3, 14, 23, 55, tzinfo=UTC)  # a Saturday: the week of GPS ends within the rows
 FIRST = (AT - datetime(1980, 1, 6, tzinfo=UTC)).total_seconds() + 18

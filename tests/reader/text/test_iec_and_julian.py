@@ -13,7 +13,7 @@ from thermodata.plugin import Source
 from thermodata.reader.text.cells.number import is_empty
 from thermodata.reader.text.clocks.time_questions import size_of_clock
 from thermodata.reader.text.tables.find_table import open_table
-from thermodata.reader.time_units import EPOCHS, to_ns
+from thermodata.reader.times.time_units import EPOCHS, to_ns
 
 
 @pytest.mark.parametrize("prefix", ["DTL#", "DT#", "LDT#", ""])

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from thermodata.reader.text.times.local_clock import DayCount, LocalClock
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 S = 1_000_000_000
 DAY = 86_400

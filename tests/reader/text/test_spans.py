@@ -14,7 +14,7 @@ from thermodata.errors import ThermodataError
 from thermodata.plugin import Block, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.times.spans import SPAN, are_spans, is_span
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 ROWS, START_S = 300, 86_400 - 1_000
 S = 10**9

@@ -16,8 +16,8 @@ from tests.draft.labs import workbook
 from thermodata.draft.make import draft_files
 from thermodata.errors import QuestionError
 from thermodata.plugin import Block, Source
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.registry import readers
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.finding.registry import readers
 
 AT = datetime(2026, 3, 12, 7, tzinfo=UTC)
 

@@ -23,7 +23,7 @@ from thermodata.reader.text.cells.time_pattern import (
     with_zone,
 )
 from thermodata.reader.text.times.timestamp import offset_ns, parse, parse_one
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 S = 1_000_000_000
 EPOCH = datetime(1970, 1, 1, tzinfo=UTC)

@@ -25,9 +25,9 @@ from thermodata.draft.signals.values import Values, in_unit, joined
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import VALUE_WORDS
-from thermodata.reader.row_units import UNIT_OF
-from thermodata.reader.series import SERIES
+from thermodata.reader.signals.header_words import VALUE_WORDS
+from thermodata.reader.signals.row_units import UNIT_OF
+from thermodata.reader.signals.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY

@@ -20,8 +20,8 @@ from thermodata.draft.files.sample import Watch, sample_of
 from thermodata.draft.signals.values import bare_word
 from thermodata.draft.words.naming import words
 from thermodata.plugin import Array, Block, Head, Loss, Reader, Recording, Signal, Source
-from thermodata.reader.guard import guarded
-from thermodata.reader.series import NEVER, SERIES
+from thermodata.reader.contract.guard import guarded
+from thermodata.reader.signals.series import NEVER, SERIES
 
 
 def _split(text: str) -> list[str]:

@@ -14,13 +14,13 @@ from thermodata.draft.files.sample import Sample, sample_of
 from thermodata.draft.files.sheets import sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
-from thermodata.reader.explain import kind_of, why_no_table
-from thermodata.reader.guard import described
-from thermodata.reader.open_questions import ASK, UNKNOWN, YEAR
-from thermodata.reader.registry import claims, reader
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.explain import kind_of, why_no_table
+from thermodata.reader.finding.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
 from thermodata.reader.text.times.unpadded import UNPADDED
-from thermodata.reader.zone import NO_ZONE
+from thermodata.reader.times.open_questions import ASK, UNKNOWN, YEAR
+from thermodata.reader.times.zone import NO_ZONE
 
 _MOST_QUESTIONS = 4
 _ASSUMED = (

@@ -15,7 +15,7 @@ from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.signals.values import Values, bare_word, joined, values_of
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array, Block, Float1D, Int1D, Loss, Reader, Recording, Signal, Source
-from thermodata.reader.guard import guarded
+from thermodata.reader.contract.guard import guarded
 
 _SAMPLE_ROWS, _SAMPLE_S = 400_000, 1.0  # of one file
 SMALL = 4_000_000  # bytes; smaller files are read whole

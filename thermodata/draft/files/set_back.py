@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Int1D
-from thermodata.reader.clock_leaps import Leap
-from thermodata.reader.newest_first import Steps
+from thermodata.reader.times.clock_leaps import Leap
+from thermodata.reader.times.newest_first import Steps
 from thermodata.store.raw.order import find_order
 
 _REPEATED = 0.9  # of the rows that go through times again: a copy of rows, which ingest leaves out

@@ -9,7 +9,7 @@ from itertools import combinations
 
 from thermodata.draft.files.sample import Sample
 from thermodata.plugin import Recording, Signal
-from thermodata.reader.series import SERIES
+from thermodata.reader.signals.series import SERIES
 
 _FURTHER_RATE = re.compile(r"@\d+$")
 _TOGETHER_NS = 10_000_000_000  # what begins within this began at once

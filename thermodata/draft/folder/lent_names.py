@@ -11,8 +11,8 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.files.raw_file import Asked, RawFile, described_files, sample_of_file
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
-from thermodata.reader.registry import reader
-from thermodata.reader.rotated import unrotated
+from thermodata.reader.files.rotated import unrotated
+from thermodata.reader.finding.registry import reader
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.schema.words.sentences import counted
 

@@ -11,7 +11,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import without_part
 from thermodata.draft.words.said_by_names import said_by
-from thermodata.reader.rotated import age, unrotated
+from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.words.sentences import with_dots
 
 _NAMED = 4

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 
 from thermodata.draft.folder.sources import Group
-from thermodata.reader.rotated import age, unrotated
+from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.words.sentences import with_dots
 
 _PACKED = (".gz", ".bz2", ".xz", ".zst")

@@ -19,7 +19,7 @@ from thermodata.draft.folder.lent_names import with_lent_names
 from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
-from thermodata.reader.stores import within_stores
+from thermodata.reader.files.stores import within_stores
 from thermodata.schema.agreed.left_out import CANT_READ
 from thermodata.schema.strict.lines import is_text
 from thermodata.schema.words.sentences import counted

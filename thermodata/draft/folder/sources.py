@@ -11,7 +11,7 @@ from typing import Any
 from thermodata.draft.files.raw_file import Asked, RawFile, merged
 from thermodata.draft.words.naming import parts_of, plain, words
 from thermodata.plugin import Signal
-from thermodata.reader.rotated import unrotated
+from thermodata.reader.files.rotated import unrotated
 from thermodata.reader.text import split_unit
 
 _NAMES = {"crio": "daq", "cnc": "nc", "mcap": "rec", "table": "log"}

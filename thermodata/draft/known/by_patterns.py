@@ -15,8 +15,8 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, normal
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Recording
-from thermodata.reader.match import match_signal
-from thermodata.reader.registry import reader
+from thermodata.reader.finding.match import match_signal
+from thermodata.reader.finding.registry import reader
 from thermodata.schema.files.campaign import SourceSpec
 from thermodata.schema.files.tests_from import pattern_of
 

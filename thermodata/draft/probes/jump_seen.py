@@ -11,7 +11,7 @@ from thermodata.draft.files.raw_file import sampled_file
 from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D
-from thermodata.reader.match import match_signal
+from thermodata.reader.finding.match import match_signal
 from thermodata.schema.strict.lines import read_document
 
 MOST_BYTES = 64 << 20  # a jump test takes minutes

@@ -22,7 +22,7 @@ from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import parts_of, words
 from thermodata.draft.words.vocabulary import foreign_in, quantities_in
 from thermodata.plugin import Signal
-from thermodata.reader.header_words import VALUE_WORDS
+from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.schema.units.letters import encoding_hint

@@ -14,8 +14,8 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import named_zone, zone_in
 from thermodata.errors import ThermodataError
-from thermodata.reader.step_back import likely_cause, said
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
+from thermodata.reader.times.step_back import likely_cause, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
 from thermodata.store.tidy.times_of_day import NEAR_NS, began, first_of

@@ -15,8 +15,8 @@ from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.times.hints import fitting_others, swapped
 from thermodata.draft.times.named_days import day_of_name
 from thermodata.errors import ThermodataError
-from thermodata.reader.guard import described
-from thermodata.reader.registry import reader
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding.registry import reader
 from thermodata.schema.words.sentences import with_count
 
 _ORDERS = ("dmy", "mdy")

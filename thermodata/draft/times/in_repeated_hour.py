@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.reader.repeated_hour import repeated_hour
-from thermodata.reader.zone import utc_offset_ns
+from thermodata.reader.times.repeated_hour import repeated_hour
+from thermodata.reader.times.zone import utc_offset_ns
 
 
 def which_pass(files: Sequence[RawFile], proposed: str) -> str:

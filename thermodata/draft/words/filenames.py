@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
-from thermodata.reader.rotated import unrotated
+from thermodata.reader.files.rotated import unrotated
 
 _PIECE = re.compile(r"[_\-. ]+")
 _PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)

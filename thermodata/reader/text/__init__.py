@@ -20,7 +20,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.encoding import decode, decode_head, find_encoding
 from thermodata.reader.text.file.lines import last_line_is_whole
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
-from thermodata.reader.zone import local_to_utc_ns
+from thermodata.reader.times.zone import local_to_utc_ns
 
 __all__ = [
     "clean",

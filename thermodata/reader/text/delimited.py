@@ -13,9 +13,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.repeated_hour import repeated_hour
-from thermodata.reader.row_units import UNIT_OF
-from thermodata.reader.series import TakenApart
+from thermodata.reader.signals.row_units import UNIT_OF
+from thermodata.reader.signals.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
@@ -31,8 +30,9 @@ from thermodata.reader.text.tables.table import Table
 from thermodata.reader.text.tables.table_rows import RowReader
 from thermodata.reader.text.times.days_without_year import yearless_note
 from thermodata.reader.text.times.local_clock import DayCount
-from thermodata.reader.time_units import EPOCHS
-from thermodata.reader.zone import local_to_utc_ns, skipped_notes, skips_between, utc_offset_ns
+from thermodata.reader.times.repeated_hour import repeated_hour
+from thermodata.reader.times.time_units import EPOCHS
+from thermodata.reader.times.zone import local_to_utc_ns, skipped_notes, skips_between, utc_offset_ns
 
 __all__ = ["Table", "blocks", "describe", "open_table", "signals"]
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.clock_leaps import LEAP_NS
+from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.schema.words.sentences import counted
 
 JITTER_NS = 1_000_000_000  # a step back up to this is disorder

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording, Source
-from thermodata.reader.guard import described
-from thermodata.reader.repeated_hour import ALL, ENDS, repeated_hour
-from thermodata.reader.zone import NO_ZONE
+from thermodata.reader.contract.guard import described
+from thermodata.reader.times.repeated_hour import ALL, ENDS, repeated_hour
+from thermodata.reader.times.zone import NO_ZONE
 
 
 def pass_notes(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.clock_leaps import LEAP_NS
+from thermodata.reader.times.clock_leaps import LEAP_NS
 from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.clock_faults import JITTER_NS, MOST_STRAYS, Faults, shifted
 

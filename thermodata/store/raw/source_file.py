@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from thermodata.errors import StoreError
-from thermodata.reader.regular import opened
+from thermodata.reader.files.regular import opened
 
 _CHUNK = 1 << 20
 

@@ -9,9 +9,10 @@ from pathlib import Path
 
 from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Loss, Reader, Recording, Signal, Source
-from thermodata.reader import newest_first, registry
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.units_met import units_met
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.finding import registry
+from thermodata.reader.signals.units_met import units_met
+from thermodata.reader.times import newest_first
 from thermodata.schema.files.campaign import SourceSpec
 from thermodata.store.base.files import key_of, safe_name
 from thermodata.store.raw.open_pass import pass_notes

@@ -11,8 +11,8 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Array, Block, Int1D, Signal
-from thermodata.reader.clock_leaps import LEAP_NS
-from thermodata.reader.newest_first import Steps
+from thermodata.reader.times.clock_leaps import LEAP_NS
+from thermodata.reader.times.newest_first import Steps
 from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary

@@ -13,7 +13,7 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import CalibrationError, SpecError, ThermodataError, unknown_name
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.zone import local_to_utc_ns
+from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.schema.units.quantity import value_in
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy.keys import channel_text

@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Signal
-from thermodata.reader.match import match_signal
+from thermodata.reader.finding.match import match_signal
 from thermodata.reader.text import split_unit
 from thermodata.schema.files.campaign import Channel
 from thermodata.schema.units.quantity import delta_factor, is_unit, linear_conversion

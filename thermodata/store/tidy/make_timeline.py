@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Array, Int1D, Loss
-from thermodata.reader.clock_leaps import LEAP_NS
-from thermodata.reader.newest_first import Steps
-from thermodata.reader.step_back import likely_cause, said
-from thermodata.reader.zone import NO_ZONE
+from thermodata.reader.times.clock_leaps import LEAP_NS
+from thermodata.reader.times.newest_first import Steps
+from thermodata.reader.times.step_back import likely_cause, said
+from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.set_values import are_set
+from thermodata.reader.signals.set_values import are_set
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.timeline import Timeline
 

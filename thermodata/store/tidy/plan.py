@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.reader.match import NoSignalError
+from thermodata.reader.finding.match import NoSignalError
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.raw.raw_stream import RawStream

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from thermodata.reader.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
-from thermodata.reader.zone import NO_ZONE
+from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
+from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.source_clock import recorded, start_ns

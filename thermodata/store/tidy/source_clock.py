@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.zone import local_to_utc_ns
+from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.make_timeline import make_timeline
 from thermodata.store.tidy.plan import SourcePlan, TestPlan

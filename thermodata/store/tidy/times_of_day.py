@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
-from thermodata.reader.zone import utc_offset_ns
+from thermodata.reader.times.zone import utc_offset_ns
 
 DAY_NS, _HOUR_NS = 86_400 * 10**9, 3_600 * 10**9
 NEAR_NS = 120 * 10**9  # by how much logs that begin or end together differ

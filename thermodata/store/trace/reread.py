@@ -7,8 +7,8 @@ from typing import Any
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Block
-from thermodata.reader.guard import guarded
-from thermodata.reader.locate import locate
+from thermodata.reader.contract.guard import guarded
+from thermodata.reader.contract.locate import locate
 from thermodata.schema.files.campaign import SourceSpec
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.streams import declared, find_reader

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thermodata.plugin import Reader, Source
-from thermodata.reader.rules import sentence
+from thermodata.reader.contract.rules import sentence
 from thermodata.testing.reader.case import Case, Data, Mutate, load
 from thermodata.testing.reader.claiming import (
     a_sniff_survives_any_head,

@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.errors import PluginError, ThermodataError
 from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Reader, Recording, Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 
 Mutate = Callable[[bytes, random.Random], bytes]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Head, Reader, Source
-from thermodata.reader.registry import readers
+from thermodata.reader.finding.registry import readers
 from thermodata.testing.impostors import impostors
 from thermodata.testing.reader.case import Case, fault, head
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from thermodata.errors import PluginError
 from thermodata.plugin import Block, Source
-from thermodata.reader.guard import described, guarded
-from thermodata.reader.locate import locate
+from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.contract.locate import locate
 from thermodata.testing.reader.case import Case, equal, fault, gathered, load
 
 _DAY_NS = 86_400_000_000_000

@@ -9,7 +9,7 @@ from itertools import zip_longest
 from pathlib import Path
 
 from thermodata.plugin import Source
-from thermodata.reader.guard import described, guarded
+from thermodata.reader.contract.guard import described, guarded
 from thermodata.testing.reader.apart import together
 from thermodata.testing.reader.case import Case, difference, fault, gathered, load
 

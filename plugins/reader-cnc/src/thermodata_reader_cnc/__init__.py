@@ -41,20 +41,20 @@ class Reader:
         return None if found is None else found[1]
 
     def describe(self, path: Path, source: Source) -> Recording:
-        from thermodata.reader.registry import head
+        from thermodata.reader.finding.registry import head
         from thermodata_reader_cnc.formats import module_of
 
         return module_of(head(path)).describe(path, source)
 
     def blocks(self, path: Path, source: Source) -> Iterator[Block | Loss]:
-        from thermodata.reader.registry import head
+        from thermodata.reader.finding.registry import head
         from thermodata_reader_cnc.formats import module_of
 
         return module_of(head(path)).blocks(path, source)
 
     def locate(self, path: Path, source: Source, stream: str, row: int) -> str:
         """Where a row (counted from 0) of a stream stands: its line, its report, or its record and byte."""
-        from thermodata.reader.registry import head
+        from thermodata.reader.finding.registry import head
         from thermodata_reader_cnc.formats import module_of
 
         return module_of(head(path)).locate(path, source, stream, row) or f"row {row + 1}"

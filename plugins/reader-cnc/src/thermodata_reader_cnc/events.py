@@ -10,13 +10,13 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
-from thermodata.reader.events import HeldRows, Value
+from thermodata.reader.signals.events import HeldRows, Value
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.number import is_empty, is_overload, to_bool, to_float
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 
 STREAM = "nc"

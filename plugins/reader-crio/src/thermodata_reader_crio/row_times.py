@@ -9,8 +9,8 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D, Int1D
 from thermodata.reader.text.cells.time_pattern import TIME_OF_DAY, declared_format, with_zone
 from thermodata.reader.text.times.timestamp import parse_one
-from thermodata.reader.time_units import to_ns
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.time_units import to_ns
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 from thermodata_reader_crio.labview_clock import EPOCH_1904_NS, LABVIEW_SECONDS, LAST_NS
 
 # 1/3/2026 is of January or of March, and 1.3.26 of any year: a date that LabVIEW did not write so is none

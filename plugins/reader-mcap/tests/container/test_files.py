@@ -13,7 +13,7 @@ from thermodata_reader_mcap import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Head, Source
-from thermodata.reader.guard import described
+from thermodata.reader.contract.guard import described
 from thermodata.testing.reader import reader_checks
 
 T0 = 1_772_434_800_000_000_000

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.reader.match import NoSignalError, match_signal
+from thermodata.reader.finding.match import NoSignalError, match_signal
 
 T0, MINUTE = 1_772_434_800_000_000_000, 60 * 10**9
 FRONT, REAR = [20 + k / 8 for k in range(60)], [30 - k / 8 for k in range(60)]

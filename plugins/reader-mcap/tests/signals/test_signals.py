@@ -12,7 +12,7 @@ from thermodata_reader_mcap import Reader
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.guard import described
+from thermodata.reader.contract.guard import described
 
 T0 = 1_772_434_800_000_000_000
 STEP = 10_000_000

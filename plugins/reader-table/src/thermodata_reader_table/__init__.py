@@ -8,7 +8,7 @@ from types import ModuleType
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Head, Loss, Recording, Source
-from thermodata.reader.archives import packed
+from thermodata.reader.files.archives import packed
 
 
 class Reader:

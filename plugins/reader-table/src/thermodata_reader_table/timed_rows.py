@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 
 def nth_timed_row(parts: Iterable[Int1D], row: int) -> int | None:

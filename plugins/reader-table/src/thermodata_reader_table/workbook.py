@@ -17,12 +17,12 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError
 from thermodata.plugin import Block, Loss, Recording, Scaling, Signal, Source
-from thermodata.reader.series import Declaration
+from thermodata.reader.signals.series import Declaration
 from thermodata.reader.text.page.layout import Layout, find
 from thermodata.reader.text.page.on_its_side import refuse_sideways
 from thermodata.reader.text.page.one_clock import one_clock
 from thermodata.reader.text.preamble.begin import NOT_TAKEN
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata.workbook_check import check_size
 from thermodata_reader_table.workbook_percent import counts_from_1904, percent_columns

@@ -14,7 +14,7 @@ from thermodata.reader.text.cells.time_pattern import TIME_OF_DAY
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.days import Days
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _MICRO = dt.timedelta(microseconds=1)
 

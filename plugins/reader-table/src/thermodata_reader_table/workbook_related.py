@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array
+from thermodata.reader.times.zone import NAT
 from thermodata.reader.typed_columns import Related, Relating, related
-from thermodata.reader.zone import NAT
 from thermodata_reader_table.workbook_sheet import Stream
 
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 from functools import partial
 
 from thermodata.plugin import Block, Loss
-from thermodata.reader.series import SERIES, Declaration, find_series
-from thermodata.reader.zone import NAT
+from thermodata.reader.signals.series import SERIES, Declaration, find_series
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook_sheet import Stream
 from thermodata_reader_table.workbook_units import in_one_unit

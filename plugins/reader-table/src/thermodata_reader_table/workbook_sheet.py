@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Bool1D, Int1D, Loss, Source
-from thermodata.reader.by_place import BY_PLACE
+from thermodata.reader.signals.by_place import BY_PLACE
 from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.cells.number import decimal_mark, values_of
 from thermodata.reader.text.cells.quotes import clean
@@ -36,8 +36,8 @@ from thermodata.reader.text.times.in_memory import (
 )
 from thermodata.reader.text.times.time_cells import belongs_to_time
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.time_units import EPOCHS, SECONDS, Epoch, to_ns
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, Epoch, to_ns
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.workbook_cells import joined, joined_words, part_of_date, seconds_of

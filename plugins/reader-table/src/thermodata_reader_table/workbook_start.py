@@ -12,7 +12,7 @@ from thermodata.plugin import Source
 from thermodata.reader.text.preamble.begin import ROWS, FirstTimes, declared_start, find_begin, unused_start
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
 from thermodata.reader.text.times.local_clock import DayCount
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 
 def begun(times: Stamps, head: Sequence[Sequence[Any]], source: Source, zone: str | None, where: str) -> Stamps:

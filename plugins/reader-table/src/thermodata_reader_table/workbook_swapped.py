@@ -13,11 +13,11 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Int1D
-from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.in_memory import Stamps, times_of_dates
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 
 SWAPPED, SHOWN = "swapped", "shown"

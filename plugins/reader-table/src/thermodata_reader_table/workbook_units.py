@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Loss
-from thermodata.reader.interleaved import words_of
-from thermodata.reader.row_units import UNIT_OF, in_unit
+from thermodata.reader.signals.interleaved import words_of
+from thermodata.reader.signals.row_units import UNIT_OF, in_unit
 from thermodata.reader.text.names.unit_column import lost_for_unit
-from thermodata.reader.typed_units import unit_in_rows
+from thermodata.reader.typed_columns import unit_in_rows
 from thermodata_reader_table.workbook_sheet import Stream
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _NS = (3600 * 10**9, 60 * 10**9, 10**9)
 

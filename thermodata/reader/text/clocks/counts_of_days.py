@@ -9,9 +9,9 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.clocks.counts_of_seconds import may_be, scale_question
-from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
+from thermodata.reader.times.open_questions import UNKNOWN
+from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")

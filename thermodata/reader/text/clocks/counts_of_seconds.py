@@ -9,9 +9,9 @@ import numpy as np
 
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
-from thermodata.reader.open_questions import UNKNOWN
-from thermodata.reader.since import leaves_leaps_open
-from thermodata.reader.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
+from thermodata.reader.times.open_questions import UNKNOWN
+from thermodata.reader.times.since import leaves_leaps_open
+from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
 
 _SCALES = {
     "gps": "GPS time, ahead of UTC by its leap seconds",

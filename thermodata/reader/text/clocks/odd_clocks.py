@@ -7,10 +7,10 @@ import re
 from collections import Counter
 
 from thermodata.errors import QuestionError
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_number, mostly
 from thermodata.reader.text.cells.clock_pattern import says_the_hour
 from thermodata.reader.text.names.time_header import is_time_header
+from thermodata.reader.times.open_questions import UNKNOWN
 
 _MANY = 10  # rows of one day
 _EACH = 0.9  # of the rows, that have a text of their own

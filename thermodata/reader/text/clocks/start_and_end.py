@@ -6,8 +6,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from thermodata.reader.open_questions import ASK
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty, is_stamp
+from thermodata.reader.times.open_questions import ASK
 
 _BEGIN = re.compile(
     r"(?i)(?:^|[\W_])(?:start|begin|beginn|anfang|von|from|début|debut|inicio|inizio|začátek)(?:$|[\W_])"

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Any
 
 from thermodata.errors import FormatError, QuestionError, ThermodataError, UsageError, nearest
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_dated, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.clock_pattern import BLANK, HALF, says_the_hour
 from thermodata.reader.text.cells.time_pattern import part_of_a_second
@@ -34,7 +33,8 @@ from thermodata.reader.text.times.clock_words import said_clock
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.spans import are_spans
 from thermodata.reader.text.times.time_cells import part_question, with_parts, zone_notes
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.times.open_questions import UNKNOWN
+from thermodata.reader.times.time_units import SECONDS
 
 _FRACTION = re.compile(rf":\d\d:\d\d[.,:]\d+{BLANK}*({HALF})?$")
 

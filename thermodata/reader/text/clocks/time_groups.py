@@ -19,7 +19,7 @@ from thermodata.errors import FormatError, UsageError
 from thermodata.reader.text.cells.cell import TIME_WORD, Cell, is_empty, is_number, is_stamp, number_of
 from thermodata.reader.text.clocks.tagged_columns import tagged
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.time_units import SECONDS, known_unit
+from thermodata.reader.times.time_units import SECONDS, known_unit
 
 _NUMBERED = re.compile(r"^(?P<word>.*?)[ _.#-]*(?P<number>\d{1,3})$")
 _COUNTED = re.compile(r"^(?P<word>[^\W\d_]+)\s*\d{1,2}\s*[-–:]\s")  # 'Zeit  2 - fast': the rates of catman

@@ -10,7 +10,6 @@ import numpy as np
 
 from thermodata.errors import QuestionError
 from thermodata.plugin import Array
-from thermodata.reader.open_questions import UNKNOWN, unit_question
 from thermodata.reader.text.cells.cell import Cell, is_clocked, is_number, is_stamp, mostly, number_of
 from thermodata.reader.text.cells.joined_clock import format_of_joined
 from thermodata.reader.text.cells.zone_words import HOURS, SEVERAL, word_behind
@@ -20,7 +19,8 @@ from thermodata.reader.text.times.clock_numbers import days_beside, fraction_que
 from thermodata.reader.text.times.date_parts import declared_parts
 from thermodata.reader.text.times.gps_weeks import find_weeks
 from thermodata.reader.text.times.odd_stamps import guess_format
-from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
+from thermodata.reader.times.open_questions import UNKNOWN, unit_question
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, found_epoch
 
 _ROLL = 2.0**32  # a counter of 32 bits begins anew there: an Arduino's millis() after 49.7 days
 COUNTERS = {"millis": "ms", "micros": "us"}  # by the names that an Arduino has for them

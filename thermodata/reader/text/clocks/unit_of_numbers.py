@@ -12,7 +12,7 @@ from thermodata.reader.text.clocks.counts_of_days import quick_note, refuse_beyo
 from thermodata.reader.text.clocks.counts_of_seconds import far_question, scale_question
 from thermodata.reader.text.clocks.time_questions import epoch_in, of_day_question, size_of_clock
 from thermodata.reader.text.names.time_header import unit_of_time
-from thermodata.reader.time_units import check_unit, with_step
+from thermodata.reader.times.time_units import check_unit, with_step
 
 
 def unit_of_numbers(

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.plugin import Bool1D
-from thermodata.reader.interleaved import STATES
+from thermodata.reader.signals.interleaved import STATES
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, is_stamp, mostly
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.schema.units.quantity import is_unit

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 
-from thermodata.reader.since import count_in
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.time_units import EPOCHS, SECONDS, known_unit
+from thermodata.reader.times.since import count_in
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, known_unit
 
 _UNIT_BEHIND = re.compile(
     r"^(?P<word>[^\W\d_]+(?: [^\W\d_]+)??)(?P<between>\s+in\s+|\s*[/,:]\s*|[ _.]+)(?P<unit>[^\W\d_]{1,8})\.?$"

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.names.header import looks_like_unit
-from thermodata.reader.time_units import known_unit
+from thermodata.reader.times.time_units import known_unit
 
 _WITH_UNIT = re.compile(r"^(?P<number>[+-]?\d[\d.,]*)\s?(?P<unit>[^\d\s].{0,7})$")
 _NEARLY_ALL = 0.9  # of a column's cells

@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from thermodata.plugin import Array
-from thermodata.reader.since import PTP
 from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.preamble.epoch_said import epoch_said
-from thermodata.reader.time_units import EPOCHS, found_epoch, known_unit
+from thermodata.reader.times.since import PTP
+from thermodata.reader.times.time_units import EPOCHS, found_epoch, known_unit
 
 
 def counted_from(

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.since import PTP
 from thermodata.reader.text.cells.cell import Cell, is_number, number_of
 from thermodata.reader.text.clocks.counts_of_seconds import scale_question
 from thermodata.reader.text.clocks.time_questions import likely_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.preamble.epoch_said import SaidEpoch, epoch_said
-from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
+from thermodata.reader.times.since import PTP
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, is_logged
 
 _SETTLED = ("unit", "format", "period")  # where one of these is declared, no head is asked
 

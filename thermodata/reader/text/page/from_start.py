@@ -9,14 +9,14 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from thermodata.errors import QuestionError
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.clocks.time_questions import COUNTERS, likely_time
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import unit_of_time
 from thermodata.reader.text.preamble.begin import HEAD
 from thermodata.reader.text.preamble.head_start import head_start
-from thermodata.reader.time_units import SECONDS, is_logged, to_ns
+from thermodata.reader.times.open_questions import UNKNOWN
+from thermodata.reader.times.time_units import SECONDS, is_logged, to_ns
 
 _COUNTER = re.compile(
     r"(?i)up[ _]?time[ _]?(?P<a>[^\W_]*)|"

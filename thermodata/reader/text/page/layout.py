@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from thermodata.errors import FormatError, QuestionError, UsageError
-from thermodata.reader.by_place import BY_PLACE
-from thermodata.reader.open_questions import UNKNOWN, unanswered
+from thermodata.reader.signals.by_place import BY_PLACE
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.clocks.time_columns import column, time_of
 from thermodata.reader.text.clocks.time_groups import Span, spans
@@ -27,7 +26,8 @@ from thermodata.reader.text.page.lines_between import lines_between
 from thermodata.reader.text.page.misfit import refuse_misfit
 from thermodata.reader.text.page.units_misfit import refuse_units_misfit
 from thermodata.reader.text.preamble.head_interval import against_interval, with_interval
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.time_units import EPOCHS, SECONDS
 
 _DATE = 8  # letters of a date by which it is known: "2026-03-", "02.03.20"
 

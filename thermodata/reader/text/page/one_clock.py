@@ -8,7 +8,7 @@ from typing import Literal
 from thermodata.errors import FormatError
 from thermodata.reader.text.page.group import Group
 from thermodata.reader.text.times.in_memory import Stamps
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 
 def one_clock(

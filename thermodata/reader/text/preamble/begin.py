@@ -11,14 +11,14 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D
-from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.time_pattern import TimeFormat
 from thermodata.reader.text.preamble.head_start import ORDERS, HeadStart, head_start
 from thermodata.reader.text.preamble.head_words import Says
 from thermodata.reader.text.times.date_parts import row_time
-from thermodata.reader.time_units import to_ns
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.time_units import to_ns
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 HEAD, NOT = "head", "none"  # the answers beside ORDERS
 ANSWERS = (*ORDERS, HEAD, NOT)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.since import Zero, leaping, moment_in, since
-from thermodata.reader.time_units import EPOCHS, SECONDS, is_logged
+from thermodata.reader.times.since import Zero, leaping, moment_in, since
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, is_logged
 
 _MARKS = "#%;*'\"/!<> \t"
 _LABEL = re.compile(

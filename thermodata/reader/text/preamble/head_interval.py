@@ -9,9 +9,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from thermodata.errors import QuestionError
-from thermodata.reader.open_questions import ASK, UNKNOWN
 from thermodata.reader.text.cells.cell import Cell, number_of
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.times.open_questions import ASK, UNKNOWN
+from thermodata.reader.times.time_units import SECONDS
 
 _LABEL = re.compile(
     r"(?i)(?:(?:sampl(?:e|ing)|scan|log(?:ging)?|record(?:ing)?|measur(?:e|ing|ement)|data|time|storage)[ _-]*)?"

@@ -18,7 +18,7 @@ from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_letters import with_clock
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 ORDERS = ("dmy", "mdy", "ymd")  # of day and month, which an answer may be
 _LABELLED = (re.compile(r"^([^:=]{1,60}?)\s*[:=]\s*(.*)$"), re.compile(r"^([^\W\d_][^\d:=]{0,58}?)\s+(\d.*)$"))

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from functools import cache
 from zoneinfo import available_timezones
 
-from thermodata.reader.zone import utc_offset_ns
+from thermodata.reader.times.zone import utc_offset_ns
 
 _PLACED = re.compile(
     r"\s*\((?:UTC|GMT)\s?(?P<sign>[+\u2212-])(?P<hours>\d{1,2})(?::?(?P<minutes>\d\d))?\)\s*(?P<places>[^\W\d_][^;()\d]*)$"

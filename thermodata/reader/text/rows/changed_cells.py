@@ -17,7 +17,7 @@ import numpy as np
 
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
-from thermodata.reader.set_values import are_set
+from thermodata.reader.signals.set_values import are_set
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.no_value import EMPTY
 from thermodata.reader.text.names.header import split_unit

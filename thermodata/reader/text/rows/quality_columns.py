@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from thermodata.plugin import Array
-from thermodata.reader.interleaved import bare_header
+from thermodata.reader.signals.interleaved import bare_header
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import BAD, are_qualities, is_good, is_no_fault, tells_quality, zero_is_good

@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.no_value import EMPTY, OVERLOAD
 from thermodata.reader.text.cells.number import EXACT, decimal_mark, is_number, may_be_thousands, to_bool, to_float
 from thermodata.reader.text.cells.quotes import clean
+from thermodata.reader.times.open_questions import UNKNOWN
 
 _TEXT_NAME = re.compile(r"(?i)comment|note|alarm|message|text|label|remark|bemerk|kommentar|meldung|pozn|hinweis")
 # of fewer digits than an integer that float64 would change has

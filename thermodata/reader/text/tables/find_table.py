@@ -10,7 +10,6 @@ from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells import delimiter as delimiters
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import declared_zero
@@ -45,6 +44,7 @@ from thermodata.reader.text.times.date_parts import PART
 from thermodata.reader.text.times.days import NOTE, STANDS, have_days, is_once, stands
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.text.times.unpadded import unpadded_note
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
 
 _TYPED_ROWS = 2000  # of the head, by which columns are typed
 

@@ -14,8 +14,8 @@ from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import column_times
 from thermodata.reader.text.times.days import Days, have_days
 from thermodata.reader.text.times.local_clock import DayCount, LocalClock
-from thermodata.reader.time_units import EPOCHS, Epoch, to_ns
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.time_units import EPOCHS, Epoch, to_ns
+from thermodata.reader.times.zone import NAT
 
 
 class RowClock:

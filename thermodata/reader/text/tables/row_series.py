@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.plugin import Block, Int1D, Source
-from thermodata.reader.series import Declaration, Found, Series, find_series
+from thermodata.reader.signals.series import Declaration, Found, Series, find_series
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk

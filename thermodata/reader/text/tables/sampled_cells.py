@@ -10,7 +10,7 @@ from thermodata.reader.text.page.layout import Layout
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import column_times, row_time
 from thermodata.reader.text.times.days import filled
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _FEW_ROWS = 400  # whose times are read one by one, for Arrow takes longer to load
 

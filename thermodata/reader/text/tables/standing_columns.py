@@ -11,7 +11,7 @@ from thermodata.reader.text.rows.changed_cells import KEY, declared_standing, fi
 from thermodata.reader.text.rows.quality_columns import Pairs
 from thermodata.reader.text.tables.table import TimedGroup
 from thermodata.reader.text.times.date_parts import row_time
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 
 def standing_columns(

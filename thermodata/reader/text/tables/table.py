@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from thermodata.reader.row_units import UnitColumn
-from thermodata.reader.series import Series
+from thermodata.reader.signals.row_units import UnitColumn
+from thermodata.reader.signals.series import Series
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.quotes import clean
@@ -24,7 +24,7 @@ from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, is_row_of_
 from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.rows.quality_columns import Pairs
 from thermodata.reader.text.times.date_parts import PART
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.times.time_units import SECONDS
 
 Told = tuple[tuple[str, str], ...]  # name and unit of each cell of a header
 

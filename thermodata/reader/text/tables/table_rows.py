@@ -22,7 +22,7 @@ from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
 from thermodata.reader.text.tables.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table, TimedGroup
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 
 _BLOCK_VALUES = 1_000_000

@@ -10,7 +10,7 @@ from dataclasses import replace
 from thermodata.reader.text.cells.zone_words import HOURS, zone_above
 from thermodata.reader.text.preamble.zone_places import places_above, zone_by_name
 from thermodata.reader.text.tables.table import TimedGroup
-from thermodata.reader.zone import utc_offset_ns
+from thermodata.reader.times.zone import utc_offset_ns
 
 SAYS = "the head says"
 OPEN = "whose clocks may be put ahead in summer or not"

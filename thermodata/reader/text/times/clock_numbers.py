@@ -16,7 +16,7 @@ from thermodata.reader.text.cells.joined_clock import read_joined
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import since_midnight
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _UNITS = {"H": DAY_NS // 24, "M": DAY_NS // 1440, "S": DAY_NS // 86400, "": DAY_NS}
 _SINCE_MIDNIGHT, _MOST_DAYS = "since midnight", 1000

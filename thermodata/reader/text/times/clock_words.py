@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from thermodata.errors import QuestionError
-from thermodata.reader.open_questions import UNKNOWN
 from thermodata.reader.text.cells.cell import Cell
 from thermodata.reader.text.names.time_header import unit_of_time
+from thermodata.reader.times.open_questions import UNKNOWN
 
 CLOCKS = ("mm:ss", "hh:mm", "hh:mm:ss")  # what may be declared in place of strptime's letters
 _HOURS, _MINUTES, _SECONDS = (

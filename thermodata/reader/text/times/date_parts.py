@@ -23,7 +23,7 @@ from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.clock_numbers import days_of_years
 from thermodata.reader.text.times.gps_weeks import reads_weeks
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _WORDS = {
     "Y": "year years jahr rok année annee anno año ano yyyy yy yr",

@@ -13,7 +13,7 @@ from thermodata.plugin import Bool1D, Int1D
 from thermodata.reader.text.cells.cell import Cell, is_dated, is_empty
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
 from thermodata.reader.text.times.date_parts import row_time
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _SPARSE = 0.5  # of the rows: fewer have a date
 _STEPS = 10  # of the rows, that the clock may miss over a midnight at which the date does not change

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from thermodata.reader.open_questions import YEAR
 from thermodata.reader.text.cells.cell import is_empty
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
+from thermodata.reader.times.open_questions import YEAR
 
 _DAY = re.compile(r"(\d{1,2})(?:\.\s?|[/-])(\d{1,2})\.?")
 _SAID = re.compile(r"(?<!\d)(?:19|20)\d\d(?=\D|[01]\d[0-3]\d|$)")

@@ -12,8 +12,8 @@ import numpy as np
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.cell import Cell, is_empty, is_number, number_of
 from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.time_units import EPOCHS
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.time_units import EPOCHS
+from thermodata.reader.times.zone import NAT
 
 _WEEK_S = 604_800
 _ROLL = 1024  # after which the number of ten bits that satellites send begins anew: in 1999, 2019 and 2038

@@ -13,8 +13,8 @@ from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.text.times.time_formats import find_formats
-from thermodata.reader.time_units import EPOCHS, SECONDS, to_ns
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, to_ns
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ from datetime import UTC, datetime
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.newest_first import Steps
-from thermodata.reader.zone import NAT, local_to_utc_ns
+from thermodata.reader.times.newest_first import Steps
+from thermodata.reader.times.zone import NAT, local_to_utc_ns
 
 _HOUR = 3600 * 10**9
 _NEAR = 3 * _HOUR

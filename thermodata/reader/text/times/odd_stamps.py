@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.times import timestamp
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _WORDS = (
     (re.compile(r"(?i)jan|feb|mar|apr|may|jun|jul|aug|sep|oct|nov|dec"), "%b"),

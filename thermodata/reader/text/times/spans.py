@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from thermodata.reader.text.cells.time_pattern import DAY_NS, TimeFormat
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _S = 10**9
 _FINE = 10**9  # parts of a nanosecond that nine decimals of one tell apart

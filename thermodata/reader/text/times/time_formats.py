@@ -14,7 +14,6 @@ from functools import partial
 import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
-from thermodata.reader.open_questions import UNKNOWN, unanswered
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.time_pattern import (
     DATE,
@@ -32,7 +31,8 @@ from thermodata.reader.text.times.clock_numbers import clock_of_numbers, since_m
 from thermodata.reader.text.times.clock_words import CLOCKS, ask_for_minutes
 from thermodata.reader.text.times.date_parts import PART, declared_parts
 from thermodata.reader.text.times.spans import SPAN, are_spans
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.zone import NAT
 
 _FEW, _MANY = 40, 4000
 _SHORT = re.compile(r"\s*'?(\d{2})[-/](\d{2})[-/](\d{2})(?!\d)")

@@ -20,7 +20,7 @@ from thermodata.reader.text.cells.clock_pattern import in_24_hours
 from thermodata.reader.text.cells.number import text_array
 from thermodata.reader.text.cells.time_pattern import DATETIME, DAY_NS, PARTS_NS, TimeFormat
 from thermodata.reader.text.cells.zone_words import offset_ns
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as strptime's %y
 _NO_NUMBERS = ("s", "p", "q", "z")  # parts of a pattern

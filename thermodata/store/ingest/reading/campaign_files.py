@@ -9,8 +9,8 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.plugin import Reader, Source
-from thermodata.reader import registry
-from thermodata.reader.guard import described
+from thermodata.reader.contract.guard import described
+from thermodata.reader.finding import registry
 from thermodata.schema.files.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.ingest.known.unchanged import Seen, seen
 from thermodata.store.ingest.progress import Progress

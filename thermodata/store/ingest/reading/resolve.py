@@ -12,8 +12,8 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
-from thermodata.reader.regular import kind_of
-from thermodata.reader.rotated import age, unrotated
+from thermodata.reader.files.regular import kind_of
+from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.files.campaign import Campaign, Test
 from thermodata.schema.strict.lines import is_text
 

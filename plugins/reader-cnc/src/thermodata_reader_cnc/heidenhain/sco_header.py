@@ -15,7 +15,7 @@ from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.number import is_empty, of_either_mark, to_float
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 _BLOCK = re.compile(r"^%\[([A-Za-z]+)[\s_]*(\d*)\]")
 _KEY = re.compile(r"^%\s*([A-Za-z_ ]+?)\s*=\s*(.*)$")

@@ -15,7 +15,7 @@ from thermodata.plugin import Loss
 from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.cells.number import to_float
 from thermodata.reader.text.times import timestamp
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.events import GONE, ISO, Event
 

@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from thermodata.errors import FormatError
-from thermodata.reader.header_words import NAME_WORDS, VALUE_WORDS
+from thermodata.reader.signals.header_words import NAME_WORDS, VALUE_WORDS
+from thermodata.reader.signals.unit_words import holds_units
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_number
 from thermodata.reader.text.cells.quotes import clean
@@ -18,7 +19,6 @@ from thermodata.reader.text.rows.grid import Grid
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.odd_stamps import guess_format
 from thermodata.reader.text.times.time_formats import find_format
-from thermodata.reader.unit_words import holds_units
 from thermodata_reader_cnc.opcua.long_series import Series, series_of, series_of_influx
 
 _TIMES = (

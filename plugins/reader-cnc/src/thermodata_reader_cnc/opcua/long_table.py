@@ -26,7 +26,7 @@ from thermodata.reader.text.rows.footer import footer_notes, is_footer
 from thermodata.reader.text.rows.grid import BadLine
 from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.times import timestamp
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc import events
 from thermodata_reader_cnc.events import GONE, Event, HeldTable

@@ -13,7 +13,6 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Block, Loss, Recording, Signal, Source
-from thermodata.reader.open_questions import unit_question
 from thermodata.reader.text.cells.delimiter import fields
 from thermodata.reader.text.cells.number import is_number, to_float
 from thermodata.reader.text.cells.quotes import clean
@@ -21,8 +20,9 @@ from thermodata.reader.text.file.lines import chunks, from_line, sample, split_l
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.time_header import unit_of_time
-from thermodata.reader.time_units import SECONDS, check_unit, to_ns
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.open_questions import unit_question
+from thermodata.reader.times.time_units import SECONDS, check_unit, to_ns
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_cnc.number_rows import everywhere, number_rows
 

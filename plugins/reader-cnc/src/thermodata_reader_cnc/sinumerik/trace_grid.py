@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from thermodata.plugin import Array, Block, Bool1D, Float1D, Int1D, Loss
-from thermodata.reader.events import fill_forward
+from thermodata.reader.signals.events import fill_forward
 from thermodata.reader.text.cells.number import to_float, values_of
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.sinumerik.trace_records import Frame

@@ -20,7 +20,7 @@ from thermodata.reader.text.cells import time_pattern
 from thermodata.reader.text.file.locate import row_at
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import LocalClock
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata_reader_cnc.sinumerik import trace_records
 from thermodata_reader_cnc.sinumerik.trace_grid import LOOK, Group, columns_of, counted, groups_of, rows

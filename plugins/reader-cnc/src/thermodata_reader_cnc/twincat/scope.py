@@ -18,8 +18,8 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Sample, chunks, from_line, sample, split_last_line
 from thermodata.reader.text.file.locate import line_of
 from thermodata.reader.text.file.losses import Losses
-from thermodata.reader.time_units import EPOCHS, to_ns
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.time_units import EPOCHS, to_ns
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted, with_count
 from thermodata_reader_cnc.number_rows import NumberRows, everywhere, number_rows
 from thermodata_reader_cnc.twincat.scope_header import Header, read_header

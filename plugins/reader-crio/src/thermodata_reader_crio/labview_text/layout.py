@@ -17,7 +17,7 @@ from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.encoding import decode_head
 from thermodata.reader.text.names.header import looks_like_unit, split_unit
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.times.time_units import SECONDS
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS
 from thermodata_reader_crio.labview_text.wanted import Wanted, may_be_time
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Float1D, Source
-from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.time_units import SECONDS, check_unit
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.time_units import SECONDS, check_unit
 from thermodata.schema.units.quantity import value_in
 
 

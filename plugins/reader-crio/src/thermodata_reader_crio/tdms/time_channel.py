@@ -10,7 +10,6 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D, Source
-from thermodata.reader.since import count_in
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.cell import is_dated, mostly
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts, names_scale, scale_question
@@ -18,8 +17,9 @@ from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.time_header import is_time_header, unit_of_time
 from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.times.in_memory import Stamps, times_of_numbers, times_of_texts
-from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, known_unit
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.since import count_in
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, known_unit
+from thermodata.reader.times.zone import NAT
 from thermodata_reader_crio.labview_clock import LABVIEW_SECONDS, LAST_NS, UNIX_SECONDS
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.raw_values import read

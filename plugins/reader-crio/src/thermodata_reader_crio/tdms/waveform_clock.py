@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Bool1D, Int1D
-from thermodata.reader.time_units import SECONDS
+from thermodata.reader.times.time_units import SECONDS
 from thermodata.schema.units.quantity import converts, is_unit
 from thermodata_reader_crio.labview_clock import LAST_NS, step_ns
 from thermodata_reader_crio.tdms.metadata import Timestamp

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.series import Declaration
+from thermodata.reader.signals.series import Declaration
 from thermodata_reader_mcap.encodings.field_paths import Path
 
 LOG, PUBLISH = "log_time", "publish_time"

@@ -10,8 +10,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.row_units import UnitColumn
-from thermodata.reader.series import Declaration, Series
+from thermodata.reader.signals.row_units import UnitColumn
+from thermodata.reader.signals.series import Declaration, Series
 from thermodata_reader_mcap.container.attachments import extras
 from thermodata_reader_mcap.container.data_section import is_complete
 from thermodata_reader_mcap.container.definitions import Channel, Definitions

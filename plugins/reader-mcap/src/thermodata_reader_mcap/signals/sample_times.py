@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Int1D
-from thermodata.reader.header_words import VALUE_WORDS
-from thermodata.reader.time_units import EPOCHS, SECONDS, found_epoch
+from thermodata.reader.signals.header_words import VALUE_WORDS
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, found_epoch
 
 TIMES = frozenset({"t", "time", "times", "timestamp", "timestamps", "ts", "stamp", "stamps"})
 BEGINS = frozenset(

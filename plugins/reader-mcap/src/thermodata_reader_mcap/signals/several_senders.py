@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block
-from thermodata.reader.series import Declaration, Found, find_series
+from thermodata.reader.signals.series import Declaration, Found, find_series
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.container.messages import LATEST_NS

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Float1D
-from thermodata.reader.time_units import EPOCHS, found_epoch
+from thermodata.reader.times.time_units import EPOCHS, found_epoch
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.container.message_batches import Batch
 from thermodata_reader_mcap.encodings.decoder import Decoder

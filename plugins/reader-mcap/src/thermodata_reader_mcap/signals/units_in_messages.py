@@ -6,9 +6,9 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from thermodata.reader.header_words import UNIT_WORDS, VALUE_WORDS
-from thermodata.reader.interleaved import bare_header
-from thermodata.reader.row_units import UNIT_OF, UnitColumn
+from thermodata.reader.signals.header_words import UNIT_WORDS, VALUE_WORDS
+from thermodata.reader.signals.interleaved import bare_header
+from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.names.header import looks_like_unit
 from thermodata.reader.text.names.time_header import is_time_header

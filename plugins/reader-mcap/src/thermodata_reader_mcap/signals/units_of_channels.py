@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from thermodata.reader.row_units import converts_here
-from thermodata.reader.unit_words import is_surely_unit
+from thermodata.reader.signals.row_units import converts_here
+from thermodata.reader.signals.unit_words import is_surely_unit
 from thermodata.schema.units.quantity import linear_conversion, normal_unit
 from thermodata_reader_mcap.container.definitions import Channel
 from thermodata_reader_mcap.encodings.columns import MISSING, Columns, Wrong

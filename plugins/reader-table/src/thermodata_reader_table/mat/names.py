@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Mapping
 
-from thermodata.reader.since import count_in
-from thermodata.reader.time_units import EPOCHS, SECONDS
+from thermodata.reader.times.since import count_in
+from thermodata.reader.times.time_units import EPOCHS, SECONDS
 
 _TIME = {
     "time",

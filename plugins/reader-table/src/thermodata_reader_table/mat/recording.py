@@ -9,7 +9,7 @@ from typing import Any
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss, Recording, Signal, Source
 from thermodata.reader.text import split_unit
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.mat.files import opened
 from thermodata_reader_table.mat.timed_streams import LOOK, Clocked, TimedStream

@@ -9,13 +9,13 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Int1D, Source
-from thermodata.reader import time_units
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_groups import one_time
 from thermodata.reader.text.names.header import unique
 from thermodata.reader.text.page.counted_from import counted_from
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.odd_stamps import guess_format
+from thermodata.reader.times import time_units
 from thermodata_reader_table.mat.planner import plan_streams
 from thermodata_reader_table.mat.stream_plan import Column, Stream, TimeVector
 from thermodata_reader_table.mat.tree import Tree

@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Loss
-from thermodata.reader import time_units
-from thermodata.reader.zone import NAT
+from thermodata.reader.times import time_units
+from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.mdf.groups import File, Group

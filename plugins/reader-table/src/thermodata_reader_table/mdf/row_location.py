@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from thermodata.plugin import Source
-from thermodata.reader import time_units
+from thermodata.reader.times import time_units
 from thermodata_reader_table.mdf.groups import File
 from thermodata_reader_table.mdf.library import opened
 from thermodata_reader_table.timed_rows import nth_timed_row

@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
-from thermodata.reader.zone import local_to_utc_ns
+from thermodata.reader.times.zone import local_to_utc_ns
 
 
 def start_ns(header: Any, v4: bool, source: Source, where: str, notes: list[str]) -> int | None:

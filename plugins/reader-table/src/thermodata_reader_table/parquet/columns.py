@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 
 
 def numbers(column: Any) -> Array:

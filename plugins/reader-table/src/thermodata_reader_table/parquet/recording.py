@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Block, Bool1D, Loss, Recording, Signal, Source
-from thermodata.reader.row_units import UNIT_OF, UnitColumn
-from thermodata.reader.series import TakenApart
+from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn
+from thermodata.reader.signals.series import TakenApart
 from thermodata.reader.text.names.unit_column import in_one_unit
-from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at
-from thermodata.reader.typed_units import unit_in_rows
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
+from thermodata.reader.typed_columns import Related, Relating, related, rows_looked_at, unit_in_rows
 from thermodata.schema.words.sentences import counted
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table, damage_as_format_error

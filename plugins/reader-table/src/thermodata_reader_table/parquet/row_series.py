@@ -11,9 +11,9 @@ import pyarrow.compute as pc
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D
-from thermodata.reader.series import Declaration, Found, find_series
+from thermodata.reader.signals.series import Declaration, Found, find_series
 from thermodata.reader.text.tables.long_rows import name_column
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.zone import NAT
 from thermodata_reader_table.parquet.columns import values_of
 from thermodata_reader_table.parquet.table import Table
 

@@ -13,7 +13,6 @@ import numpy as np
 
 from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Source
-from thermodata.reader.open_questions import UNKNOWN, unanswered, unit_question
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.clocks.counts_of_seconds import ask_what_counts
 from thermodata.reader.text.clocks.time_columns import column as find_column
@@ -26,7 +25,8 @@ from thermodata.reader.text.page.layout import period_s
 from thermodata.reader.text.times import in_memory
 from thermodata.reader.text.times.date_parts import find_parts
 from thermodata.reader.text.times.in_memory import times_of_numbers
-from thermodata.reader.time_units import EPOCHS, SECONDS, check_unit, found_epoch, known_unit, to_ns, with_step
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered, unit_question
+from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, found_epoch, known_unit, to_ns, with_step
 from thermodata_reader_table.parquet.columns import nanoseconds, numbers
 from thermodata_reader_table.parquet.day_and_clock import as_cells, clock_beside, joined, texts
 from thermodata_reader_table.parquet.field_metadata import said_of_fields, said_of_file, units_of

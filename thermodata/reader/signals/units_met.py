@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from thermodata.plugin import Block, Signal
-from thermodata.reader.interleaved import words_of
-from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here
+from thermodata.reader.signals.interleaved import words_of
+from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn, converts_here
 from thermodata.schema.units.quantity import normal_unit
 
 

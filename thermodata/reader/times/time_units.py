@@ -12,9 +12,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.open_questions import UNKNOWN, unanswered
-from thermodata.reader.since import count_in, since
-from thermodata.reader.zone import NAT
+from thermodata.reader.times.open_questions import UNKNOWN, unanswered
+from thermodata.reader.times.since import count_in, since
+from thermodata.reader.times.zone import NAT
 
 _DAY = 86400.0
 SECONDS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta, timezone
 
-from thermodata.reader.zone import utc_offset_ns
+from thermodata.reader.times.zone import utc_offset_ns
 
 _HOUR_S = 3600
 # begins the note on a file that tells local times and ends within a first pass, which nothing but their order proves

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import FAILED, FormatError, UsageError, unknown_name
 from thermodata.plugin import HEAD_BYTES, Head, Reader
-from thermodata.reader.regular import opened
+from thermodata.reader.files.regular import opened
 
 GROUP = "thermodata.reader"
 INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from thermodata.errors import FormatError, UsageError
 from thermodata.plugin import Bool1D, Int1D
-from thermodata.reader.newest_first import Steps
+from thermodata.reader.times.newest_first import Steps
 
 NAT = np.iinfo(np.int64).min
 NO_ZONE = "no time zone declared"  # begins the note on local times whose zone nobody says

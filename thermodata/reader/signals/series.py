@@ -11,9 +11,9 @@ import numpy as np
 
 from thermodata.errors import FormatError
 from thermodata.plugin import Array, Block, Int1D, Loss, Signal
-from thermodata.reader.interleaved import Parting, series_columns, words_of
-from thermodata.reader.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
-from thermodata.reader.unit_words import holds_units
+from thermodata.reader.signals.interleaved import Parting, series_columns, words_of
+from thermodata.reader.signals.row_units import UNIT_OF, UnitColumn, converts_here, in_unit
+from thermodata.reader.signals.unit_words import holds_units
 from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.sentences import counted, with_dots
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from thermodata.reader.header_words import UNIT_SHORT, UNIT_WORDS
-from thermodata.reader.interleaved import bare_header
+from thermodata.reader.signals.header_words import UNIT_SHORT, UNIT_WORDS
+from thermodata.reader.signals.interleaved import bare_header
 from thermodata.schema.units.quantity import is_unit
 
 _DEGREES = ("C", "F", "K")

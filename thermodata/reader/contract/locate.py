@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Reader, Source
-from thermodata.reader.guard import asking
+from thermodata.reader.contract.guard import asking
 
 
 def locate(reader: Reader, path: Path, source: Source, stream: str, row: int) -> str | None:

@@ -9,10 +9,10 @@ from pathlib import Path
 
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
-from thermodata.reader.archives import packed, packed_by
-from thermodata.reader.foreign_files import foreign_file
-from thermodata.reader.guard import described
-from thermodata.reader.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
+from thermodata.reader.contract.guard import described
+from thermodata.reader.files.archives import packed, packed_by
+from thermodata.reader.finding.foreign_files import foreign_file
+from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
 from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
 from thermodata.reader.text.file.foreign_texts import foreign_text

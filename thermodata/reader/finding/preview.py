@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
-from thermodata.reader.clock_leaps import Leap
-from thermodata.reader.guard import asking, described, guarded
-from thermodata.reader.newest_first import NOTE, Steps
-from thermodata.reader.registry import claims, sniff
-from thermodata.reader.regular import refuse_what_never_ends
-from thermodata.reader.units_met import units_met
+from thermodata.reader.contract.guard import asking, described, guarded
+from thermodata.reader.files.regular import refuse_what_never_ends
+from thermodata.reader.finding.registry import claims, sniff
+from thermodata.reader.signals.units_met import units_met
+from thermodata.reader.times.clock_leaps import Leap
+from thermodata.reader.times.newest_first import NOTE, Steps
 
 FIRST_ROWS = 5
 MOST_ROWS, MOST_S = 3_000_000, 8.0  # a preview of a file of any size takes seconds

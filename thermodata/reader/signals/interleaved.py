@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.plugin import Array, Int1D
-from thermodata.reader.header_words import HOST_IDS, LABEL_WORDS, NAME_WORDS, SENSOR_IDS, SENSOR_WORDS
-from thermodata.reader.series_evidence import FEWEST, Header, Rows, Verdict, judge
+from thermodata.reader.signals.header_words import HOST_IDS, LABEL_WORDS, NAME_WORDS, SENSOR_IDS, SENSOR_WORDS
+from thermodata.reader.signals.series_evidence import FEWEST, Header, Rows, Verdict, judge
 
 _MOST_WORDS, _MOST_NUMBERS = 200, 32  # that name series
 _BLANK = 0.1  # of the rows may name nothing

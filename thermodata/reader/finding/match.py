@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 from thermodata.errors import UsageError
 from thermodata.plugin import Signal
-from thermodata.reader.by_place import BY_PLACE
+from thermodata.reader.signals.by_place import BY_PLACE
 from thermodata.reader.text import split_unit
 from thermodata.schema.words.sentences import with_count
 

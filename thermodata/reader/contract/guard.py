@@ -8,10 +8,10 @@ from pathlib import Path
 
 from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
 from thermodata.plugin import Block, Loss, Reader, Recording, Source
-from thermodata.reader.archives import packed_by
-from thermodata.reader.heeded import Watched
-from thermodata.reader.regular import refuse_what_never_ends
-from thermodata.reader.rules import RECORDING_RULES, broken_rule, sentence
+from thermodata.reader.contract.heeded import Watched
+from thermodata.reader.contract.rules import RECORDING_RULES, broken_rule, sentence
+from thermodata.reader.files.archives import packed_by
+from thermodata.reader.files.regular import refuse_what_never_ends
 
 
 @contextmanager
