@@ -14,8 +14,8 @@ from thermodata.errors import SpecError
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.clock_lent import dated_sources, lent
-from thermodata.store.tidy.source_clock import Clock
+from thermodata.store.tidy.clock.lent import dated_sources, lent
+from thermodata.store.tidy.clock.source_clock import Clock
 
 ALIGNED = CAMPAIGN.replace(
     'files: "raw/{test}.nc.npz"}',

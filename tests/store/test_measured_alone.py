@@ -1,4 +1,4 @@
-"""What the logger repeats between two moments that are measured is no fault of these (store/tidy/measured_alone.py)."""
+"""What the logger repeats between two measured moments is no fault of these (store/tidy/flags/measured_alone.py)."""
 
 from __future__ import annotations
 

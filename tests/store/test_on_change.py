@@ -9,8 +9,8 @@ import pytest
 
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.on_change import Written, has_no_rate, written_by_hand
-from thermodata.store.tidy.timeline import given_timeline
+from thermodata.store.tidy.rows.on_change import Written, has_no_rate, written_by_hand
+from thermodata.store.tidy.rows.timeline import given_timeline
 from thermodata.view import load_dataset
 
 CAMPAIGN = """\

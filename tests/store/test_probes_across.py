@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from thermodata.schema.files.campaign import JumpCalibration
 from thermodata.schema.files.load import parse_campaign
-from thermodata.store.tidy.calibrations import probes_across
+from thermodata.store.tidy.values.calibrations import probes_across
 
 CAMPAIGN = """\
 schema: thermodata/campaign/1

@@ -9,8 +9,8 @@ import pytest
 
 from thermodata.calibration.quality.range import ends_of_ranges
 from thermodata.calibration.quality.still import Reading
-from thermodata.store.tidy.between import _more
-from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.flags.between import _more
+from thermodata.store.tidy.values.chunk import Column
 
 LIMIT = 30.125
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.schema.files.campaign import Campaign
-from thermodata.store.tidy.calibrations import evaluate
+from thermodata.store.tidy.values.calibrations import evaluate
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from thermodata.draft.make import draft_files
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.store.tidy.times_of_day import began, first_of
+from thermodata.store.tidy.clock.times_of_day import began, first_of
 
 pytestmark = pytest.mark.usefixtures("installed_readers")
 HOUR = 3600 * 10**9

@@ -15,10 +15,10 @@ from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.raw import writer
-from thermodata.store.tidy import windows
-from thermodata.store.tidy.chunk import Column
-from thermodata.store.tidy.plan import Bound
-from thermodata.store.tidy.windows import Joined
+from thermodata.store.tidy.flags import windows
+from thermodata.store.tidy.flags.windows import Joined
+from thermodata.store.tidy.plan.plan import Bound
+from thermodata.store.tidy.values.chunk import Column
 
 N, SIZE, MARGIN = 24_000, 4000, 600
 QUANTITIES = {"dZ": "displacement", "T_a": "temperature", "T_b": "temperature", "T_c": "temperature"}

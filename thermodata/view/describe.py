@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.calibration.measuring import measuring_names
 from thermodata.schema.files.campaign import Measuring
 from thermodata.store.catalogue.conditions import plain_value
-from thermodata.store.tidy.finer_steps import resolution_in
+from thermodata.store.tidy.values.finer_steps import resolution_in
 from thermodata.store.views.catalogue import SCHEDULE
 from thermodata.view.dataset import ChannelInfo
 from thermodata.view.flagged import flagged_channels

@@ -8,7 +8,7 @@ from dataclasses import replace
 from thermodata.draft.campaign.parts import DraftChannel
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.store.tidy.on_change import BY_HAND, DENSER, written_by_hand
+from thermodata.store.tidy.rows.on_change import BY_HAND, DENSER, written_by_hand
 
 _HELD = "held: true, or false? its rows lie far apart beside a log that is much denser: does each stand until the next"
 

@@ -16,7 +16,7 @@ from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.units.quantity import canonical, linear_conversion
 from thermodata.schema.words.places import is_spindle
 from thermodata.schema.words.sentences import with_count
-from thermodata.store.tidy.on_change import come_at_no_rate
+from thermodata.store.tidy.rows.on_change import come_at_no_rate
 
 _DRIVEN = ("flow", "pressure", "power", "load", "current", "rotational_speed")
 _PUMPED = ("coolant", "hydraulics", "pump")  # fans, chillers and lubrication come and go by themselves

@@ -18,7 +18,7 @@ from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.reader.times.step_back import likely_cause, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
-from thermodata.store.tidy.times_of_day import NEAR_NS, began, first_of
+from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000

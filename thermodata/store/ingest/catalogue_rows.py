@@ -16,9 +16,9 @@ from thermodata.store.catalogue.conditions import plain_value, plain_values
 from thermodata.store.ingest.known.inventory import Row
 from thermodata.store.ingest.told.beyond_the_end import phases_of
 from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.tidy.clock.source_clock import Clock, Span, is_relative, recorded
 from thermodata.store.tidy.clock_offsets import clock_to_json
-from thermodata.store.tidy.plan import Bound, SourcePlan, TestPlan
-from thermodata.store.tidy.source_clock import Clock, Span, is_relative, recorded
+from thermodata.store.tidy.plan.plan import Bound, SourcePlan, TestPlan
 
 
 def test_row(plan: TestPlan, span: Span, duration_s: float | None) -> Row:
@@ -133,7 +133,7 @@ def _channel_row(plan: TestPlan, bound: Bound, calibrations: Mapping[str, Calibr
 def sign_of(plan: TestPlan, bound: Bound, calibrations: Mapping[str, CalibrationResult]) -> str:
     """'+' once values follow the sign convention; 'unknown' for a displacement that nothing orients."""
     from thermodata.calibration.channel import channel_sign
-    from thermodata.store.tidy.derive import names
+    from thermodata.store.tidy.plan.derive import names
 
     named = (
         [bound.channel.calibration]

@@ -17,8 +17,8 @@ from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.reading.raw_layer import RawIngest
 from thermodata.store.ingest.tidy_layer import TidyLayer, tidy_tests
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.calibrations import evaluate
-from thermodata.store.tidy.plan import bind
+from thermodata.store.tidy.plan.plan import bind
+from thermodata.store.tidy.values.calibrations import evaluate
 
 
 @dataclass(frozen=True, slots=True)

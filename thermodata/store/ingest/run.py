@@ -27,8 +27,7 @@ from thermodata.store.ingest.reading.campaign_files import CampaignFiles
 from thermodata.store.ingest.summary import IngestSummary, summarize
 from thermodata.store.ingest.told.not_listed import not_listed
 from thermodata.store.ingest.told.taken_out import taken_out
-from thermodata.store.tidy.check_derived import check_derived
-from thermodata.store.tidy.check_measuring import check_measuring
+from thermodata.store.tidy.plan.refused import check_derived, check_measuring
 
 if TYPE_CHECKING:
     import duckdb

@@ -26,16 +26,16 @@ from thermodata.store.ingest.told.empty_channels import empty_channels
 from thermodata.store.ingest.told.losses import Losses, loss_row
 from thermodata.store.ingest.told.other_heads import head_of, other_heads
 from thermodata.store.ingest.told.other_units import other_units
-from thermodata.store.tidy.between import Verdict, verdicts
-from thermodata.store.tidy.clock_lent import dated_sources, lent
+from thermodata.store.tidy.clock.lent import dated_sources, lent
+from thermodata.store.tidy.clock.source_clock import Clock, Span, span
 from thermodata.store.tidy.clock_offsets import clocks_of
-from thermodata.store.tidy.event import event_of
+from thermodata.store.tidy.flags.between import Verdict, verdicts
+from thermodata.store.tidy.flags.event import event_of
+from thermodata.store.tidy.flags.overrule import idle, met
 from thermodata.store.tidy.keys import ChannelTexts, member_key
-from thermodata.store.tidy.overrule import idle, met
-from thermodata.store.tidy.plan import SCHEDULE, TestPlan
-from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.source_clock import Clock, Span, span
-from thermodata.store.tidy.unscaled import tell_unscaled
+from thermodata.store.tidy.plan.plan import SCHEDULE, TestPlan
+from thermodata.store.tidy.plan.unscaled import tell_unscaled
+from thermodata.store.tidy.values.series import Member, TestSeries
 from thermodata.store.tidy.writer import write_member
 
 Columns = list[tuple[str, bool]]

@@ -14,8 +14,8 @@ from thermodata.store.ingest.known.inventory import Row, meta_of
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.told.losses import loss_row
 from thermodata.store.ingest.told.repeated_times import said_of_repeats
-from thermodata.store.tidy.plan import TestPlan
-from thermodata.store.tidy.series import Member
+from thermodata.store.tidy.plan.plan import TestPlan
+from thermodata.store.tidy.values.series import Member
 from thermodata.store.tidy.writer import TidyResult
 
 

@@ -16,12 +16,12 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.schema.units.quantity import value_in
 from thermodata.store.base.files import key_of
+from thermodata.store.tidy.clock.second_pass import choose_passes
+from thermodata.store.tidy.clock.set_late import tell_clocks_set_late
+from thermodata.store.tidy.clock.source_clock import Clock, Span, bases, first_ns, is_relative
 from thermodata.store.tidy.keys import channel_text
-from thermodata.store.tidy.plan import SourcePlan, TestPlan
-from thermodata.store.tidy.second_pass import choose_passes
-from thermodata.store.tidy.series import TestSeries
-from thermodata.store.tidy.set_late import tell_clocks_set_late
-from thermodata.store.tidy.source_clock import Clock, Span, bases, first_ns, is_relative
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.values.series import TestSeries
 
 if TYPE_CHECKING:
     from thermodata.calibration.clock.estimate import ClockEstimate

@@ -12,12 +12,12 @@ from thermodata.schema.files.campaign import Channel
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.base.files import key_of
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy import derive
-from thermodata.store.tidy.on_change import BY_HAND
-from thermodata.store.tidy.overrule import rules_of
-from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
-from thermodata.store.tidy.series import Member
-from thermodata.store.tidy.source_clock import Clock, Span
+from thermodata.store.tidy.clock.source_clock import Clock, Span
+from thermodata.store.tidy.flags.overrule import rules_of
+from thermodata.store.tidy.plan import derive
+from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.rows.on_change import BY_HAND
+from thermodata.store.tidy.values.series import Member
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
 TIDY_VERSION = "21"

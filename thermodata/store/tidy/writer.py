@@ -15,17 +15,17 @@ from thermodata.store.base.arrow import to_arrow
 from thermodata.store.base.encoder import Encoder
 from thermodata.store.base.files import publish, temporary
 from thermodata.store.raw.writer import group_rows
-from thermodata.store.tidy.between import Sampler, Verdict
-from thermodata.store.tidy.chunk import Column
-from thermodata.store.tidy.cut_start import driven_before
-from thermodata.store.tidy.event import Event
-from thermodata.store.tidy.finer_steps import finer_than_declared
-from thermodata.store.tidy.on_change import SET, asked, told
-from thermodata.store.tidy.overrule import overrule, overruled, rules_of
-from thermodata.store.tidy.plan import Bound
-from thermodata.store.tidy.quality import Flagged
-from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.timeline import Timeline
+from thermodata.store.tidy.flags.between import Sampler, Verdict
+from thermodata.store.tidy.flags.event import Event
+from thermodata.store.tidy.flags.flagged import Flagged
+from thermodata.store.tidy.flags.overrule import overrule, overruled, rules_of
+from thermodata.store.tidy.plan.plan import Bound
+from thermodata.store.tidy.rows.on_change import SET, asked, told
+from thermodata.store.tidy.rows.timeline import Timeline
+from thermodata.store.tidy.values.chunk import Column
+from thermodata.store.tidy.values.cut_start import driven_before
+from thermodata.store.tidy.values.finer_steps import finer_than_declared
+from thermodata.store.tidy.values.series import Member, TestSeries
 
 if TYPE_CHECKING:
     import pyarrow as pa

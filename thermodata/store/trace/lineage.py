@@ -13,7 +13,7 @@ from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.known.file_versions import SUPERSEDED
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import settled
-from thermodata.store.tidy import derive
+from thermodata.store.tidy.plan import derive
 from thermodata.store.trace.replan import read_campaign
 from thermodata.store.trace.reread import reread
 from thermodata.store.trace.sample import find_sample

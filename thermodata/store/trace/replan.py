@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from thermodata.schema.files.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
 from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.tidy.clock.source_clock import Clock, bases, span
 from thermodata.store.tidy.clock_offsets import clock_from_json
-from thermodata.store.tidy.plan import SourcePlan, TestPlan, bind
-from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.source_clock import Clock, bases, span
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan, bind
+from thermodata.store.tidy.values.series import Member, TestSeries
 
 if TYPE_CHECKING:
     import duckdb

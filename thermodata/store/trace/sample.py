@@ -13,9 +13,9 @@ from thermodata.schema.flag import Flag
 from thermodata.store.base.connection import fetch, quoted
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy import derive
-from thermodata.store.tidy.plan import SCHEDULE
-from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.plan import derive
+from thermodata.store.tidy.plan.plan import SCHEDULE
+from thermodata.store.tidy.values.series import Member, TestSeries
 from thermodata.store.trace.replan import raw_row_of, read_series
 
 if TYPE_CHECKING:

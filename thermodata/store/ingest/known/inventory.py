@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from thermodata.store.base.connection import fetch
 from thermodata.store.base.files import is_whole
 from thermodata.store.raw.raw_stream import RawStream
+from thermodata.store.tidy.clock.source_clock import Clock
 from thermodata.store.tidy.clock_offsets import clock_from_json
-from thermodata.store.tidy.source_clock import Clock
 
 if TYPE_CHECKING:
     import duckdb

@@ -14,8 +14,8 @@ from typing import Any
 
 from thermodata.calibration.between_tests.levels import Levels
 from thermodata.calibration.quality.still import Reading
-from thermodata.store.tidy.between import Verdict, levels_of
-from thermodata.store.tidy.source_clock import Clock
+from thermodata.store.tidy.clock.source_clock import Clock
+from thermodata.store.tidy.flags.between import Verdict, levels_of
 
 Row = dict[str, Any]
 _NO_VERDICT = Verdict()

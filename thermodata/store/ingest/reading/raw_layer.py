@@ -23,7 +23,7 @@ from thermodata.store.ingest.told.losses import Losses, Said, add_unread, loss_r
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.source_file import ChangedError, SourceFile, frozen
 from thermodata.store.raw.streams import declared, raw_key, read_raw
-from thermodata.store.tidy.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
 
 @dataclass(slots=True)

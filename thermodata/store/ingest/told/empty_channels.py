@@ -8,7 +8,7 @@ from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.words.sentences import counted, with_count
 from thermodata.store.ingest.known.left_alone import TestNote
 from thermodata.store.ingest.told.losses import Losses, loss_row
-from thermodata.store.tidy.derive import names
+from thermodata.store.tidy.plan.derive import names
 
 
 def empty_channels(campaign: Campaign, tests: Mapping[str, TestNote]) -> Losses:

@@ -11,7 +11,7 @@ from thermodata.plugin import Loss
 from thermodata.reader.text import split_unit
 from thermodata.schema.files.campaign import Campaign, JumpCalibration
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.in_parts import find_signal
+from thermodata.store.tidy.rows.in_parts import find_signal
 
 Losses = list[dict[str, Any]]
 

@@ -12,10 +12,10 @@ from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration,
 from thermodata.schema.units.quantity import converts, linear_conversion
 from thermodata.schema.words.sentences import counted
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy import derive
-from thermodata.store.tidy.in_parts import find_signal
-from thermodata.store.tidy.source_clock import Clock, build
-from thermodata.store.tidy.timeline import Timeline
+from thermodata.store.tidy.clock.source_clock import Clock, build
+from thermodata.store.tidy.plan import derive
+from thermodata.store.tidy.rows.in_parts import find_signal
+from thermodata.store.tidy.rows.timeline import Timeline
 
 
 def evaluate(

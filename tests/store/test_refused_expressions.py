@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.store.tidy import check_derived, derive
+from thermodata.store.tidy.plan import derive, refused
 
 MANY = 40
 
@@ -28,14 +28,14 @@ def test_each_channel_is_looked_at_once_a_channel(monkeypatch: pytest.MonkeyPatc
         return names(text)
 
     monkeypatch.setattr(derive, "names", count)
-    check_derived.check_derived(ladder(None))
+    refused.check_derived(ladder(None))
     assert len(asked) <= MANY * (MANY + 1)
 
 
 @pytest.mark.parametrize("back", ["a39", "a20", "a2"])
 def test_a_circle_behind_many_ways_is_found(back: str) -> None:
     with pytest.raises(UsageError, match="circle") as failed:
-        check_derived.check_derived(ladder(f"{back} * 2"))
+        refused.check_derived(ladder(f"{back} * 2"))
     assert failed.value.got is not None
     way = failed.value.got.split(" -> ")
     assert way[0] == way[-1]

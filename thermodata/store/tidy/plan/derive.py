@@ -10,7 +10,7 @@ import numpy as np
 
 from thermodata.plugin import Array, Float1D
 from thermodata.schema.units.quantity import canonical, linear_conversion
-from thermodata.store.tidy.plan import Bound
+from thermodata.store.tidy.plan.plan import Bound
 
 
 @lru_cache(maxsize=512)

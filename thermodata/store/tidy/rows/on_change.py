@@ -15,7 +15,7 @@ import numpy as np
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.signals.set_values import are_set
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.timeline import Timeline
+from thermodata.store.tidy.rows.timeline import Timeline
 
 # what is commanded, and what follows a command at once
 SET = frozenset({"rotational_speed", "feed", "power", "load", "current", "torque", "flow"})

@@ -14,7 +14,7 @@ from thermodata.store.raw.columns import RawFiles
 from thermodata.store.raw.order import Order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import pieces
-from thermodata.store.tidy.in_parts import InPart, Parts, joined_parts
+from thermodata.store.tidy.rows.in_parts import InPart, Parts, joined_parts
 
 _IN_MEMORY = 1_000_000  # rows: so many times are kept [8 MB]; of longer streams they are read again
 _PROBE = 4096

@@ -13,8 +13,8 @@ from thermodata.calibration.measuring import BREAK, long_form, measuring_mask, m
 from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.units.quantity import canonical
-from thermodata.store.tidy.chunk import Chunk, Column
-from thermodata.store.tidy.plan import TestPlan
+from thermodata.store.tidy.plan.plan import TestPlan
+from thermodata.store.tidy.values.chunk import Chunk, Column
 
 
 def lasts(measuring: str | Measuring | None) -> bool:

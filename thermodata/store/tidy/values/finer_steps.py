@@ -9,8 +9,8 @@ import numpy as np
 
 from thermodata.errors import ThermodataError
 from thermodata.schema.units.quantity import canonical, linear_conversion, split_value
-from thermodata.store.tidy.plan import Bound
-from thermodata.store.tidy.series import TestSeries
+from thermodata.store.tidy.plan.plan import Bound
+from thermodata.store.tidy.values.series import TestSeries
 
 _MOST_ROWS = 100_000  # that are looked at
 _FEWEST = 20  # steps, by which the usual one shows

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from statistics import median
 
-from thermodata.store.tidy.plan import TestPlan
-from thermodata.store.tidy.source_clock import Clock, is_relative
+from thermodata.store.tidy.clock.source_clock import Clock, is_relative
+from thermodata.store.tidy.plan.plan import TestPlan
 
 _FEWEST = 2  # tests that tell
 _ALIKE_NS = 60_000_000_000  # between the largest and the smallest: the step that models are fitted at

@@ -11,12 +11,12 @@ import numpy as np
 from thermodata.calibration.result import CalibrationResult
 from thermodata.plugin import Array, Float1D, Int1D, Loss
 from thermodata.schema.units.quantity import HELD_QUANTITIES
-from thermodata.store.tidy import schedule
-from thermodata.store.tidy.chunk import Chunk
-from thermodata.store.tidy.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
-from thermodata.store.tidy.plan import SCHEDULE, Bound, TestPlan
-from thermodata.store.tidy.source_clock import Clock, Span, build, last_ns
-from thermodata.store.tidy.timeline import Timeline, given_timeline
+from thermodata.store.tidy.clock.source_clock import Clock, Span, build, last_ns
+from thermodata.store.tidy.plan import schedule
+from thermodata.store.tidy.plan.plan import SCHEDULE, Bound, TestPlan
+from thermodata.store.tidy.rows.on_change import BY_HAND, MOST_BY_HAND, SET, Written, has_no_rate, written_by_hand
+from thermodata.store.tidy.rows.timeline import Timeline, given_timeline
+from thermodata.store.tidy.values.chunk import Chunk
 
 Member = tuple[str, str]
 _SHORT = 1_000_000  # rows: a stream that others look into is kept as a whole up to this length

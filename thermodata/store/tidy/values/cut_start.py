@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from thermodata.store.tidy.on_change import SET
-from thermodata.store.tidy.plan import SCHEDULE, Bound
-from thermodata.store.tidy.series import Member, TestSeries
+from thermodata.store.tidy.plan.plan import SCHEDULE, Bound
+from thermodata.store.tidy.rows.on_change import SET
+from thermodata.store.tidy.values.series import Member, TestSeries
 
 _DRIVES = ("rotational_speed", "feed", "flow")  # a load or a power reads something at rest
 _TURNS = 0.02  # of the most that it does

@@ -13,10 +13,10 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.make_timeline import make_timeline
-from thermodata.store.tidy.plan import SourcePlan, TestPlan
-from thermodata.store.tidy.timeline import Timeline
-from thermodata.store.tidy.times_of_day import began, first_of
+from thermodata.store.tidy.clock.times_of_day import began, first_of
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
+from thermodata.store.tidy.rows.make_timeline import make_timeline
+from thermodata.store.tidy.rows.timeline import Timeline
 
 _NEAR_S = 60.0  # a start that a person wrote down is that exact
 _TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length

@@ -12,9 +12,9 @@ from thermodata.reader.finding.match import NoSignalError
 from thermodata.schema.files.campaign import Campaign, Channel, SourceSpec, Test
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy import schedule
-from thermodata.store.tidy.in_parts import Found, InPart, find_in_parts
-from thermodata.store.tidy.on_change import step_beside
+from thermodata.store.tidy.plan import schedule
+from thermodata.store.tidy.rows.in_parts import Found, InPart, find_in_parts
+from thermodata.store.tidy.rows.on_change import step_beside
 
 SCHEDULE = "schedule"
 

@@ -9,8 +9,8 @@ import numpy as np
 from thermodata.calibration.quality.flags import QualityEvent
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Array
-from thermodata.store.tidy.not_measuring import ONLY, joined
-from thermodata.store.tidy.series import TestSeries
+from thermodata.store.tidy.flags.not_measuring import ONLY, joined
+from thermodata.store.tidy.values.series import TestSeries
 
 _POINTS = 20  # of an event, at which the speed is asked
 _STANDS_RPM = 5.0

@@ -10,8 +10,8 @@ import numpy as np
 from thermodata.plugin import Float1D
 from thermodata.schema.files.campaign import Campaign, Overrule
 from thermodata.schema.flag import OVERRULED, Flag
-from thermodata.store.tidy.chunk import Column
-from thermodata.store.tidy.event import Event
+from thermodata.store.tidy.flags.event import Event
+from thermodata.store.tidy.values.chunk import Column
 
 
 def rules_of(campaign: Campaign, test: str) -> list[Overrule]:

@@ -19,7 +19,7 @@ from thermodata.schema.units.quantity import linear_conversion, split_value
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.plan import Bound, TestPlan
+from thermodata.store.tidy.plan.plan import Bound, TestPlan
 
 _ROWS = 200_000  # that are looked at
 _FEW = 8  # different values, as of what is set, are whole by themselves

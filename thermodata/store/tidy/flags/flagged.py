@@ -16,17 +16,17 @@ from thermodata.plugin import Array, Bool1D, Int1D
 from thermodata.schema.files.campaign import Measuring
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import MEASURED
-from thermodata.store.tidy import windows
-from thermodata.store.tidy.between import Verdict
-from thermodata.store.tidy.chunk import Chunk, Column, calibrated
-from thermodata.store.tidy.event import Event
-from thermodata.store.tidy.measured_alone import DOUBTED, cleared
-from thermodata.store.tidy.measuring import Stretches, find_stretches, lasts, measures, said
-from thermodata.store.tidy.not_measuring import Activity, join_while_not_measuring
-from thermodata.store.tidy.plan import SCHEDULE, Bound
-from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.standing import join_while_standing
-from thermodata.store.tidy.windows import Joined
+from thermodata.store.tidy.flags import windows
+from thermodata.store.tidy.flags.between import Verdict
+from thermodata.store.tidy.flags.event import Event
+from thermodata.store.tidy.flags.measured_alone import DOUBTED, cleared
+from thermodata.store.tidy.flags.measuring import Stretches, find_stretches, lasts, measures, said
+from thermodata.store.tidy.flags.not_measuring import Activity, join_while_not_measuring
+from thermodata.store.tidy.flags.standing import join_while_standing
+from thermodata.store.tidy.flags.windows import Joined
+from thermodata.store.tidy.plan.plan import SCHEDULE, Bound
+from thermodata.store.tidy.values.chunk import Chunk, Column, calibrated
+from thermodata.store.tidy.values.series import Member, TestSeries
 
 _T = TypeVar("_T")
 _PERIOD_ROWS = 1_000_000

@@ -22,8 +22,8 @@ from thermodata.schema.flag import INVALID, Flag
 from thermodata.schema.words.places import is_at_tool
 
 if TYPE_CHECKING:
-    from thermodata.store.tidy.chunk import Column
-    from thermodata.store.tidy.plan import Bound
+    from thermodata.store.tidy.plan.plan import Bound
+    from thermodata.store.tidy.values.chunk import Column
 
 _QUANTITIES = ("temperature", "displacement", "tilt", "humidity")
 _HELD = ("displacement", "tilt")

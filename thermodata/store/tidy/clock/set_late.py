@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from thermodata.store.tidy.plan import SourcePlan, TestPlan
-from thermodata.store.tidy.second_pass import go_together, is_known
-from thermodata.store.tidy.source_clock import Clock, build, first_ns, last_ns
+from thermodata.store.tidy.clock.second_pass import go_together, is_known
+from thermodata.store.tidy.clock.source_clock import Clock, build, first_ns, last_ns
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
 _LEAST_NS = 240 * 10**9  # by which it was set: less is within what two logs that begin together differ by
 

@@ -18,7 +18,7 @@ from thermodata.calibration.quality.range import Limits
 from thermodata.calibration.quality.value import RunStats
 from thermodata.plugin import Array, Int1D
 from thermodata.schema.flag import Flag
-from thermodata.store.tidy.chunk import Column
+from thermodata.store.tidy.values.chunk import Column
 
 WINDOW_VALUES = 8_000_000  # values in a window: 64 MB of float64, and about as much while they are judged
 WINDOW_ROWS = 2_000_000  # but not more rows: what is looked for in a column takes several times its size

@@ -16,7 +16,7 @@ from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.order import by_time, find_order, in_order
 from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.raw.repeats import Hashes, batches, find_repeats, keys_of
-from thermodata.store.tidy.timeline import Timeline
+from thermodata.store.tidy.rows.timeline import Timeline
 
 _LOOKED_AT = 10_000  # rows
 

@@ -15,9 +15,9 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical
-from thermodata.store.tidy import derive
-from thermodata.store.tidy.plan import Bound, TestPlan
-from thermodata.store.tidy.timeline import Timeline
+from thermodata.store.tidy.plan import derive
+from thermodata.store.tidy.plan.plan import Bound, TestPlan
+from thermodata.store.tidy.rows.timeline import Timeline
 
 
 class Streams(Protocol):

@@ -9,9 +9,9 @@ from dataclasses import replace
 from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.plan import SourcePlan, TestPlan
-from thermodata.store.tidy.source_clock import recorded, start_ns
-from thermodata.store.tidy.times_of_day import NEAR_NS
+from thermodata.store.tidy.clock.source_clock import recorded, start_ns
+from thermodata.store.tidy.clock.times_of_day import NEAR_NS
+from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
 _JOINED_NS = 600 * 10**9  # the pause between two parts of a recording
 
