@@ -22,7 +22,7 @@ from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 from thermodata.virtual.lathe.data import model_of, to_dataset
 from thermodata.virtual.lathe.world import make_world
 

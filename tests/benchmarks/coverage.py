@@ -28,7 +28,7 @@ from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 FINE_S, STEP_S = 10.0, 60.0
 NOISES = ("white", "slow", "both", "uneven")

@@ -30,7 +30,7 @@ from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 # a script of this folder has the name of a package that SIPPY stands on
 sys.path.remove(str(Path(__file__).resolve().parent))

@@ -25,7 +25,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.run import fit_alone
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP_S = 60.0
 SHORT = 43

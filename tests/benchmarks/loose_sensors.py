@@ -22,7 +22,7 @@ from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.sensors import loose
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 from thermodata.virtual.binned import to_dataset as gantry
 from thermodata.virtual.lathe.data import to_dataset as lathe
 from thermodata.virtual.lathe.world import make_world as lathe_world

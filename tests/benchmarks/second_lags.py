@@ -26,7 +26,7 @@ from thermodata.diagnosis.locked.confirm import on_all_open, rmse
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 LEAST_FALL = 0.1  # of the locked error, for a share of it to mean something
 SAME = 0.02  # an error that moves by less is the same

@@ -3,7 +3,7 @@
     python tests/benchmarks/workbench_panel.py JSON
 
 JSON: {"file", "port", "channels": [...], "invalid": bits of the flags of samples that do not count, "binned"}. binned:
-the lowest and the highest of each of 1,200 bins, as thermodata/view/window.py gives them, and anew after each zoom;
+the lowest and the highest of each of 1,200 bins, as thermodata/view/curves/window.py gives them, anew after each zoom;
 else every sample is sent.
 """
 

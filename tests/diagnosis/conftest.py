@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.effect.lag import lag
 from thermodata.schema.files.model import EffectSpec, Model, Response
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP_S = 120.0
 N = 360

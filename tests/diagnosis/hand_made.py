@@ -17,7 +17,7 @@ from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.diagnosis.weigh.evidence import Columns, Weighed
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Drivers, Float1D, Float2D, Gain, Need, Param
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 ROWS = 1000  # of all tests: a sum of squared errors of 1000 is an error of 1
 TESTS = 10

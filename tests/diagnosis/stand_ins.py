@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass

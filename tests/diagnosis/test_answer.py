@@ -21,7 +21,7 @@ from thermodata.report.collected.spots import weak_spots_of
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .conftest import CHANNELS, STEP_S, base, make_data
 

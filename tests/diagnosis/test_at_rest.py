@@ -11,7 +11,7 @@ import pytest
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims.at_rest import at_rest
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import a_test, candidate
 

@@ -20,7 +20,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.versions.candidate import phases_id, phases_of, with_candidate, with_phases
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data
 

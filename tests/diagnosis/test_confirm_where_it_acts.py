@@ -11,7 +11,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.locked.confirm import Confirmation, confirm
 from thermodata.effect import effect
 from thermodata.effect.lag import lag
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data
 

@@ -16,7 +16,7 @@ from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.answers.diagnosis import DetectionLimit, Diagnosis
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import STEP_S, base, make_data
 from .hand_made import scored

@@ -23,7 +23,7 @@ from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import STEP_S, base, make_data
 from .hand_made import scored

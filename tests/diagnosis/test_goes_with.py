@@ -21,7 +21,7 @@ from thermodata.diagnosis.unlogged.unexplained import characterise
 from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect, doubt_of_heat, first, nearest
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import STEP_S, Parts, a_test, candidate, measure, problem, scored
 

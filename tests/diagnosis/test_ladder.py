@@ -9,7 +9,7 @@ from thermodata.diagnosis.claims.rules import blunt, failed_rules
 from thermodata.diagnosis.tell.ladder import chance, courses, left_out, rungs
 from thermodata.effect import effects
 from thermodata.effect.unbound import unbound
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import measure, of_tests, problem, scored
 

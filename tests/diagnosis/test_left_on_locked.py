@@ -14,7 +14,7 @@ from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.store.catalogue import models as catalogue
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 CHANNELS = {n: ChannelInfo(n, "temperature", "degC") for n in ("T_a", "T_b")}
 BASE = Model.model_validate(

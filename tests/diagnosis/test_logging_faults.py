@@ -11,7 +11,7 @@ from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import make_data
 

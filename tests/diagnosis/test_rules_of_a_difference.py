@@ -14,7 +14,7 @@ from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.answers.diagnosis import Diagnosis
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import STEP_S, N, base, make_data
 from .hand_made import columns_of

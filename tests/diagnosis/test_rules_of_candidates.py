@@ -14,7 +14,7 @@ from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.why import would_be_a_mode
 from thermodata.effect import effects
 from thermodata.plugin import Effect, Need, Param
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import PlainEffect
 

@@ -12,7 +12,7 @@ from thermodata.diagnosis.clocks.moves import with_clocks_right
 from thermodata.diagnosis.clocks.timings import Timing, as_artefact, clock_is_off
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.schema.answers.diagnosis import ClockMoved
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, problem
 

@@ -19,7 +19,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.answers.diagnosis import ClockMoved
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import make_data
 

@@ -14,7 +14,7 @@ from thermodata.diagnosis.clocks.moves import moved
 from thermodata.diagnosis.clocks.sides import Key, Part, Sides, in_order, in_words, part_of
 from thermodata.diagnosis.clocks.timings import Timing
 from thermodata.diagnosis.clocks.timings import as_artefact as by_commands
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 from .test_rules_of_clocks_by_commands import CHANNELS as SPEED
 from .test_rules_of_clocks_by_commands import off_by

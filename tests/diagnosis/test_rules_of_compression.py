@@ -10,7 +10,7 @@ import pytest
 
 from thermodata.diagnosis.question.problem import Problem, build_problem
 from thermodata.plugin import Float2D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .hand_made import STEP_S, Parts, a_test, problem
 

@@ -10,8 +10,8 @@ import pytest
 from thermodata.diagnosis.locked.copies import as_artefacts, copies
 from thermodata.diagnosis.question.once import Again, each_once
 from thermodata.diagnosis.question.once import as_artefacts as as_told
-from thermodata.view.dataset import Dataset, TestData
-from thermodata.view.recorded import Recorded
+from thermodata.view.grid.dataset import Dataset, TestData
+from thermodata.view.grid.recorded import Recorded
 
 from .hand_made import a_test
 

@@ -27,7 +27,7 @@ from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel, FittedResponse
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import make_data
 from .hand_made import scored

@@ -22,7 +22,7 @@ from thermodata.diagnosis.verdict.investigate import gains_are_wrong_only_where_
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, of_one_model, of_tests, problem
 

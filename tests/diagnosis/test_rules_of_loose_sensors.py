@@ -16,7 +16,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import STEP_S, make_data
 

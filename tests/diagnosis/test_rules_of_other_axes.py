@@ -17,7 +17,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.effect import effects
 from thermodata.errors import UsageError
 from thermodata.schema.files.model import EffectSpec, Model, Response
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from . import stand_ins
 from .conftest import CHANNELS

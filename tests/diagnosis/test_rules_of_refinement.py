@@ -23,7 +23,7 @@ from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D, Param
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .conftest import STEP_S, make_data
 from .hand_made import Parts, PlainEffect, problem, scored

@@ -8,7 +8,7 @@ import pytest
 from thermodata.diagnosis.steps.artefact import find_steps
 from thermodata.diagnosis.steps.repeating import as_artefacts, moved_by, repeating, single
 from thermodata.diagnosis.steps.step import Step
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, a_test, problem
 

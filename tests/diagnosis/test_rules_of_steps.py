@@ -24,7 +24,7 @@ from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import beyond_slopes, most_sudden, over_three, size_of_step, suddenly
 from thermodata.diagnosis.verdict.investigate import _without_steps
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import Parts, problem
 

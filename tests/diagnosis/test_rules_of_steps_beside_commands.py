@@ -9,7 +9,7 @@ from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps
 from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.sudden import is_quick, smooth_but_for
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import Parts, problem
 

@@ -11,7 +11,7 @@ import pytest
 from thermodata.diagnosis.steps.artefact import as_artefacts, find_steps, places_that_tell
 from thermodata.diagnosis.steps.step import Step
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import Parts, problem
 

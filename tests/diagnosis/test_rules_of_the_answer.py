@@ -30,7 +30,7 @@ from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.answers.missing_heat import Unknown
 from thermodata.schema.answers.result import Parameter
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .hand_made import Parts, a_test, measure, problem, scored
 from .stand_ins import Fitted, Response

@@ -28,7 +28,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .hand_made import Parts, PlainEffect, a_test, candidate, problem, scored
 from .stand_ins import Fitted, Response

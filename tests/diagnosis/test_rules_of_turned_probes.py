@@ -16,7 +16,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import Diagnosis, PutRight
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import STEP_S, make_data
 from .hand_made import Parts, of_one_model, problem

@@ -17,7 +17,7 @@ from thermodata.report.verdict.verdict import causes, verdict_sentence
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.words.places import heat_at
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .hand_made import scored
 

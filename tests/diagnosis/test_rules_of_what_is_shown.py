@@ -18,7 +18,7 @@ from thermodata.diagnosis.verdict.suspect import suspect
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import WeakSpot
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 from .hand_made import Parts, a_test, candidate, measure, problem, scored
 

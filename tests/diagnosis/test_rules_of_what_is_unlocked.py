@@ -10,7 +10,7 @@ from thermodata.diagnosis.answer import answer
 from thermodata.effect import effects
 from thermodata.modelling.fit.model import fit_model
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import base, make_data
 from .test_answer import of_nut

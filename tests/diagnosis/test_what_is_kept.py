@@ -18,7 +18,7 @@ from thermodata.diagnosis.steps.commanded import commands_of
 from thermodata.modelling.fit.model import fit_model
 from thermodata.plugin import Drivers, Float2D, Param
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 from .conftest import make_data
 from .hand_made import Parts, PlainEffect, problem

@@ -7,7 +7,7 @@ import pytest
 from thermodata.effect import effect
 from thermodata.effect.binding import bindings, candidate_id, family_of, unnamed
 from thermodata.effect.places import match
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 CHANNELS = {
     c.name: c

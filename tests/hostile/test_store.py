@@ -127,7 +127,7 @@ def test_a_query_does_not_answer_from_damaged_pages(filled: Lab) -> None:
 
 
 def test_files_that_are_too_large_to_be_verified_are_said(filled: Lab, monkeypatch: pytest.MonkeyPatch) -> None:
-    from thermodata.view import verify
+    from thermodata.view.query import verify
 
     monkeypatch.setattr(verify, "_seen", set())
     view = StoreView(filled.folder / "store")

@@ -306,7 +306,7 @@ def test_another_models_output_runs_in_a_control_and_phases_are_refused(tmp_path
     from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
     from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Values
     from thermodata.schema.files.model import EffectSpec
-    from thermodata.view.dataset import ChannelInfo
+    from thermodata.view.grid.dataset import ChannelInfo
 
     one = driven("spindle_bearing")
     channels = {"T": ChannelInfo("T", "temperature", "degC", "spindle.bearing")}

@@ -12,7 +12,7 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
 CHANNELS = {

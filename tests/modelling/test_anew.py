@@ -22,7 +22,7 @@ from thermodata.modelling.trust.profile import Profile
 from thermodata.modelling.trust.uncertainty import _Estimate
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 CHANNELS = {
     "y": ChannelInfo("y", "displacement", "um", "tcp", "Z"),

@@ -28,8 +28,8 @@ from thermodata.store.catalogue.models import find_model, load_diagnosis, save_d
 from thermodata.store.catalogue.stale import stale_line
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.lifecycle import forget
-from thermodata.view.dataset import Dataset
-from thermodata.view.events import about_test
+from thermodata.view.grid.dataset import Dataset
+from thermodata.view.lists.events import about_test
 
 from .conftest import EFFECTS, Spec
 from .test_run import stored

@@ -13,7 +13,7 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.predictions.bands import bands
 from thermodata.modelling.predictions.table import prediction_columns
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS
 

@@ -12,7 +12,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.beside import MEAN, beside
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 Spec = Callable[..., Model]
 

@@ -11,7 +11,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.predictions.beyond import Beyond, beyond
 from thermodata.modelling.predictions.predict import predict
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS
 

@@ -18,8 +18,8 @@ from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis
 from thermodata.store.ingest.run import ingest
-from thermodata.view.dataset import Dataset
-from thermodata.view.load import data_version
+from thermodata.view.grid.dataset import Dataset
+from thermodata.view.grid.load import data_version
 
 from .conftest import Spec
 from .test_run import stored

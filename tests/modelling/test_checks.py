@@ -13,7 +13,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.trust.uncertainty import effective_count, memory
 from thermodata.modelling.versions.result import make_result
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import EFFECTS, Spec
 

@@ -13,7 +13,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.inputs.coarse_readings import COARSE_K, drawn, said, smoothest, treads_of
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP_S = 60.0
 N = 600

@@ -8,7 +8,7 @@ from thermodata.effect import law
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.seen.as_system import see
 from thermodata.modelling.seen.drive_unit import over_unit, powers_of
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import Spec
 

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.errors import SpecError
 from thermodata.modelling.model_file.resolve import resolve
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .conftest import Spec
 

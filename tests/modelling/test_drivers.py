@@ -10,7 +10,7 @@ import pytest
 from thermodata.effect import effect
 from thermodata.errors import UsageError
 from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of, start_value
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import Spec, make_test
 

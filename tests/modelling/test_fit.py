@@ -16,7 +16,7 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.least_squares import coarse
 from thermodata.modelling.versions.result import model_id
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import EFFECTS, TRUTH, Change, Spec
 

@@ -13,7 +13,7 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.inputs import lead
 from thermodata.modelling.inputs.drivers import make_drivers
 from thermodata.modelling.least_squares.coarse import coarser
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS, Spec, make_test
 

@@ -22,7 +22,7 @@ from thermodata.modelling.versions.second_lag import with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.files.load import parse_model
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
 INFOS = {

@@ -10,7 +10,7 @@ from thermodata.report.collected.collect import collect
 from thermodata.report.page.page import locked_note
 from thermodata.store.catalogue.looks import count_locked_look, locked_looks
 from thermodata.store.ingest.run import ingest
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
 from .test_run import stored

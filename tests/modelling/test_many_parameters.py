@@ -11,7 +11,7 @@ from thermodata.modelling.least_squares import search
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.schema.files.model import Model
 from thermodata.store.base.counting import watched
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import Spec
 

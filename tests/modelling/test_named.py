@@ -10,7 +10,7 @@ from thermodata.cli.app import cli
 from thermodata.modelling import run
 from thermodata.modelling.named import fit_named, newest_model, of_which_campaign
 from thermodata.store.ingest.run import ingest
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import Spec
 from .test_run import stored

@@ -20,7 +20,7 @@ from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.modelling.predictions.left_out import folds, left_out_fit
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
 

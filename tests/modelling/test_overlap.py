@@ -15,8 +15,8 @@ from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.view.dataset import TestData
-from thermodata.view.load import load_dataset
+from thermodata.view.grid.dataset import TestData
+from thermodata.view.grid.load import load_dataset
 
 ROWS = 720  # of 10 s
 
@@ -127,7 +127,7 @@ def test_where_the_shared_samples_lie_counts_from_the_test_and_ignores_its_histo
     data = load_dataset(store, "c", 60.0)
 
     def shared(one: str, other: str) -> tuple[float, float] | None:
-        from thermodata.view.shared_samples import shared_samples
+        from thermodata.view.grid.shared_samples import shared_samples
 
         a, b = (test_of(data.tests, name) for name in (one, other))
         return shared_samples(a, b, "dZ")
@@ -146,7 +146,7 @@ test_of.__test__ = False  # type: ignore[attr-defined]
 
 def test_two_machines_in_one_log_are_two_measurements(tmp_path: Path) -> None:
     """One logger may serve both: what stands in another column of its file was not measured twice."""
-    from thermodata.view.shared_samples import shared_samples
+    from thermodata.view.grid.shared_samples import shared_samples
 
     store = lab(tmp_path, [cut("a", "calibration", None)])
     text = (tmp_path / "campaign.yaml").read_text().replace("id: c\n", "id: d\n", 1)

@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.modelling import fit_model
 from thermodata.modelling.compare.portability import classify, portability
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
 

@@ -11,7 +11,7 @@ from thermodata.errors import SpecError
 from thermodata.modelling import fit_model
 from thermodata.schema.files.load import load_model
 from thermodata.schema.files.locate import located
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import Spec
 

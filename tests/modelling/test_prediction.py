@@ -14,7 +14,7 @@ from thermodata.modelling.model_file.prediction import read_prediction
 from thermodata.modelling.predictions.predict import predict
 from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.versions.result import model_id
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
 

@@ -20,7 +20,7 @@ from thermodata.modelling.terms.parameters import interval
 from thermodata.modelling.trust.apart import cooled
 from thermodata.modelling.trust.profile import Profile
 from thermodata.schema.answers.result import Check, Parameter
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
 

@@ -11,7 +11,7 @@ from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import resolve, term_ids
 from thermodata.modelling.versions.candidate import candidate_spec, note_of_response, with_effect
 from thermodata.schema.files.model import EffectSpec
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .conftest import Spec
 

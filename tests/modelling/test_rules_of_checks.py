@@ -18,7 +18,7 @@ from thermodata.modelling.trust import bound_checks, checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.report.text.fit import span
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 TAU = Param("tau", "min", 30.0, 10.0, 100.0, "the time constant")
 SECOND = Param("tau2", "min", 60.0, 10.0, 100.0, "the second time constant")

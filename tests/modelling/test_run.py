@@ -33,7 +33,7 @@ from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain, save_diagnosis
 from thermodata.store.ingest.run import ingest
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import CHANNELS, EFFECTS, TRUTH, Spec
 

@@ -11,7 +11,7 @@ from thermodata.modelling import fit_model
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.versions.result import make_result
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import EFFECTS, Spec
 

@@ -12,7 +12,7 @@ from thermodata.modelling.inputs.phases import activity, phases
 from thermodata.modelling.predictions.score import IN_SAMPLE, figures, peak_sum, scores
 from thermodata.modelling.predictions.table import prediction_columns, prediction_tables
 from thermodata.modelling.versions.result import make_result, model_id
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import EFFECTS, Change, Spec
 

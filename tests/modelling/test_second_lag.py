@@ -15,7 +15,7 @@ from thermodata.modelling.versions import second_lag
 from thermodata.modelling.versions.second_lag import is_single_lag, with_second_lags
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import CHANNELS, STEP, Spec, make_test
 

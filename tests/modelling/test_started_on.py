@@ -14,7 +14,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.result import make_result
 from thermodata.schema.answers.result import Check
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
 INFOS = {

@@ -16,7 +16,7 @@ from thermodata.modelling.predictions.score import scores
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Float1D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 STEP = 60.0
 INFOS = {

@@ -8,7 +8,7 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.modelling.inputs.roles import find_tests
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 @pytest.mark.parametrize(

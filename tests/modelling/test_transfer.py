@@ -24,7 +24,7 @@ from thermodata.report.text.fit import fit_text
 from thermodata.schema.files.load import parse_model
 from thermodata.schema.files.model import EffectSpec
 from thermodata.schema.strict.printed import WithUnit
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 from .conftest import Spec
 

@@ -7,7 +7,7 @@ import pytest
 from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 from .conftest import CHANNELS, STEP, Spec, make_test
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from thermodata.modelling import fit_model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 from .conftest import Spec
 

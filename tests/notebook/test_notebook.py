@@ -19,7 +19,7 @@ from thermodata.errors import UsageError
 from thermodata.notebook.fitted import Fit
 from thermodata.notebook.opened import OpenStore
 from thermodata.notebook.stale import StaleModelWarning
-from thermodata.view.store_view import FlaggedValuesWarning
+from thermodata.view.query.store_view import FlaggedValuesWarning
 
 from ..cli.conftest import write_campaign
 

@@ -218,7 +218,7 @@ def test_a_fit_says_what_it_loses_to_flags_and_a_faulty_sensor_is_no_candidate(s
     from thermodata.effect.registry import effects
     from thermodata.modelling.fit.model import fit_model
     from thermodata.schema.files.model import Model
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     wanders = 30 + 8 * np.sin(np.arange(N) / 20)
     logs = [day(1), day(2), day(3, T1=wanders), day(4, T1=wanders)]
@@ -252,7 +252,7 @@ def test_a_constant_through_whole_tests_changes_nothing_in_what_counts_from_thei
 
     from thermodata.modelling.run import fit
     from thermodata.schema.files.model import Model
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     extra = "tests:\n" + "".join(f"  - {{id: day{k}, kind: spindle, role: calibration}}\n" for k in (1, 2, 3, 4))
 
@@ -290,7 +290,7 @@ def test_a_sensor_that_failed_in_one_test_of_many_drives_in_the_others(store: St
     from thermodata.diagnosis.candidates.of_library import candidates
     from thermodata.diagnosis.sensors.logging_faults import faulty_sensors
     from thermodata.effect.registry import effects
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     count = 5
     logs = [day(k) for k in range(1, count)] + [day(count, T1=30.0)]

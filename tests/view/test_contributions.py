@@ -13,8 +13,8 @@ import pytest
 
 from thermodata.errors import UsageError
 from thermodata.schema.agreed.effect_ids import ids_of
-from thermodata.view.contributions import contributions, open_test
-from thermodata.view.models import model_rows, term_order
+from thermodata.view.curves.contributions import contributions, open_test
+from thermodata.view.lists.models import model_rows, term_order
 
 from .conftest import NOW, Builder
 

@@ -6,7 +6,7 @@ import duckdb
 import pytest
 
 from thermodata.store.catalogue.ddl import TABLES
-from thermodata.view.flagged import flagged_channels
+from thermodata.view.grid.flagged import flagged_channels
 
 
 def told(*events: tuple[str | None, str, int, str | None], rows: int = 1000) -> dict[str, tuple[float, str | None]]:

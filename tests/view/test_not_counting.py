@@ -6,7 +6,7 @@ import duckdb
 import pytest
 
 from thermodata.store.catalogue.ddl import TABLES
-from thermodata.view.not_counting import values_that_do_not_count
+from thermodata.view.query.not_counting import values_that_do_not_count
 
 
 @pytest.fixture

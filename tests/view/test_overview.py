@@ -13,11 +13,11 @@ import pytest
 
 from thermodata.errors import StoreError, UsageError
 from thermodata.store import Store
-from thermodata.view import window as of_windows
-from thermodata.view.models import model_rows
-from thermodata.view.overview import Asked, find_tests
-from thermodata.view.predictions import predictions, residual_strips
-from thermodata.view.window import channels_of, read_window
+from thermodata.view.curves import window as of_windows
+from thermodata.view.curves.predictions import predictions, residual_strips
+from thermodata.view.curves.window import channels_of, read_window
+from thermodata.view.lists.models import model_rows
+from thermodata.view.lists.overview import Asked, find_tests
 
 T_S = np.arange(600) * 10.0
 

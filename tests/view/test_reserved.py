@@ -7,7 +7,7 @@ import pytest
 from thermodata.errors import UsageError
 from thermodata.store import Store
 from thermodata.view import StoreView
-from thermodata.view.reserved import reserved_hint
+from thermodata.view.query.reserved import reserved_hint
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.view.predictions import Prediction
-from thermodata.view.rule_for import range_rule, rules
+from thermodata.view.curves.predictions import Prediction
+from thermodata.view.curves.rule_for import range_rule, rules
 
 N = 720
 MOVES = np.zeros(N)

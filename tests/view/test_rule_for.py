@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.view.predictions import Prediction
-from thermodata.view.rule_for import rules
+from thermodata.view.curves.predictions import Prediction
+from thermodata.view.curves.rule_for import rules
 
 N = 600
 T_S = np.arange(N) * 60.0

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.cli import main
 from thermodata.errors import UsageError
-from thermodata.view.load import load_dataset
+from thermodata.view.grid.load import load_dataset
 from thermodata.virtual.lathe.causes import CAUSES, bend, growth, play
 from thermodata.virtual.lathe.data import STEP_S, contribution, model_of, to_dataset
 from thermodata.virtual.lathe.fields import STACK, Fields

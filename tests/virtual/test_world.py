@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import UsageError
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 from thermodata.virtual import HIDEABLE, World, dataset, make_world
 from thermodata.virtual.binned import to_dataset
 from thermodata.virtual.catalogue import EFFECTS, drivers_of

@@ -16,7 +16,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from thermodata.store import Store
-from thermodata.view.models import model_rows
+from thermodata.view.lists.models import model_rows
 
 from ..chromium import browser, find
 

@@ -21,9 +21,9 @@ from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.keep.check import check_store
-from thermodata.view.models import model_rows
-from thermodata.view.predictions import Prediction
-from thermodata.view.residuals import against, predicted_tests, residuals
+from thermodata.view.curves.predictions import Prediction
+from thermodata.view.curves.residuals import against, predicted_tests, residuals
+from thermodata.view.lists.models import model_rows
 from thermodata.web.pages.compare_charts import correlated
 from thermodata.web.work import Work
 

@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from thermodata.store import Store
-from thermodata.view.models import model_rows
+from thermodata.view.lists.models import model_rows
 
 from ..chromium import Chromium, Page, PageLeftError
 

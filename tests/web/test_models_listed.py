@@ -15,7 +15,7 @@ from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis, save_fit
-from thermodata.view.models import model_rows
+from thermodata.view.lists.models import model_rows
 
 from ..view.conftest import Builder
 from .client import Client

@@ -13,10 +13,10 @@ import pytest
 
 from thermodata.schema.strict.lines import read_document
 from thermodata.store import Store
-from thermodata.view.models import model_rows
-from thermodata.view.predictions import predictions
-from thermodata.view.rule_for import Rule, rules_for
-from thermodata.view.window import channels_of
+from thermodata.view.curves.predictions import predictions
+from thermodata.view.curves.rule_for import Rule, rules_for
+from thermodata.view.curves.window import channels_of
+from thermodata.view.lists.models import model_rows
 from thermodata.web.pages import test as test_page
 
 from ..cli.conftest import write_campaign

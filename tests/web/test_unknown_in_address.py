@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from thermodata.store import Store
-from thermodata.view.models import model_rows
+from thermodata.view.lists.models import model_rows
 
 from .client import Client
 

@@ -48,8 +48,8 @@ def answer_contributions(session: Session, store: Store, models: Sequence[str], 
     """Print what each effect gives in a test. models: ids, prefixes or names."""
     from thermodata.report.text.fit import contributions_text
     from thermodata.store.catalogue.models import find_model
-    from thermodata.view.contributions import contributions, open_test
-    from thermodata.view.models import model_rows
+    from thermodata.view.curves.contributions import contributions, open_test
+    from thermodata.view.lists.models import model_rows
 
     models = list(dict.fromkeys(find_model(store, ref).model for ref in models))
     found = contributions(store, models, *open_test(store, models[0], test))

@@ -91,7 +91,7 @@ def known_failure(error: Exception) -> ThermodataError | None:
 def in_units_of(session: Session, response: str | list[str], text: str) -> str:
     """A text that says um, in the units of the responses (`report.words.numbers.in_units`)."""
     from thermodata.report.words.numbers import in_units
-    from thermodata.view.response_units import response_units
+    from thermodata.view.lists.response_units import response_units
 
     names = [response] if isinstance(response, str) else response
     return in_units(text, response_units(session.store(), names))

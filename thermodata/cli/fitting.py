@@ -170,7 +170,7 @@ def add_command(session: Session, model: str, candidate: tuple[str, ...], plain:
     from thermodata.cli.progress import counting_line
     from thermodata.modelling.add import add
     from thermodata.store.base.counting import watched
-    from thermodata.view.response_units import response_units
+    from thermodata.view.lists.response_units import response_units
 
     store = session.store()
     with counting_line() as tell, watched(tell):

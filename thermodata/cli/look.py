@@ -14,7 +14,7 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.report.collected.records import records, written_conditions
 from thermodata.report.words.numbers import duration
 from thermodata.report.words.table import table
-from thermodata.view.overview import Asked, find_tests
+from thermodata.view.lists.overview import Asked, find_tests
 
 campaign_option = click.option("--campaign", "-c", help="Only this campaign.", shell_complete=completing.campaigns)
 

@@ -11,7 +11,7 @@ from thermodata.errors import unknown_name
 from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
-    from thermodata.view.models import ModelRow
+    from thermodata.view.lists.models import ModelRow
 
 
 @command("models")
@@ -21,7 +21,7 @@ def models_command(session: Session, campaign: str | None) -> None:
 
     The newest version first; "last fit" marks the one that is taken where a command or page is told none.
     """
-    from thermodata.view.models import fitted_last, model_rows
+    from thermodata.view.lists.models import fitted_last, model_rows
 
     rows = model_rows(session.store())
     last = fitted_last(rows).model if rows else None

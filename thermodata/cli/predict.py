@@ -21,7 +21,7 @@ from thermodata.report.words.table import table
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.beyond import Beyond
     from thermodata.modelling.predictions.predict import Predicted
-    from thermodata.view.dataset import Dataset
+    from thermodata.view.grid.dataset import Dataset
 
 
 @command("predict")

@@ -45,7 +45,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.answers.diagnosis import Artefact, AtRest, DetectionLimit, Diagnosis, ResponseLeft
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)

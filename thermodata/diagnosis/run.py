@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
     from thermodata.store import Store
     from thermodata.store.base.counting import Tell
-    from thermodata.view.dataset import Dataset, TestData
+    from thermodata.view.grid.dataset import Dataset, TestData
 
 # raise it where a rule of the diagnosis changes: answers of older rules are then given anew
 RULES_VERSION = 78

@@ -27,7 +27,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved, PutRight
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.modelling.predictions.predict import Predicted
 from thermodata.store.base.files import whole_file
-from thermodata.view.rows import with_units
+from thermodata.view.query.rows import with_units
 
 _SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
 

@@ -28,7 +28,7 @@ from thermodata.modelling.versions.came_since import as_chosen
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -72,7 +72,7 @@ def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     return coarse_readings.drawn(load_dataset(store, list(spec.campaign_ids), spec.step))
 

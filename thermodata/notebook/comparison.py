@@ -37,7 +37,7 @@ class Comparison(Shown):
 
     @property
     def _units(self) -> dict[str, str]:
-        from thermodata.view.response_units import response_units
+        from thermodata.view.lists.response_units import response_units
 
         names = list(dict.fromkeys(s.response for r in self.results for s in r.scores))
         return response_units(self.store, names, {c for r in self.results for c in r.campaigns})

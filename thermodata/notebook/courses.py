@@ -15,13 +15,13 @@ from thermodata.plugin import Float1D
 from thermodata.report.charts.figures import TIME
 from thermodata.report.words.numbers import duration
 from thermodata.report.words.table import table
-from thermodata.view.rows import with_units
+from thermodata.view.query.rows import with_units
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from thermodata.modelling.predictions.predict import Predicted
-    from thermodata.view.predictions import Prediction
+    from thermodata.view.curves.predictions import Prediction
 
 
 NOTHING = "no test can be predicted"

@@ -60,19 +60,19 @@ class Fit(Shown):
     @property
     def unit(self) -> str:
         """Of the response and its errors."""
-        from thermodata.view.models import model_rows
+        from thermodata.view.lists.models import model_rows
 
         return next((m.unit for m in model_rows(self.store) if m.model == self.id), "um")
 
     def unit_of(self, response: str) -> str:
         """Of the errors of one response."""
-        from thermodata.view.response_units import unit_of
+        from thermodata.view.lists.response_units import unit_of
 
         return unit_of(self.store, response, self.result.campaigns)
 
     @property
     def _units(self) -> dict[str, str]:
-        from thermodata.view.response_units import response_units
+        from thermodata.view.lists.response_units import response_units
 
         return response_units(self.store, self.responses, self.result.campaigns)
 
@@ -142,7 +142,7 @@ class Fit(Shown):
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:
         """What each effect gives in a test; in the one with the largest error where none is named. UsageError with the
         nearest name where the model was not predicted there: locked tests stay closed."""
-        from thermodata.view.predictions import predictions
+        from thermodata.view.curves.predictions import predictions
 
         heed(self.store, [self.id])
         response = self._response(response)

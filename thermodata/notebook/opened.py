@@ -13,7 +13,7 @@ from thermodata.notebook.fitted import Fit, stored_fit
 from thermodata.notebook.residuals import ResidualTests
 from thermodata.notebook.shown import Listed, html_table
 from thermodata.notebook.verdict import Verdict
-from thermodata.view.store_view import StoreView
+from thermodata.view.query.store_view import StoreView
 
 if TYPE_CHECKING:
     from thermodata.schema.files.model import Model
@@ -57,7 +57,7 @@ class OpenStore(StoreView):
         """All versions, the newest first."""
         from dataclasses import asdict
 
-        from thermodata.view.models import model_rows
+        from thermodata.view.lists.models import model_rows
 
         return Listed((asdict(m) for m in model_rows(self.store)), _MODELS)
 

@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING
 from thermodata.lazy import on_demand
 
 if TYPE_CHECKING:
-    from thermodata.view.dataset import ChannelInfo, Dataset, TestData
-    from thermodata.view.load import load_dataset
-    from thermodata.view.store_view import StoreView
+    from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
+    from thermodata.view.grid.load import load_dataset
+    from thermodata.view.query.store_view import StoreView
 
 __all__ = ["ChannelInfo", "Dataset", "StoreView", "TestData", "load_dataset"]
 __getattr__ = on_demand(
-    __name__, {"dataset": "ChannelInfo Dataset TestData", "load": "load_dataset", "store_view": "StoreView"}
+    __name__,
+    {
+        "grid.dataset": "ChannelInfo Dataset TestData",
+        "grid.load": "load_dataset",
+        "query.store_view": "StoreView",
+    },
 )

@@ -7,7 +7,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import Model
 from thermodata.schema.units.quantity import CANONICAL_UNIT, value_in
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.plan import AXES, STEP_S
 from thermodata.virtual.world import Run, World, make_world
 

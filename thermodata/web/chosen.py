@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from thermodata.store import Store
-from thermodata.view.models import ModelRow, fitted_last
+from thermodata.view.lists.models import ModelRow, fitted_last
 
 WITHOUT = "none"  # of a chart of a test that shows no model
 

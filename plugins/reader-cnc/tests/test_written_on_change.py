@@ -11,7 +11,7 @@ from thermodata.calibration.quality.flags import ColumnInput, flag_stream
 from thermodata.schema.flag import Flag
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
-from thermodata.view.load import load_dataset
+from thermodata.view.grid.load import load_dataset
 
 CAMPAIGN = """\
 schema: thermodata/campaign/1

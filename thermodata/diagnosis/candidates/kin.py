@@ -9,7 +9,7 @@ from typing import Literal
 from thermodata.diagnosis.question.present import GENERIC, Present
 from thermodata.effect.places import holds
 from thermodata.plugin import Effect
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 # "same": another mode of an effect that the model has, or another reading of its channels. "heat": another effect of
 # the same cause, by other channels, as the coolant's switch beside its temperature. "part": one of several

@@ -29,7 +29,7 @@ from thermodata.plugin import Effect, Float1D, Float2D, Param
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.schema.units.quantity import NOT_DRIVERS, SECONDS_PER_UNIT
 from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 InTest = Callable[[Mapping[str, float]], Float2D]  # parameters -> columns of a test, shape (n, gains)
 STATIC = "static"

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.unread import is_motion
 from thermodata.effect.places import holds
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 TABLE = "table"  # turning or not
 TURNS = (TABLE, "rotary")

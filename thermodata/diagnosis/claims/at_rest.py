@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.detection import has_a_name
 from thermodata.effect.places import holds
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 MOVING = ("rotational_speed", "feed", "flow", "state", "position")
 STANDS = 0.05  # of what it does in the tests that move it: less is rest

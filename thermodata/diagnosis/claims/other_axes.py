@@ -18,7 +18,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
 from thermodata.schema.files.model import Model, Response
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 MOST_AXES = 2
 

@@ -19,7 +19,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.steps.changes import POWERS
 from thermodata.diagnosis.steps.commanded import is_command
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 MOST_SAMPLES = 60  # and no more than these;
 RIM = 2.0  # asked for so many times as far: what is best beyond is no whole hour

@@ -21,7 +21,7 @@ from thermodata.effect.places import holds
 from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 from thermodata.schema.words.places import AROUND
 from thermodata.schema.words.sentences import in_percent
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 # share of the squared rises of the response that commands foretell at the right time at least, and beyond the other one
 DECIDES = 0.15

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from thermodata.diagnosis.clocks.by_heat import Late
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 EVERY_S = 120.0  # between the shifts that are asked: up to these either way,
 MOST_S = 3900.0

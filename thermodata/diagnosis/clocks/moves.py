@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.schema.answers.diagnosis import ClockMoved
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 
 def with_clocks_right(data: Dataset, clocks: Sequence[ClockMoved]) -> Dataset:

@@ -17,7 +17,7 @@ import numpy as np
 from thermodata.diagnosis.clocks.heat_balance import LEAST_TELLING, MOST_OWN, RIDGE, TELLS, UNMOVED_S, Pair
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 APART = 0.15  # of the squared rises, that one time foretells beyond the other at least, or a test tells neither
 ROUNDS = 10  # each test moves to its better time: two or three suffice

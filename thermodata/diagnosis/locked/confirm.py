@@ -20,7 +20,7 @@ from thermodata.modelling.trust.bound_checks import IMPLAUSIBLE
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True, slots=True)

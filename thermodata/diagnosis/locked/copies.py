@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from thermodata.diagnosis.question.once import same_recording
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import TestData
-from thermodata.view.shared_samples import shared_samples
+from thermodata.view.grid.dataset import TestData
+from thermodata.view.grid.shared_samples import shared_samples
 
 
 def copies(locked: Sequence[TestData], opened: Sequence[TestData], response: str) -> list[tuple[TestData, TestData]]:

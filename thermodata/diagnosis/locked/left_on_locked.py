@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from thermodata.modelling.terms.fitted_response import FittedResponse
     from thermodata.schema.answers.candidate import Candidate
     from thermodata.store import Store
-    from thermodata.view.dataset import TestData
+    from thermodata.view.grid.dataset import TestData
 from thermodata.schema.units.quantity import difference_unit
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from thermodata.schema.answers.confirmed import TestConfirmed
     from thermodata.schema.answers.diagnosis import Diagnosis
     from thermodata.store import Store
-    from thermodata.view.dataset import TestData
+    from thermodata.view.grid.dataset import TestData
 
 ALIKE = 1e-6  # of an error: no output prints so many digits
 

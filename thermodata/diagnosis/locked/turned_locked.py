@@ -12,7 +12,7 @@ from thermodata.diagnosis.question.known import rms
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 # [%] of the test, turned round: what only runs the other way (a day that cools, where the others warm) is no mirror
 # image

@@ -19,7 +19,7 @@ from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.errors import ThermodataError
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 class Asks(Protocol):

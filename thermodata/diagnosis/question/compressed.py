@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.diagnosis.question.known_effects import otherwise, remembered
 from thermodata.diagnosis.question.problem import Base, Problem, build_problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 # rows of all tests in which candidates are weighed: the covariance of a test costs the cube of its rows
 WEIGHED_ROWS = 2400

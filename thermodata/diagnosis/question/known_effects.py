@@ -13,7 +13,7 @@ from thermodata.modelling.inputs.lead import columns as led_columns
 from thermodata.modelling.inputs.lead import with_lead
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Float1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 # half-width, in the logarithm, of the difference quotient that lets a known time constant move
 TANGENT = 0.1

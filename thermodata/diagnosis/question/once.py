@@ -13,8 +13,8 @@ import numpy as np
 
 from thermodata.plugin import Bool1D
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import Dataset, TestData
-from thermodata.view.shared_samples import shared_spans
+from thermodata.view.grid.dataset import Dataset, TestData
+from thermodata.view.grid.shared_samples import shared_spans
 
 LEAST_SAMPLES = 30  # that are equal to the last digit, and not all one value
 

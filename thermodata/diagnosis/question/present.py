@@ -16,7 +16,7 @@ from thermodata.modelling.model_file.transfer import GivenFunction
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Effect
 from thermodata.schema.units.quantity import SECONDS_PER_UNIT
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 GENERIC = "generic"
 CONTROL = "control"  # its static compensation is a difference of any two temperatures

@@ -16,7 +16,7 @@ import numpy as np
 from thermodata.modelling.terms.nuisance import unknown_start
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.units.quantity import difference_unit
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 TARGET_ROWS = 9000
 MIN_ROWS = 10

@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.errors import unknown_name
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def response_index(fitted: FittedModel, tests: Sequence[TestData], name: str | None) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.schema.words.places import is_spindle
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 WINDOW_S = 1800.0
 # a short test is cut into at least this many windows

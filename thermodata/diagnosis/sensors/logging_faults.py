@@ -13,7 +13,7 @@ from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.plugin import Float2D
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.units.quantity import NOT_DRIVERS
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 SHIFTS_S = (-900.0, -600.0, -450.0, -300.0, -180.0, -120.0, 120.0, 180.0, 300.0, 450.0, 600.0, 900.0)
 MISFIT_TIMES = 3.0  # a fit that leaves this many times what a refit leaves has wrong parameters

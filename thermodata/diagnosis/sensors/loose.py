@@ -22,7 +22,7 @@ from thermodata.effect.lag import lag
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.words.sentences import counted
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 EVERY_S = 300.0  # means over so much: bodies are slower
 LAGS_S = (600.0, 2400.0, 9600.0)  # of commands: of a bearing, of a housing, of a bed

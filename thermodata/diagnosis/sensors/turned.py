@@ -21,7 +21,7 @@ from thermodata.diagnosis.question.problem import Block, Problem
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Int1D
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 LEAST_TESTS = 3  # of two nobody can say which one is turned
 ALL_DROP = 0.6  # of the squared error of all left-out tests, which turning one must take away

@@ -17,7 +17,7 @@ from thermodata.diagnosis.steps.sudden import BESIDE, HOLE_STEPS, over_three, su
 from thermodata.effect.places import holds
 from thermodata.modelling.inputs.drivers import start_value
 from thermodata.plugin import Bool1D, Float1D, Int1D
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 _T = TypeVar("_T")
 

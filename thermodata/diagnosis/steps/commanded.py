@@ -20,7 +20,7 @@ from thermodata.diagnosis.steps.changes import POWERS, WARM, Course, courses, mo
 from thermodata.diagnosis.steps.sudden import over_three
 from thermodata.plugin import Float1D, Int1D
 from thermodata.schema.words.places import is_around
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 COMMANDS = ("rotational_speed", "feed", "power", "state", "load", "flow")
 # a temperature jumps where one body takes the place of another: a workpiece, a pallet, a tool

@@ -17,7 +17,7 @@ from thermodata.diagnosis.steps.step import Step
 from thermodata.diagnosis.steps.who_made import BODY, evenly
 from thermodata.plugin import Bool1D
 from thermodata.schema.answers.diagnosis import Artefact
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 LEAST = 3  # of two that are alike by chance there are many
 ALIKE = 0.1  # of their median, that each differs from it by at most

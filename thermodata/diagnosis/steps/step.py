@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from thermodata.diagnosis.tell import next_test
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.weigh.scored import Scored
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 def advice(

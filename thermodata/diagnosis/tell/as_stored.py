@@ -13,7 +13,7 @@ from thermodata.diagnosis.tell.started_on import started_with
 from thermodata.modelling.run import Loaded
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.answers.diagnosis import Diagnosis
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def as_fitted(response: FittedResponse, tests: Sequence[TestData]) -> float | None:

@@ -10,7 +10,7 @@ from thermodata.diagnosis.tell.together import Refit
 from thermodata.diagnosis.verdict.judge import Judged, Judgement
 from thermodata.diagnosis.weigh.changed import ChangedEffect
 from thermodata.errors import ThermodataError
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def told_by_versions(judgement: Judgement, refit: Refit, tests: Sequence[TestData]) -> Judgement:

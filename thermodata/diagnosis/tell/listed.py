@@ -21,7 +21,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.candidate import Candidate
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 SHOWN = 15
 

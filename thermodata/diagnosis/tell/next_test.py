@@ -12,7 +12,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.schema.words.places import heat_at, is_around
 from thermodata.schema.words.sentences import counted, listed
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 # share of machines whose one missing cause was named, by number of open tests: of the lathe, where most tests work all
 # parts (sealed seeds; docs/benchmark.md), and of 54 worlds whose tests work one source each (docs/method.md)

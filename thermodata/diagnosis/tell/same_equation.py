@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 ALIKE = 1e-6  # of the largest value: columns that differ by less are one
 

@@ -9,7 +9,7 @@ import numpy as np
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.trust.started_on import started_on
 from thermodata.schema.answers.diagnosis import StartedOn
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def started_with(response: FittedResponse, tests: Sequence[TestData]) -> list[StartedOn]:

@@ -21,7 +21,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.errors import ThermodataError
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 # the model with candidates, fitted to all open tests
 Refit = Callable[[Sequence[CandidateEffect]], FittedResponse]

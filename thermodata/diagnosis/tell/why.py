@@ -20,7 +20,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.words.sentences import in_percent, listed
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 # what a claim may break where it is evident, by the name of the rule
 _OUTWEIGHED = {

@@ -8,7 +8,7 @@ from thermodata.diagnosis.unlogged.goes_with import Companion
 from thermodata.diagnosis.unlogged.missing_heat import TAUS_S, MissingHeat
 from thermodata.diagnosis.verdict.suspect import Doubt, First, Suspect
 from thermodata.schema.words.sentences import in_percent
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 SURE = 0.8  # of the draws of tests must agree
 NAMED = 4

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.diagnosis.unlogged.missing_heat import RESAMPLED, Course, MissingHeat
 from thermodata.effect.lag import lag
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import ChannelInfo, TestData
+from thermodata.view.grid.dataset import ChannelInfo, TestData
 
 RESTS_AT_ZERO = ("rotational_speed", "feed", "flow", "state")
 RESTS_ABOVE_ZERO = ("power", "load", "current", "torque", "pressure", "voltage")

@@ -24,7 +24,7 @@ from thermodata.diagnosis.unlogged.source_steps import (
     source_columns,
 )
 from thermodata.plugin import Float1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 TAUS_S = tuple(300.0 * 2 ** (i / 2) for i in range(15))  # 5 min to 10.7 h
 # how much the known effects may differ from their fit: as standard deviation of a coefficient (1 doubles an effect)

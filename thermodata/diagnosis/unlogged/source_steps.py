@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.diagnosis.question.problem import Block, Problem, freed
 from thermodata.diagnosis.unlogged.one_way import Normal
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 STEPS_A_TEST = 64  # of the source, in the longest test
 SHORTEST_STEP_S = 300.0

@@ -11,7 +11,7 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.steps.artefact import places_that_tell
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 def of_library(

@@ -52,7 +52,7 @@ from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Effect, Int1D
 from thermodata.schema.answers.diagnosis import Artefact, WeakSpot
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 # what other axes say of a candidate: (channel, probability there)
 Witness = Callable[[Scored], tuple[tuple[str, float], ...]]

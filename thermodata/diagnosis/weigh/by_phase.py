@@ -27,7 +27,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.versions.candidate import phase_ids, phases_id, with_phases
 from thermodata.plugin import Effect, Gain, Param
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 HEATING, COOLING = "heating", "cooling"
 AIR = ("hall", "floor")  # what is there whether the machine works or not has no phases

@@ -12,7 +12,7 @@ from thermodata.errors import SpecError
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 # what else a gain may be, as a share of the one gain: by machine, wear or preload; soft (`evidence.BEYOND`)
 TIMES = (0.1, 3.0)

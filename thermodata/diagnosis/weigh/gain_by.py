@@ -22,7 +22,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.versions.candidate import gain_by_id, with_gain_by
 from thermodata.plugin import Effect, Gain
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 MOST_VALUES = 8  # of a condition: more are no groups of tests
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from thermodata.schema.files.campaign import Campaign
     from thermodata.store import Store
     from thermodata.store.ingest.progress import Progress
-    from thermodata.view.dataset import Dataset
+    from thermodata.view.grid.dataset import Dataset
 
 
 OF_STORE = "campaign:"  # before the id of a campaign, where a path is called so too
@@ -89,7 +89,7 @@ def predictions_of(
 
 def _loaded(store: Store, campaign: str, step_s: float) -> tuple[Dataset, list[str]]:
     from thermodata.modelling.inputs.coarse_readings import drawn
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     data = drawn(load_dataset(store, campaign, step_s))
     with store.reader() as con:

@@ -15,7 +15,7 @@ from thermodata.modelling.seen.laws import TermLaw, laws, refuse_unlawful
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.version import __version__
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 BEYOND_K = 30.0  # a sensor may read that much more, or less, than in any test
 BEYOND = 1.5  # of the largest value, for what is zero at rest; of the range, for what is not

@@ -18,7 +18,7 @@ from thermodata.modelling.predictions.score import fit_percent, peak_sum, role_o
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 MEAN = "mean"
 

@@ -11,7 +11,7 @@ import numpy as np
 from thermodata.modelling.compare.difference import Difference, difference, difference_of_tests
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Float1D
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 Course = tuple[str, str, str]
 """(campaign, test, response)."""

@@ -11,7 +11,7 @@ from thermodata.modelling.compare.portability import Portability, portability
 from thermodata.modelling.inputs.coarse_readings import drawn
 from thermodata.modelling.predictions.predict import rebound
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -43,7 +43,7 @@ def asked_for(store: Store, own: Sequence[str], tests: Sequence[str], campaigns:
 
 def data_of(store: Store, campaigns: Sequence[str], step_s: float) -> Dataset:
     """All tests of these campaigns, on the step of the model."""
-    from thermodata.view.load import load_dataset
+    from thermodata.view.grid.load import load_dataset
 
     return drawn(load_dataset(store, campaigns, step_s))
 

@@ -14,7 +14,7 @@ from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 FOLDS = 6  # more tests than that are left out in groups
 Place = tuple[str, Key]

@@ -13,7 +13,7 @@ from thermodata.modelling.predictions.score import fit_percent, peak_sum
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, has_response
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 Verdict = Literal["portable", "with_correction", "not_portable", "x"]
 END_S = 1800.0  # the end of heating is a mean over this long

@@ -18,7 +18,7 @@ from thermodata.modelling.terms.fitted_response import FittedTerm, fit_mask
 from thermodata.modelling.terms.identified import Identified
 from thermodata.plugin import Bool1D, Effect, Float1D
 from thermodata.schema.words.sentences import in_percent
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 FEWEST_IN_A_ROW = 0.5  # of the time between first and last sample
 FEWEST_WINDOWS = 4  # fewer are gaps of a record

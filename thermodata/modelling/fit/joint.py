@@ -15,7 +15,7 @@ from thermodata.modelling.terms.bound import BoundResponse, BoundTerm, each_grou
 from thermodata.modelling.terms.fitted_response import FACTOR, Ends, FittedResponse, FittedTerm, Together, Values
 from thermodata.modelling.trust.uncertainty import Cover, Rough, Spread, spreads
 from thermodata.plugin import Float1D, Param
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 FACTORS = (0.02, 50.0)  # of one group's gains to another's
 

@@ -24,7 +24,7 @@ from thermodata.modelling.terms.usable import usable_tests
 from thermodata.modelling.trust.checks import checks
 from thermodata.schema.files.model import Model
 from thermodata.store.base.counting import counted
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 _SHOWN = 8  # tests, each with what it lacks
 

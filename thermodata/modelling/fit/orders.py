@@ -21,7 +21,7 @@ from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, fit_mask
 from thermodata.plugin import Effect
 from thermodata.schema.files.model import EffectSpec
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 AS_GOOD = 0.5  # points of FIT
 DELAY = 2  # steps of an ARX: what a grid shifts; a longer one is a part's own, and `also: [dead_time]` searches it

@@ -13,7 +13,7 @@ from thermodata.errors import SpecError
 from thermodata.modelling.terms.bound import PLACE, BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.schema.files.model import EffectSpec
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 RESPONSE = "response's value"  # no channel has such a name
 FitResponse = Callable[..., FittedResponse]

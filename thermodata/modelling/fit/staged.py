@@ -18,7 +18,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.usable import usable_tests
 from thermodata.schema.answers.result import Check
 from thermodata.schema.words.sentences import in_percent
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 MOVED = 0.2  # of what the effect itself does in its own tests
 

@@ -16,7 +16,7 @@ import numpy as np
 from thermodata.calibration.tread import exact_tread_of
 from thermodata.modelling.inputs.drivers import step_s
 from thermodata.plugin import Bool1D, Float1D, Float2D
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 TEMPERATURE = "temperature"
 COARSE_K = 0.45  # finer steps are no larger than what noise and bins smooth by themselves

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 from thermodata.errors import UsageError, unknown_name
 from thermodata.modelling.inputs.phases import TOLD
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def refuse_unknown_phases(wanted: Collection[str] | None, tests: Sequence[TestData]) -> None:

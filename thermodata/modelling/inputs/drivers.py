@@ -16,7 +16,7 @@ from thermodata.effect.binding import ANY
 from thermodata.effect.guard import read_only
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 # zero means at rest; everything else has an arbitrary zero and counts from the start of the record
 ZERO_AT_REST = frozenset(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from thermodata.modelling.inputs.roles import Key, Roles
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import Dataset, TestData
-from thermodata.view.shared_samples import shared_samples
+from thermodata.view.grid.dataset import Dataset, TestData
+from thermodata.view.grid.shared_samples import shared_samples
 
 
 @dataclass(frozen=True, slots=True)

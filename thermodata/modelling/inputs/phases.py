@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thermodata.plugin import Bool1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 _ACTIVITY = ("rotational_speed", "feed", "power", "load")
 TOLD = ("heating", "steady", "cooling")  # where a test declares none

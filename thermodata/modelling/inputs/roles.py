@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from thermodata.errors import SpecError, unknown_name
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 Key = tuple[str, str]
 

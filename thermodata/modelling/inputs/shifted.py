@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 def said(data: Dataset, names: Collection[str]) -> list[str]:

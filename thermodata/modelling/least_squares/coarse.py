@@ -14,7 +14,7 @@ import numpy as np
 from thermodata.modelling.least_squares.design import MOMENTS
 from thermodata.modelling.least_squares.search import Problem, along_whole_range, search
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 MANY = 20_000  # samples in all tests from which on a coarse look is worth its while
 ENOUGH = 3_000  # samples of the coarse look

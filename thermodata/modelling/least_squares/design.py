@@ -16,7 +16,7 @@ from thermodata.modelling.terms.bound import PLACE, BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import fit_mask
 from thermodata.modelling.terms.nuisance import Nuisance
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Param
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 KEPT_BYTES = 256 * 2**20  # of columns, before they all go
 GRID = 9  # first look at a time constant or an exponent

@@ -13,7 +13,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Float2D, Gain
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 NAME = "model"
 GAIN = "gain"

@@ -16,7 +16,7 @@ from thermodata.plugin import Effect, Param
 from thermodata.schema.files.model import EffectSpec
 from thermodata.schema.strict.printed import Printed
 from thermodata.schema.units.quantity import converts
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 _NAME = re.compile(r"[^\W\d]\w*")
 _NEAR = 1e-9  # of the bounds: what a fit left at one of them lies within

@@ -13,7 +13,7 @@ from thermodata.modelling.model_file.prediction_file import Rows, read_rows
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Effect, Float1D, Float2D, Gain
 from thermodata.schema.words.sentences import counted
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 NAME = "prediction"
 _SHOWN = 4

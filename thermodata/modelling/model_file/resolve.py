@@ -24,7 +24,7 @@ from thermodata.plugin import Effect
 from thermodata.schema.agreed.effect_ids import ids_of
 from thermodata.schema.files.model import Driver, EffectSpec, Model, Place, Response
 from thermodata.schema.words.sentences import counted
-from thermodata.view.dataset import ChannelInfo, Dataset
+from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 Found = TypeVar("Found")
 

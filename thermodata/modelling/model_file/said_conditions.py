@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from thermodata.errors import SpecError, unknown_name
 from thermodata.modelling.terms.bound import BoundResponse, conditions_of, group_of
 from thermodata.modelling.terms.fitted_response import has_response
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 _LISTED = 8
 

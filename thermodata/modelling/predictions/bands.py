@@ -13,7 +13,7 @@ import numpy as np
 
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm, Together
 from thermodata.plugin import Float1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 STEP = 1e-4  # of a parameter, for its slope
 

@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.modelling.predictions.predict import Predicted
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedTerm
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 # of what an effect does in fitted tests, and of what is predicted: less is within what a fit is uncertain by anyway
 OF_FITTED, OF_PREDICTED = 0.1, 0.05

@@ -10,7 +10,7 @@ import numpy as np
 from thermodata.modelling.predictions.score import fit_percent
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 MOST = 6  # folds; more tests than that are left out in groups
 PARTS = 4  # of one test

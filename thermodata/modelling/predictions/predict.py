@@ -15,7 +15,7 @@ from thermodata.modelling.model_file.resolve import bind, find_response
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Bool1D, Effect, Float1D
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 
 
 @dataclass(frozen=True)

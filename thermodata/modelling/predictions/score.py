@@ -15,7 +15,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.result import Score
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 ALL = "all"
 FEWEST = 2  # samples that a test needs for an error: the first gives its offset

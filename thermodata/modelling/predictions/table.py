@@ -11,7 +11,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Array
 from thermodata.store.base.arrow import to_arrow
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 CONTRIBUTION = "c__"
 DEVIATION = "sd__"

@@ -24,7 +24,7 @@ from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.modelling.trust.bound_checks import at_bounds
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 POINTS = 240  # of a curve
 BELOW = 30.0  # the lowest frequency is that much below the slowest corner

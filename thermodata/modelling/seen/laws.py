@@ -19,7 +19,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.modelling.terms.parameters import gain_unit
 from thermodata.schema.units.quantity import difference_unit
-from thermodata.view.dataset import ChannelInfo
+from thermodata.view.grid.dataset import ChannelInfo
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.modelling.terms.usable import usable_tests
 from thermodata.modelling.trust.apart import told_apart
 from thermodata.modelling.trust.uncertainty import profiles
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True)

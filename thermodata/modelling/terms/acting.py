@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.modelling.inputs.phases import activity, activity_is_known
 from thermodata.plugin import Bool1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def acting(test: TestData, phases: Sequence[str]) -> Bool1D | None:

@@ -16,7 +16,7 @@ from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Bool1D, Drivers, Effect, Float2D
 from thermodata.schema.files.model import EffectSpec
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 OF_TESTS = ("test", "machine", "campaign")  # what a gain can differ by, beside conditions,
 OF_RESPONSES = ("tool", "place")  # and by what has a name of its own

@@ -12,7 +12,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.terms.parameters import parameters
 from thermodata.schema.answers.result import Check, Parameter
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
 @dataclass(frozen=True)

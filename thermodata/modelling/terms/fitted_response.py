@@ -13,7 +13,7 @@ from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.plugin import Bool1D, Effect, Float1D, Float2D, Param
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 FACTOR = "g"
 Ends = tuple[float | None, float | None]

@@ -13,7 +13,7 @@ from thermodata.modelling.inputs.phases import TOLD, phases
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.plugin import Bool1D, Float1D, Float2D
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 WARM = "warm"
 # a machine that was not at rest fades as its own time constants, which are not known before the fit; these span what a

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from thermodata.errors import SpecError
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 class OfTests(ABC):

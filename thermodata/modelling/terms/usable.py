@@ -10,7 +10,7 @@ from thermodata.modelling.inputs.drivers import is_known, names_of, shifted_in
 from thermodata.modelling.terms.bound import BoundResponse, BoundTerm
 from thermodata.modelling.terms.fitted_response import has_response
 from thermodata.modelling.terms.of_tests import OfTests
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def usable_tests(bound: BoundResponse, tests: Sequence[TestData]) -> tuple[list[TestData], list[str]]:

@@ -19,7 +19,7 @@ from thermodata.modelling.trust.sensitivity import Name, Sensitivity, sensitivit
 from thermodata.modelling.trust.slow_noise import Noise, make_noise
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 HOURS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 36, 48)
 WARM = 0.1  # of the driver's largest move: a test that ends below is cold, and cools from its warmest moment instead

@@ -18,7 +18,7 @@ from thermodata.modelling.trust.bound_checks import at_bounds
 from thermodata.modelling.trust.uncertainty import effective_count
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 CONDITION = 1000.0
 COLLINEAR = 0.98

@@ -11,7 +11,7 @@ from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, bounds_of
 from thermodata.plugin import Float1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 STEP = 1e-3  # of log(value), or of the range
 

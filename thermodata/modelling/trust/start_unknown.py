@@ -19,7 +19,7 @@ from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.bound import BoundTerm
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Array, Float1D, Float2D
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 Disturbance = tuple[slice, Float1D]
 """Rows of the design, and what one standard deviation does there, in the response's unit."""

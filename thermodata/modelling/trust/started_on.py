@@ -21,7 +21,7 @@ from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.begins_on import IF_SO, begins_on, values_of
 from thermodata.schema.answers.result import Check
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 # of the test's error, had it run before. One that reached a share s of its rest before the test is off by s, and by
 # 1 - s had it run for long: half of s at s = 2/3, which takes a lag 1.1 time constants

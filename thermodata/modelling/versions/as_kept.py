@@ -22,7 +22,7 @@ from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, F
 from thermodata.plugin import Effect
 from thermodata.schema.answers.result import SAMPLE, Check, FitResult
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 IN_SAMPLE = " (in-sample)"
 Told = Mapping[str, float]

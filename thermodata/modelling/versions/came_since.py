@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
 from thermodata.schema.files.model import Model
 from thermodata.schema.words.sentences import listed
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis

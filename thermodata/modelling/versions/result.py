@@ -13,7 +13,7 @@ from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.trust.started_on import started_on_checks
 from thermodata.schema.answers.result import Check, FitResult, Score
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 ID_LENGTH = 12
 # keys of an effect that ids of models without them do not know

@@ -25,7 +25,7 @@ from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.schema.units.quantity import SECONDS_PER_UNIT
 from thermodata.schema.words.sentences import counted as in_words
 from thermodata.store.base.counting import counted
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 LEAST_TESTS = 3  # open tests; what holds in one of two may be chance
 FALL = 0.2  # share of the error on left-out tests that it takes off at least: of all samples, and of the typical test

@@ -8,7 +8,7 @@ from thermodata.modelling.inputs.roles import in_full, resolve_roles
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 def heeding(spec: Model, data: Dataset, found: PutRight | None) -> tuple[Model, list[str]]:

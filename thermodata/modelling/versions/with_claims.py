@@ -10,7 +10,7 @@ from thermodata.modelling.inputs.roles import fitted_keys, resolve_roles
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 def is_fit_with_claims(spec: Model, data: Dataset, earlier: Model, found: Diagnosis) -> bool:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from thermodata.modelling.terms.fitted import FittedModel
     from thermodata.store import Store
     from thermodata.store.catalogue.models import StoredModel
-    from thermodata.view.dataset import Dataset
+    from thermodata.view.grid.dataset import Dataset
 
 
 def collect(store: Store, ref: str) -> ReportData:

@@ -10,7 +10,7 @@ from thermodata.modelling.seen.as_system import Seen
 from thermodata.plugin import Float1D
 from thermodata.schema.answers.diagnosis import Diagnosis, WeakSpot
 from thermodata.schema.answers.result import Check, Parameter, Score
-from thermodata.view.response_units import told_together
+from thermodata.view.lists.response_units import told_together
 
 
 @dataclass(frozen=True, slots=True)

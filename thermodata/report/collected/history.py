@@ -11,7 +11,7 @@ from thermodata.report.collected.data import Errors, ResponseError, Version
 from thermodata.report.words.numbers import base_role, change, pooled
 from thermodata.schema.answers.result import Score
 from thermodata.schema.files.model import EffectSpec
-from thermodata.view.response_units import response_units, told_together
+from thermodata.view.lists.response_units import response_units, told_together
 
 if TYPE_CHECKING:
     from thermodata.store import Store

@@ -16,7 +16,7 @@ from thermodata.schema.answers.result import Score
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.modelling.terms.fitted import FittedModel
-    from thermodata.view.dataset import Dataset, TestData
+    from thermodata.view.grid.dataset import Dataset, TestData
 
 _LANES = ("rotational_speed", "feed", "power", "load", "state", "flow")
 _ROLES = ("calibration", "verification", "locked")

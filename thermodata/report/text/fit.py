@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from thermodata.report.collected.data import ReportData
     from thermodata.schema.answers.diagnosis import WeakSpot
     from thermodata.schema.answers.result import Check, FitResult, Score
-    from thermodata.view.contributions import Contributions, Peak
+    from thermodata.view.curves.contributions import Contributions, Peak
 
 _RISES = 1.005  # an error that rises by less is the same
 

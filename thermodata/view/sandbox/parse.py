@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
-from thermodata.view.reserved import reserved_hint
+from thermodata.view.query.reserved import reserved_hint
 
 if TYPE_CHECKING:
     import duckdb

@@ -16,7 +16,7 @@ from scipy.signal import lfilter
 from thermodata.modelling.terms.fitted_response import FittedResponse
 from thermodata.plugin import Float1D, Float2D, Int1D
 from thermodata.schema.units.quantity import NOT_DRIVERS
-from thermodata.view.dataset import Dataset, TestData
+from thermodata.view.grid.dataset import Dataset, TestData
 
 STEP_S = 300.0
 TAUS_S = (0.0, 600.0, 1800.0, 5400.0, 16200.0)

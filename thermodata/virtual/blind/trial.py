@@ -16,7 +16,7 @@ from thermodata.modelling.versions.candidate import with_candidate, with_effect
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 from thermodata.virtual.blind.marking import best, claims_of, head_of, marks_of, outcome_of, refinements_of
 from thermodata.virtual.blind.rivals import RIVALS, ask
 from thermodata.virtual.lathe.data import channels_of, contribution, model_of, right_effect, to_dataset

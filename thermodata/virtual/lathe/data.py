@@ -11,7 +11,7 @@ from thermodata.modelling.versions.candidate import candidate_spec
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import EffectSpec, Model
 from thermodata.schema.units.quantity import CANONICAL_UNIT
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
 from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT

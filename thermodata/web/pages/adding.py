@@ -12,8 +12,8 @@ from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
-from thermodata.view.describe import channel_infos
-from thermodata.view.response_units import unit_of
+from thermodata.view.grid.describe import channel_infos
+from thermodata.view.lists.response_units import unit_of
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import pair
 from thermodata.web.render import desk_of, page

@@ -10,8 +10,8 @@ from starlette.responses import Response
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
-from thermodata.view.models import ModelRow, model_rows
-from thermodata.view.overview import Asked, Sort, find_tests
+from thermodata.view.lists.models import ModelRow, model_rows
+from thermodata.view.lists.overview import Asked, Sort, find_tests
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.strip import strip_svg
@@ -61,7 +61,7 @@ def show(request: Request) -> Response:
 
 
 def _strips(store: Store, model: str, keys: list[tuple[str, str]]) -> dict[Any, Any]:
-    from thermodata.view.predictions import residual_strips  # numpy: a store without a model is shown without it
+    from thermodata.view.curves.predictions import residual_strips  # numpy: a store without a model is shown without it
 
     return residual_strips(store, model, keys)
 

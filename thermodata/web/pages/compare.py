@@ -24,11 +24,11 @@ from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
-from thermodata.view.contributions import Contributions, contributions, open_test, test_names
-from thermodata.view.models import ModelRow, fitted_last, model_rows, term_order
-from thermodata.view.predictions import residual_courses
-from thermodata.view.residuals import Key, predicted_tests, residuals
-from thermodata.view.response_units import response_units, told_together
+from thermodata.view.curves.contributions import Contributions, contributions, open_test, test_names
+from thermodata.view.curves.predictions import residual_courses
+from thermodata.view.curves.residuals import Key, predicted_tests, residuals
+from thermodata.view.lists.models import ModelRow, fitted_last, model_rows, term_order
+from thermodata.view.lists.response_units import response_units, told_together
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.compare_charts import correlated, maps, over_channel

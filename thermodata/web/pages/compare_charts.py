@@ -11,10 +11,10 @@ from thermodata.chart.spec import Axis, Chart, HeatMap, Limit, Panel, Series
 from thermodata.modelling.seen.residual_tests import autocorrelation, lags_told
 from thermodata.plugin import Float1D
 from thermodata.store import Store
-from thermodata.view.contributions import test_names
-from thermodata.view.models import ModelRow
-from thermodata.view.predictions import Prediction, residual_strips
-from thermodata.view.residuals import Key, against
+from thermodata.view.curves.contributions import test_names
+from thermodata.view.curves.predictions import Prediction, residual_strips
+from thermodata.view.curves.residuals import Key, against
+from thermodata.view.lists.models import ModelRow
 
 BINS = 120
 _MOST_LAG_S = 6 * 3600.0

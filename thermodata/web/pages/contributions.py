@@ -10,7 +10,7 @@ from thermodata.chart.band import SHADED, band_95
 from thermodata.chart.colour import effect_styles
 from thermodata.chart.spec import Axis, Band, Chart, Panel, Series
 from thermodata.plugin import Float1D
-from thermodata.view.contributions import Contributions, Effect
+from thermodata.view.curves.contributions import Contributions, Effect
 
 _HOUR = 3600.0
 _ROOM = 0.05  # of what is drawn, above and below

@@ -26,10 +26,10 @@ from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.looks import looks_of
 from thermodata.store.catalogue.models import find_model, load_diagnosis
-from thermodata.view.describe import channel_infos
-from thermodata.view.load import data_version
-from thermodata.view.models import ModelRow, model_rows
-from thermodata.view.response_units import response_units, told_together, unit_of
+from thermodata.view.grid.describe import channel_infos
+from thermodata.view.grid.load import data_version
+from thermodata.view.lists.models import ModelRow, model_rows
+from thermodata.view.lists.response_units import response_units, told_together, unit_of
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.pages.drawn import among, pair

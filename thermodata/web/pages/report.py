@@ -7,7 +7,7 @@ from starlette.responses import FileResponse, Response
 
 from thermodata.errors import UsageError
 from thermodata.report.page.write import page_name
-from thermodata.view.models import model_rows
+from thermodata.view.lists.models import model_rows
 from thermodata.web.chosen import model_in
 from thermodata.web.command import command
 from thermodata.web.render import desk_of, page

@@ -15,8 +15,8 @@ from thermodata.chart.spec import Axis, Chart, Panel, Series
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
+from thermodata.view.query.store_view import StoreView
 from thermodata.view.sandbox.ask import Form, Limits, Table, ask, stream
-from thermodata.view.store_view import StoreView
 from thermodata.web.command import command
 from thermodata.web.render import desk_of, page
 

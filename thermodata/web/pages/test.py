@@ -15,12 +15,12 @@ from thermodata.errors import UsageError
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
-from thermodata.view.events import About, about_test
-from thermodata.view.models import ModelRow, model_rows, role_in_model, term_order
-from thermodata.view.predictions import Prediction, predictions, range_figures
-from thermodata.view.response_units import measured_units, response_units
-from thermodata.view.rule_for import rules_for
-from thermodata.view.window import Channel, Window, channels_of, read_window
+from thermodata.view.curves.predictions import Prediction, predictions, range_figures
+from thermodata.view.curves.rule_for import rules_for
+from thermodata.view.curves.window import Channel, Window, channels_of, read_window
+from thermodata.view.lists.events import About, about_test
+from thermodata.view.lists.models import ModelRow, model_rows, role_in_model, term_order
+from thermodata.view.lists.response_units import measured_units, response_units
 from thermodata.web.chosen import WITHOUT, model_in
 from thermodata.web.command import command
 from thermodata.web.pages.test_chart import drawn_as_curve, test_chart

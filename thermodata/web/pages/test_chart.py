@@ -12,9 +12,9 @@ from thermodata.chart.spec import Axis, Band, Chart, Panel, Row, Series, Span, S
 from thermodata.plugin import Float1D
 from thermodata.schema.units.quantity import MEASURED, difference_unit
 from thermodata.schema.words.sentences import counted
-from thermodata.view.events import About
-from thermodata.view.predictions import Prediction
-from thermodata.view.window import Channel, Window
+from thermodata.view.curves.predictions import Prediction
+from thermodata.view.curves.window import Channel, Window
+from thermodata.view.lists.events import About
 
 _HOUR = 3600.0
 _MOST_ROWS = 16

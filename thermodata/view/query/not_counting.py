@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.schema.flag import INVALID, OVERRULED, Flag
 from thermodata.schema.units.quantity import MEASURED
-from thermodata.view.what_is_read import Read, what_is_read
+from thermodata.view.query.what_is_read import Read, what_is_read
 
 if TYPE_CHECKING:
     import duckdb

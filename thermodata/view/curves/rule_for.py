@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.view.predictions import Prediction
-from thermodata.view.store_view import StoreView
-from thermodata.view.window import Channel
+from thermodata.view.curves.predictions import Prediction
+from thermodata.view.curves.window import Channel
+from thermodata.view.query.store_view import StoreView
 
 if TYPE_CHECKING:
     from thermodata.store import Store

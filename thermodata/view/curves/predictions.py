@@ -12,7 +12,7 @@ import numpy as np
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.store.base.connection import fetch
 from thermodata.store.views.wide import file_list
-from thermodata.view.floats import floats
+from thermodata.view.grid.floats import floats
 
 if TYPE_CHECKING:
     import duckdb

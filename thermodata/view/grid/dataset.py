@@ -1,6 +1,6 @@
 """The data that models are fitted to: every test of a model on one uniform grid, masks beside the values.
 
-Plain frozen values: what makes them (from a store) is `view.load`, what uses them is `modelling` and `diagnosis`.
+Plain frozen values: what makes them (from a store) is `view.grid.load`, what uses them is `modelling` and `diagnosis`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from thermodata.plugin import Bool1D, Float1D
-from thermodata.view.recorded import Recorded
+from thermodata.view.grid.recorded import Recorded
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,11 +21,11 @@ import numpy as np
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.units.quantity import MEASURED
-from thermodata.view.bins import Binned, Series, bin_tests
-from thermodata.view.dataset import ChannelInfo, Dataset, TestData
-from thermodata.view.describe import channel_infos, describe_tests
-from thermodata.view.fill import bridge, hold, on_grid, reach_bins
-from thermodata.view.recorded import Recorded, recorded_channels
+from thermodata.view.grid.bins import Binned, Series, bin_tests
+from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
+from thermodata.view.grid.describe import channel_infos, describe_tests
+from thermodata.view.grid.fill import bridge, hold, on_grid, reach_bins
+from thermodata.view.grid.recorded import Recorded, recorded_channels
 
 if TYPE_CHECKING:
     from thermodata.store import Store

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 from thermodata.errors import StoreError, UsageError, unknown_name
 from thermodata.store import Store
 from thermodata.store.base.connection import damaged_data, literal
-from thermodata.view.reserved import reserved_hint
-from thermodata.view.rows import Rows
-from thermodata.view.statements import check_statement
-from thermodata.view.units import Known, column_units, known_units
+from thermodata.view.query.reserved import reserved_hint
+from thermodata.view.query.rows import Rows
+from thermodata.view.query.statements import check_statement
+from thermodata.view.query.units import Known, column_units, known_units
 
 if TYPE_CHECKING:
     import duckdb
 
-    from thermodata.view.dataset import Dataset
+    from thermodata.view.grid.dataset import Dataset
 
 
 class FlaggedValuesWarning(UserWarning):
@@ -96,7 +96,7 @@ class StoreView:
     def verify(self, query: str) -> str | None:
         """Looks at the checksums of the files that a query reads; see `verify.verify_pages`. A sentence where not all
         were looked at."""
-        from thermodata.view.verify import verify_pages
+        from thermodata.view.query.verify import verify_pages
 
         con = self.store.connect()
         statements = con.extract_statements(query)
@@ -106,7 +106,7 @@ class StoreView:
 
     def values_that_do_not_count(self, query: str, columns: Collection[str]) -> str | None:
         """See `not_counting`: a sentence where a query takes flagged values and asks for no flag."""
-        from thermodata.view.not_counting import values_that_do_not_count
+        from thermodata.view.query.not_counting import values_that_do_not_count
 
         return values_that_do_not_count(self.store.connect(), query, columns)
 
@@ -168,8 +168,8 @@ class StoreView:
     def dataset(
         self, campaigns: str | Sequence[str], step_s: float = 30.0, channels: Collection[str] | None = None
     ) -> Dataset:
-        """All tests of the campaigns on one grid; see `view.load.load_dataset`."""
-        from thermodata.view.load import load_dataset
+        """All tests of the campaigns on one grid; see `view.grid.load.load_dataset`."""
+        from thermodata.view.grid.load import load_dataset
 
         return load_dataset(self.store, campaigns, step_s, channels)
 

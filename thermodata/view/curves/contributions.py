@@ -17,8 +17,8 @@ import numpy as np
 from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
-from thermodata.view.predictions import Prediction, predictions
-from thermodata.view.residuals import Key, predicted_tests
+from thermodata.view.curves.predictions import Prediction, predictions
+from thermodata.view.curves.residuals import Key, predicted_tests
 
 if TYPE_CHECKING:
     from thermodata.store import Store

@@ -12,8 +12,8 @@ from thermodata.schema.files.campaign import Measuring
 from thermodata.store.catalogue.conditions import plain_value
 from thermodata.store.tidy.values.finer_steps import resolution_in
 from thermodata.store.views.catalogue import SCHEDULE
-from thermodata.view.dataset import ChannelInfo
-from thermodata.view.flagged import flagged_channels
+from thermodata.view.grid.dataset import ChannelInfo
+from thermodata.view.grid.flagged import flagged_channels
 
 if TYPE_CHECKING:
     import duckdb

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from thermodata.view.dataset import TestData
+from thermodata.view.grid.dataset import TestData
 
 
 def shared_samples(

@@ -14,7 +14,7 @@ from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
 from thermodata.store.views.grid import bin_index, bin_value, held_sums
 from thermodata.store.views.wide import file_list
-from thermodata.view.floats import floats
+from thermodata.view.grid.floats import floats
 
 if TYPE_CHECKING:
     import duckdb

@@ -11,8 +11,8 @@ import numpy as np
 from thermodata.errors import unknown_name
 from thermodata.plugin import Float1D
 from thermodata.store.base.connection import quoted
-from thermodata.view.floats import floats
-from thermodata.view.predictions import Prediction, predictions
+from thermodata.view.curves.predictions import Prediction, predictions
+from thermodata.view.grid.floats import floats
 
 if TYPE_CHECKING:
     from thermodata.store import Store

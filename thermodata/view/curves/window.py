@@ -16,7 +16,7 @@ from thermodata.plugin import Float1D
 from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import damaged_file, fetch, quoted
 from thermodata.store.views.wide import file_list
-from thermodata.view.floats import floats
+from thermodata.view.grid.floats import floats
 
 if TYPE_CHECKING:
     import duckdb
