@@ -157,7 +157,7 @@ def test_errors_become_lines_and_codes(
     def fail(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("thermodata.cli.plugins.installed", fail)
+    monkeypatch.setattr("thermodata.cli.keep.plugins.installed", fail)
     said = say("plugins")
     assert (said.code, said.out, said.err.lstrip("\n")) == (code, "", text)  # click ends the line of ^C
 
@@ -166,7 +166,7 @@ def test_a_defect_says_so_and_keeps_the_traceback_for_debugging(say: Say, monkey
     def fail() -> None:
         raise KeyError("x")
 
-    monkeypatch.setattr("thermodata.cli.plugins.installed", fail)
+    monkeypatch.setattr("thermodata.cli.keep.plugins.installed", fail)
     said = say("plugins")
     assert said.code == 1
     assert said.err.startswith("error: a defect in thermodata: KeyError: 'x'")

@@ -11,7 +11,7 @@ import pytest
 
 import thermodata.diagnosis.run
 import thermodata.virtual
-from thermodata.cli.demo import prepare, summary_text
+from thermodata.cli.start.demo import prepare, summary_text
 from thermodata.errors import UsageError
 from thermodata.schema.answers.diagnosis import Diagnosis
 

@@ -168,7 +168,7 @@ def test_preview_reads_a_file_as_its_campaign_declares_it(say: Say, tmp_path: Pa
 
 
 def test_preview_of_a_part_says_so(tmp_path: Path) -> None:
-    from thermodata.cli.preview import preview_text, previewed
+    from thermodata.cli.start.preview_text import preview_text, previewed
 
     shown = previewed(csv(tmp_path / "a.csv"), None, None, 2, None)
     assert "all 200 rows" in preview_text(shown)
@@ -179,7 +179,7 @@ def test_preview_of_a_part_says_so(tmp_path: Path) -> None:
 def test_preview_looks_closely_at_a_share_of_very_many_signals_and_says_so(tmp_path: Path) -> None:
     from nptdms import ChannelObject, TdmsWriter
 
-    from thermodata.cli.preview import previewed
+    from thermodata.cli.start.preview_text import previewed
 
     wave = {"wf_start_time": np.datetime64("2026-03-02T06:00:00", "us"), "wf_increment": 1.0, "unit_string": "degC"}
     t = 20.0 + np.arange(3)

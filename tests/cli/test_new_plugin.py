@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.cli.new_plugin import checkout, with_member
+from thermodata.cli.keep.new_plugin import checkout, with_member
 from thermodata.errors import UsageError
 
 from .conftest import Said

@@ -12,7 +12,7 @@ import pyarrow.csv
 import pyarrow.parquet
 import pytest
 
-from thermodata.cli.common import known_failure
+from thermodata.cli.terminal.common import known_failure
 
 from .conftest import Said
 

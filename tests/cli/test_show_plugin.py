@@ -61,7 +61,7 @@ def _row(kind: str, error: str | None = None) -> dict[str, Any]:
 
 
 def test_one_that_does_not_load_is_shown_with_its_error(say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("thermodata.cli.plugins.installed", lambda: [_row("effect", "ImportError: no bar")])
+    monkeypatch.setattr("thermodata.cli.keep.plugins.installed", lambda: [_row("effect", "ImportError: no bar")])
     said = say("plugins", "show", "foo")
     assert said.code == 0
     assert "does not load: ImportError: no bar" in said.out
@@ -69,7 +69,7 @@ def test_one_that_does_not_load_is_shown_with_its_error(say: Say, monkeypatch: p
 
 def test_a_name_of_two_plugins_asks_which(say: Say, monkeypatch: pytest.MonkeyPatch) -> None:
     rows = [_row("effect", "broken"), _row("reader")]
-    monkeypatch.setattr("thermodata.cli.plugins.installed", lambda: rows)
+    monkeypatch.setattr("thermodata.cli.keep.plugins.installed", lambda: rows)
     said = say("plugins", "show", "foo")
     assert said.code == 2
     assert "effect-foo or reader-foo" in said.err

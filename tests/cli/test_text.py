@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thermodata.cli.besides import as_table
-from thermodata.cli.common import plain
-from thermodata.cli.json_text import json_text
-from thermodata.cli.layout import LAYOUTS, latex, markdown
+from thermodata.cli.model.besides import as_table
+from thermodata.cli.terminal.common import plain
+from thermodata.cli.terminal.json_text import json_text
+from thermodata.cli.terminal.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
 from thermodata.report.text.fit import check_text
 from thermodata.report.words.numbers import change, duration, number, typeset

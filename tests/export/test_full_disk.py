@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from thermodata.cli.common import known_failure
+from thermodata.cli.terminal.common import known_failure
 from thermodata.errors import ThermodataError
 from thermodata.export import export_test
 from thermodata.report.page.write import write_page

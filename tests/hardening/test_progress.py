@@ -98,7 +98,7 @@ def test_a_pipe_gets_nothing(campaign: Path) -> None:
 
 
 COUNTING = """
-from thermodata.cli.progress import counting_line
+from thermodata.cli.terminal.progress import counting_line
 from thermodata.store.base.counting import counted, watched
 with counting_line() as tell, watched(tell):
     print(sum(counted([1, 2, 3], "candidates")))

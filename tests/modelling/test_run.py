@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import yaml
 
-from thermodata.cli.query import sql_command
+from thermodata.cli.look.query import sql_command
 from thermodata.errors import UsageError
 from thermodata.modelling import run
 from thermodata.modelling.add import add, chosen_id

@@ -11,51 +11,57 @@ from importlib import import_module
 
 import click
 
-from thermodata.cli.common import known_failure
-from thermodata.cli.interrupting import noticing_interrupts
+from thermodata.cli.terminal.common import known_failure
+from thermodata.cli.terminal.interrupting import noticing_interrupts
 from thermodata.errors import INTERRUPTED, ThermodataError, unknown_name
 from thermodata.version import __version__
 
-# Section of the help -> command -> module. The order is the order of the work.
+# Section of the help -> command -> module in its room. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {
     "Start": {
-        "demo": "demo",
-        "init": "files",
-        "first-model": "files",
-        "sniff": "files",
-        "preview": "files",
-        "ingest": "ingest",
+        "demo": "start.demo",
+        "init": "start.files",
+        "first-model": "start.files",
+        "sniff": "start.files",
+        "preview": "start.files",
+        "ingest": "start.ingest",
     },
     "Look": {
-        "tests": "look",
-        "channels": "look",
-        "calibrations": "look",
-        "quality": "quality",
-        "trace": "look",
-        "sql": "query",
-        "export": "take",
-        "snapshot": "take",
+        "tests": "look.look",
+        "channels": "look.look",
+        "calibrations": "look.look",
+        "quality": "look.quality",
+        "trace": "look.look",
+        "sql": "look.query",
+        "export": "look.take",
+        "snapshot": "look.take",
     },
     "Model": {
-        "fit": "fitting",
-        "orders": "ordering",
-        "profiles": "profiling",
-        "compare": "fitting",
-        "add": "fitting",
-        "remove": "fitting",
-        "models": "models",
-        "history": "fitting",
-        "portability": "fitting",
-        "show": "show",
-        "predict": "predict",
-        "model": "control",
-        "diagnose": "diagnosing",
-        "confirm": "diagnosing",
-        "report": "reporting",
-        "workbench": "reporting",
+        "fit": "model.fitting",
+        "orders": "model.ordering",
+        "profiles": "model.profiling",
+        "compare": "model.fitting",
+        "add": "model.fitting",
+        "remove": "model.fitting",
+        "models": "model.models",
+        "history": "model.fitting",
+        "portability": "model.fitting",
+        "show": "model.show",
+        "predict": "model.predict",
+        "model": "model.control",
+        "diagnose": "model.diagnosing",
+        "confirm": "model.diagnosing",
+        "report": "model.reporting",
+        "workbench": "model.reporting",
     },
-    "Check": {"simulate": "simulating", "benchmark-diagnosis": "simulating"},
-    "Keep": {"plugins": "plugins", "schema": "schema", "check": "remove", "forget": "remove", "gc": "remove"},
+    "Check": {"simulate": "start.simulating", "benchmark-diagnosis": "start.simulating"},
+    "Keep": {
+        "plugins": "keep.plugins",
+        "schema": "keep.schema",
+        "check": "keep.remove",
+        "forget": "keep.remove",
+        "gc": "keep.remove",
+    },
 }
 COMMANDS: dict[str, str] = {name: module for part in SECTIONS.values() for name, module in part.items()}
 

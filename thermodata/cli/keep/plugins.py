@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command
 from thermodata.report.words.table import table
 
 
@@ -30,7 +30,7 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
         _new(session, name)
         return
     if action == "show":
-        from thermodata.cli.show_plugin import show
+        from thermodata.cli.keep.show_plugin import show
 
         show(session, name, installed())
         return
@@ -52,7 +52,7 @@ def plugins_command(session: Session, action: str | None, name: str | None) -> N
 
 
 def _new(session: Session, name: str | None) -> None:
-    from thermodata.cli.new_plugin import write_plugin
+    from thermodata.cli.keep.new_plugin import write_plugin
 
     made = write_plugin(name, Path.cwd())
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from thermodata.cli.common import Session, command
-from thermodata.cli.look import campaign_option
+from thermodata.cli.look.look import campaign_option
+from thermodata.cli.terminal.common import Session, command
 from thermodata.errors import unknown_name
 from thermodata.report.words.table import table
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.common import Session, plain
+from thermodata.cli.terminal.common import Session, plain
 
 if TYPE_CHECKING:
     from thermodata.store import Store

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.report.words.table import fields
 
 
@@ -46,7 +46,7 @@ def check_command(session: Session, repair: bool) -> int:
 
     Reads every file with its checksums. Exit code 4 says that one is gone, cut or altered.
     """
-    from thermodata.cli.tracing import check_text
+    from thermodata.cli.look.tracing_text import check_text
     from thermodata.store.keep.check import check_store
 
     found = plain(check_store(session.store(), repair=repair).to_json())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from thermodata.cli.common import Session, command
+from thermodata.cli.terminal.common import Session, command
 from thermodata.errors import ThermodataError, unknown_name
 
 

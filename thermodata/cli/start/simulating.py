@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.words.table import fields, table
 
@@ -40,7 +40,7 @@ def simulate_command(
 
     Raw logs, campaign file, model file, and the truth.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.store.base.counting import watched
 
     if machine == "gantry" and stratum:
@@ -137,7 +137,7 @@ def _lathe(
     out: Path | None,
     picture: Path | None,
 ) -> None:
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.report.page.write import write_page
     from thermodata.virtual.blind.diagram import diagram
     from thermodata.virtual.blind.goals import overall
@@ -200,7 +200,7 @@ def _lathe_text(summary: list[Any], goals: list[Any], stated: list[Any], which: 
 
 
 def _gantry(session: Session, hide: tuple[str, ...], seeds: int, first_seed: int, logged: bool) -> None:
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.virtual import HIDEABLE
     from thermodata.virtual.benchmark import benchmark
 

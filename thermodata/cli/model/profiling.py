@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.common import Session, command
-from thermodata.cli.stored_model import resolve
+from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.stored_model import resolve
 from thermodata.report.words.numbers import number
 from thermodata.report.words.table import table
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, in_units_of, plain
-from thermodata.cli.stored_model import resolve, with_stale
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, in_units_of, plain
+from thermodata.cli.terminal.stored_model import resolve, with_stale
 from thermodata.errors import UsageError
 from thermodata.report.text.fit import (
     before_after_text,
@@ -34,7 +34,7 @@ def fit_command(session: Session, model: str) -> None:
 
     MODEL is a model file, or a fitted model that is fitted again after its data changed.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.modelling.named import fit_named
     from thermodata.store.base.counting import watched
 
@@ -99,13 +99,13 @@ def compare_command(
     if against is not None and test_shown is not None:
         raise UsageError("--against and --contributions print two tables", hint="ask for one of them")
     if test_shown is not None:
-        from thermodata.cli.besides import answer_contributions
+        from thermodata.cli.model.besides import answer_contributions
 
         store = session.store()
         answer_contributions(session, store, named(store), test_shown)
         return
     if against is not None:
-        from thermodata.cli.besides import answer_against
+        from thermodata.cli.model.besides import answer_against
 
         store = session.store()
         answer_against(session, store, named(store), resolve(store, against), layout, tests)
@@ -167,7 +167,7 @@ def add_command(session: Session, model: str, candidate: tuple[str, ...], plain:
     of a machine answers heat by a quick share and a slow one.
     Prints the errors before and after.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.modelling.add import add
     from thermodata.store.base.counting import watched
     from thermodata.view.lists.response_units import response_units
@@ -202,7 +202,7 @@ def remove_command(session: Session, model: str, effect: str) -> None:
     EFFECT is its id in the model, as fit printed it, or its name where that is one effect only. Its second lag goes
     with it. Prints the errors before and after; the version before stays.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.modelling.remove import remove
     from thermodata.store.base.counting import watched
 

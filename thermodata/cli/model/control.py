@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command
-from thermodata.cli.stored_model import resolve
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.words.table import fields
 

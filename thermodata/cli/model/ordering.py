@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.report.words.table import table
 
 
@@ -20,7 +20,7 @@ def orders_command(session: Session, model: str, method: str | None) -> None:
     Each by its free-run FIT on tests left out in turn (parts of the test, where there is one only), which the choice
     goes by, and on those that were fitted, which it never does. Nothing is saved.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.modelling.run import orders
     from thermodata.schema.files.load import load_model
     from thermodata.store.base.counting import watched

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.report.words.causes import said_at_ingest
 from thermodata.report.words.table import fields, table
 from thermodata.schema.words.sentences import with_count
@@ -24,7 +24,7 @@ def ingest_command(session: Session, campaign: Path) -> int:
     Safe to repeat: files that did not change are not read again, and after an edit of the campaign file only
     what depends on the edit is made anew. Exit code 3 says that a part of a file could not be read.
     """
-    from thermodata.cli.progress import progress_line
+    from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.writing.baseline import model_text_of
     from thermodata.report.text.after_ingest import next_step
     from thermodata.schema.files.load import load_campaign

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 import click
 
-from thermodata.cli.json_text import json_text
-from thermodata.cli.json_text import plain as plain
+from thermodata.cli.terminal.json_text import json_text
+from thermodata.cli.terminal.json_text import plain as plain
 from thermodata.errors import StoreError, ThermodataError, UsageError
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.words.table import fields
 

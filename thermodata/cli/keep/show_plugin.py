@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from thermodata.cli.common import Session
+from thermodata.cli.terminal.common import Session
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.words.table import table
 
@@ -28,7 +28,7 @@ WIDEST = 200
 
 
 def show(session: Session, name: str | None, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Answer with one plugin. rows: what is installed (`cli.plugins.installed`). UsageError names the nearest name."""
+    """Answer with one plugin. rows: what is installed (`plugins.installed`). UsageError names the nearest name."""
     row = _chosen(name, rows)
     answer: dict[str, Any] = {**row, "formats": None, **dict.fromkeys(_OF_EFFECTS), "text": None}
     if row["error"] is None:

@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
-from thermodata.cli.common import Session, command
-from thermodata.cli.look import campaign_option, rows_of
+from thermodata.cli.look.look import campaign_option, rows_of
+from thermodata.cli.terminal.common import Session, command
 from thermodata.report.words.numbers import duration
 from thermodata.report.words.table import table
 

@@ -7,9 +7,9 @@ from typing import Any, get_args
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, plain
-from thermodata.cli.ingest import calibrations_text
+from thermodata.cli.start.ingest import calibrations_text
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.collected.records import records, written_conditions
 from thermodata.report.words.numbers import duration
@@ -159,7 +159,7 @@ def trace_command(
     Of a TEST or of one CHANNEL: raw files with their SHA-256 and their earlier versions, reader, scaling,
     calibration, sign; with --at the row in the file. Of a MODEL: its data and the versions behind it.
     """
-    from thermodata.cli.tracing import trace_text
+    from thermodata.cli.look.tracing_text import trace_text
     from thermodata.store.trace.lineage import trace
     from thermodata.store.trace.moment import seconds_at
 

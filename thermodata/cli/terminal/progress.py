@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from thermodata.cli.interrupting import heed
+from thermodata.cli.terminal.interrupting import heed
 from thermodata.store.base.counting import Tell
 from thermodata.store.ingest.progress import Progress
 

@@ -12,8 +12,8 @@ from typing import Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
-from thermodata.cli.interrupting import interruptible
+from thermodata.cli.terminal.common import Session, command, plain
+from thermodata.cli.terminal.interrupting import interruptible
 from thermodata.errors import UsageError
 from thermodata.report.words.table import table
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command, in_units_of
-from thermodata.cli.stored_model import resolve, with_stale
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command, in_units_of
+from thermodata.cli.terminal.stored_model import resolve, with_stale
 from thermodata.report.text.diagnosis import confirmed_text, diagnosis_text
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ def diagnose_command(session: Session, model: str | None, top: int, response: st
     counted. Of the model fitted last where none is named. Of a model with several responses one is asked, that of which
     the largest share is left, or --response; whose ranks the last answer has, add and confirm take.
     """
-    from thermodata.cli.progress import counting_line
+    from thermodata.cli.terminal.progress import counting_line
     from thermodata.diagnosis.run import diagnose, kept_diagnosis
 
     store = session.store()

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command
-from thermodata.cli.stored_model import resolve
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.stored_model import resolve
 
 if TYPE_CHECKING:
     from thermodata.web.desk import Desk

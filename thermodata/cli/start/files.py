@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.words.table import table
 from thermodata.schema.words.sentences import with_count
@@ -246,7 +246,7 @@ def preview_command(
     Its clock and time zone, signals with units and their course, rate, gaps, losses, flags, and first rows. Stores
     nothing; of a large file it reads a part, and says so.
     """
-    from thermodata.cli.preview import preview_text, previewed
+    from thermodata.cli.start.preview_text import preview_text, previewed
 
     found = previewed(file, name, timezone, rows, campaign)
     session.answer(found, lambda: preview_text(plain(found)))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from thermodata.cli.common import Session, in_units_of, plain
-from thermodata.cli.layout import LAYOUTS
+from thermodata.cli.terminal.common import Session, in_units_of, plain
+from thermodata.cli.terminal.layout import LAYOUTS
 from thermodata.report.words.glossary import LEVEL
 
 if TYPE_CHECKING:

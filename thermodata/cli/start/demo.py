@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli.common import Session, command, plain
+from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
 from thermodata.report.verdict.verdict import claims_of, refinements_of, verdict_sentence
 from thermodata.report.words.numbers import change, duration, number, pooled

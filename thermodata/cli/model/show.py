@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command
-from thermodata.cli.stored_model import resolve
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.words.numbers import MOST_NAMED, duration, number, probability_text
 from thermodata.report.words.table import table
@@ -75,7 +75,7 @@ def show_command(session: Session, model: str, effects: tuple[str, ...], png: Pa
 
 def _as_stored(session: Session, stored: StoredModel, lacking: Sequence[str]) -> None:
     """What the fit stored of a model that can't be run here; it has no system to show."""
-    from thermodata.cli.common import plain
+    from thermodata.cli.terminal.common import plain
     from thermodata.modelling.model_file.not_installed import as_stored
     from thermodata.report.text.fit import fit_text
     from thermodata.store.catalogue.stale import stale_line

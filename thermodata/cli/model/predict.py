@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from thermodata.cli import completing
-from thermodata.cli.common import Session, command
-from thermodata.cli.stored_model import resolve
+from thermodata.cli.terminal import completing
+from thermodata.cli.terminal.common import Session, command
+from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
@@ -62,7 +62,7 @@ def predict_command(
     (speeds, powers, switches) counts as at rest before the first sample.
     Exit code 3 says that tests were left out.
     """
-    from thermodata.cli.progress import progress_line
+    from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.predictions.beyond import beyond
