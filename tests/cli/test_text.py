@@ -17,8 +17,8 @@ from thermodata.cli.terminal.json_text import json_text
 from thermodata.cli.terminal.layout import LAYOUTS, latex, markdown
 from thermodata.modelling.compare.beside import Beside
 from thermodata.report.text.fit import check_text
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import change, duration, number, typeset
-from thermodata.report.words.table import table
 from thermodata.schema.answers.result import Check
 
 

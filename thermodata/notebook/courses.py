@@ -13,8 +13,8 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D
 from thermodata.report.charts.figures import TIME
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
-from thermodata.report.words.table import table
 from thermodata.view.query.rows import with_units
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from thermodata.report.words.table import Column
+from thermodata.report.text.table import Column
 
 
 def in_own_units(

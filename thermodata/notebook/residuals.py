@@ -12,7 +12,7 @@ from thermodata.notebook.figure import Plot
 from thermodata.notebook.shown import Shown, html_table
 from thermodata.plugin import Float1D
 from thermodata.report.charts.system import system_charts
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 
 class ResidualTests(Shown):

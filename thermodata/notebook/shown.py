@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from thermodata.report.text.table import Column, cell, table
 from thermodata.report.words.numbers import typeset
-from thermodata.report.words.table import Column, cell, table
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -9,7 +9,7 @@ import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 
 @command("plugins")

@@ -6,7 +6,7 @@ import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, plain
-from thermodata.report.words.table import fields
+from thermodata.report.text.table import fields
 
 
 @command("forget")

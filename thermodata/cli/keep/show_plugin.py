@@ -8,7 +8,7 @@ from typing import Any
 
 from thermodata.cli.terminal.common import Session
 from thermodata.errors import UsageError, unknown_name
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 # an effect's own account; null for a reader
 _OF_EFFECTS = (

@@ -12,8 +12,8 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError, unknown_name
 from thermodata.report.collected.records import records, written_conditions
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
-from thermodata.report.words.table import table
 from thermodata.view.lists.overview import Asked, find_tests
 
 campaign_option = click.option("--campaign", "-c", help="Only this campaign.", shell_complete=completing.campaigns)

@@ -10,8 +10,8 @@ import click
 
 from thermodata.cli.look.look import campaign_option, rows_of
 from thermodata.cli.terminal.common import Session, command
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import duration
-from thermodata.report.words.table import table
 
 
 @command("quality")

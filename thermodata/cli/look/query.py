@@ -15,7 +15,7 @@ import click
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.cli.terminal.interrupting import interruptible
 from thermodata.errors import UsageError
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 _CHUNK = 10_000
 

@@ -9,7 +9,7 @@ import click
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
-from thermodata.report.words.table import fields
+from thermodata.report.text.table import fields
 
 
 @command("snapshot")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from thermodata.report.words.table import cell, fields, table
+from thermodata.report.text.table import cell, fields, table
 
 Found = dict[str, Any]
 

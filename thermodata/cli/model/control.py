@@ -10,7 +10,7 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
-from thermodata.report.words.table import fields
+from thermodata.report.text.table import fields
 
 _TARGETS = ("st", "scl", "c", "python", "json", "mat")
 

@@ -20,7 +20,7 @@ from thermodata.report.text.fit import (
     made_worse,
     spots_text,
 )
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from thermodata.cli.look.look import campaign_option
 from thermodata.cli.terminal.common import Session, command
 from thermodata.errors import unknown_name
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 
 if TYPE_CHECKING:
     from thermodata.view.lists.models import ModelRow

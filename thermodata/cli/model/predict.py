@@ -14,9 +14,9 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
+from thermodata.report.text.table import table
 from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
-from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.beyond import Beyond

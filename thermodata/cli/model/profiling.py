@@ -8,8 +8,8 @@ import click
 
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import number
-from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from thermodata.modelling.seen.profiles import Curve, Profiles

@@ -12,8 +12,8 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
+from thermodata.report.text.table import table
 from thermodata.report.words.numbers import MOST_NAMED, duration, number, probability_text
-from thermodata.report.words.table import table
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ import click
 
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
+from thermodata.report.text.table import fields
 from thermodata.report.verdict.verdict import claims_of, refinements_of, verdict_sentence
 from thermodata.report.words.numbers import change, duration, number, pooled
-from thermodata.report.words.table import fields
 from thermodata.schema.words.sentences import counted, listed
 
 if TYPE_CHECKING:

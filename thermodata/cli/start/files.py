@@ -11,7 +11,7 @@ import click
 
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError
-from thermodata.report.words.table import table
+from thermodata.report.text.table import table
 from thermodata.schema.words.sentences import with_count
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from thermodata.cli.terminal.common import Session, command, plain
+from thermodata.report.text.table import fields, table
 from thermodata.report.words.causes import said_at_ingest
-from thermodata.report.words.table import fields, table
 from thermodata.schema.words.sentences import with_count
 
 _NAMED = 4

@@ -8,7 +8,7 @@ from typing import Any
 from thermodata.draft.look import Meant, Watch, campaign_of, flagged, meaning_of
 from thermodata.errors import UsageError
 from thermodata.plugin import Reader, Signal, Source
-from thermodata.report.words.table import fields, table
+from thermodata.report.text.table import fields, table
 
 
 def previewed(file: Path, name: str | None, timezone: str | None, rows: int, campaign: Path | None) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import click
 
 from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.errors import UsageError, unknown_name
-from thermodata.report.words.table import fields, table
+from thermodata.report.text.table import fields, table
 
 MACHINES = ("gantry", "lathe")
 

@@ -7,7 +7,7 @@ import io
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from thermodata.report.words.table import Column, cell, table
+from thermodata.report.text.table import Column, cell, table
 
 _LATEX = {
     "\\": r"\textbackslash{}",

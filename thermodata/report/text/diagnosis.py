@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from thermodata.report.text.fit import spots_text
+from thermodata.report.text.table import table
 from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.could_hide import could_hide
 from thermodata.report.verdict.left_over import noise_words
@@ -13,7 +14,6 @@ from thermodata.report.verdict.verdict import explainable, in_parts, probability
 from thermodata.report.words.glossary import PARTS, explained
 from thermodata.report.words.numbers import duration, heat_lines, number
 from thermodata.report.words.of_response import of_response
-from thermodata.report.words.table import table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

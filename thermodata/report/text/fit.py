@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 from thermodata.modelling.compare.common import on_common
 from thermodata.modelling.versions.made_without import MADE_WITHOUT
 from thermodata.report.collected.lost import lost_of_chain, lost_sentence, results_gone_of_chain
+from thermodata.report.text.table import table
 from thermodata.report.words.glossary import IN_SAMPLE, LEVEL, explained
 from thermodata.report.words.numbers import base_role, change, duration, number, pooled, tests_of_role
-from thermodata.report.words.table import table
 from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
