@@ -20,7 +20,7 @@ from thermodata.diagnosis.locked.unlocking import Look, unlocked
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.question.responses import response_index, shares_left
 from thermodata.diagnosis.sensors.loose import loose_sensors
-from thermodata.diagnosis.sound import sound, told
+from thermodata.diagnosis.sound import beside_slips, sound, told
 from thermodata.diagnosis.steps.artefact import noise_with_treads
 from thermodata.diagnosis.tell import ladder
 from thermodata.diagnosis.tell.advice import advice
@@ -105,6 +105,7 @@ def _answer(
     usable = [t for t in tests if response.can_predict(t)]
     asked_of = sound(fitted, index, data, usable, library, ends)
     refitted, data, usable = asked_of.fitted, asked_of.data, list(asked_of.tests)
+    beside = beside_slips(asked_of, index)
     same = copies(fitted.tests(data, "locked"), tests, response.name)
     again = {one.key for one, _ in same}
     locked = [t for t in fitted.tests(data, "locked") if response.can_predict(t) and t.key not in again]
@@ -114,7 +115,7 @@ def _answer(
         locked: Sequence[TestData], faults: Sequence[Artefact], refused: frozenset[str] = frozenset()
     ) -> Investigation:
         return investigate(
-            refitted.responses[index],
+            beside.fitted.responses[index],
             data,
             usable,
             library,
@@ -125,8 +126,8 @@ def _answer(
             others=None if refused else OtherAxes(asked_of.spec, response.name, data, library),
             known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *loose, *faults),
             refused=refused,
-            fine=asked_of.fine,
-            means=asked_of.means,
+            fine=beside.fine,
+            means=beside.means,
         )
 
     def fits_of(locked: Sequence[TestData]) -> Fits:
@@ -165,7 +166,7 @@ def _answer(
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)
     left_out = [*asked_of.put_right.left_out, *opened.turned]
-    beside = {
+    further = {
         "named_rmse_um": None if version is None else float(np.sqrt(np.mean(version))),
         "modelled_rmse_um": None if stands is None else stands.left,
         "locked_rmse_um": known,
@@ -177,7 +178,7 @@ def _answer(
         ],
         "by_choice": name is not None,
     }
-    return Answer(found.model_copy(update=beside), opened.looks)
+    return Answer(found.model_copy(update=further), opened.looks)
 
 
 def _asked(claims: Sequence[Judged]) -> frozenset[tuple[str, str]] | None:

@@ -22,6 +22,9 @@ from thermodata.diagnosis.question.compressed import compressed
 from thermodata.diagnosis.question.once import as_artefacts, each_once
 from thermodata.diagnosis.question.problem import TARGET_ROWS, Problem
 from thermodata.diagnosis.sensors.turned import turned_probes
+from thermodata.diagnosis.steps import repeating
+from thermodata.diagnosis.steps.artefact import find_steps
+from thermodata.diagnosis.steps.fitted_beside import fitted_beside
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -44,6 +47,19 @@ class Sound:
     put_right: PutRight = field(default_factory=PutRight)
     fine: Problem | None = None
     means: Means = field(default_factory=dict, repr=False)
+
+
+def beside_slips(found: Sound, index: int) -> Sound:
+    """With the response's effects as they are beside its slips, for what is asked of it. What a fit or `add` makes of
+    the model is not changed by that: it has the slips until somebody declares them."""
+    if not found.tests:
+        return found
+    response = found.fitted.responses[index]
+    fine = found.fine or compressed(response, found.data, found.tests, TARGET_ROWS)
+    steps = repeating.single(find_steps(fine))
+    if not steps:
+        return replace(found, fine=fine)
+    return replace(found, fitted=fitted_beside(steps, found.fitted, found.spec, index, found.data), fine=None)
 
 
 def told(put_right: PutRight) -> PutRight | None:
