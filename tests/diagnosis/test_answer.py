@@ -10,11 +10,13 @@ import pytest
 import yaml
 
 from thermodata.diagnosis.answer import answer
+from thermodata.diagnosis.sound import beside_slips, sound
 from thermodata.diagnosis.tell.as_stored import by_its_own_parameters
 from thermodata.effect import effects
 from thermodata.effect.lag import lag
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.run import Loaded
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.as_kept import as_kept
 from thermodata.modelling.versions.result import make_result
 from thermodata.report.collected.spots import weak_spots_of
@@ -225,6 +227,30 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     assert gain.value == pytest.approx(2.0, abs=0.1)
     # no other test says how large a slip of this one was: its level is free after it, as where the step was found
     assert again.named_rmse_um == pytest.approx(found.named_rmse_um, rel=0.1)
+
+
+def test_what_is_asked_of_has_its_effects_as_they_are_beside_a_slip(spec: Model) -> None:
+    """A probe that is knocked by more than the effects do bends them all in the fit of the model, as `add` makes it."""
+
+    def knocked(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
+        return -40.0 * (t >= 90 * STEP_S)
+
+    data = make_data()
+    tests = list(data.tests)
+    tests[2] = make_data(knocked).tests[2]
+    broken = replace(data, tests=tuple(tests))
+    plain, whole = (fit_model(spec, some, uncertainty=False) for some in (broken, data))
+    found = sound(plain, 0, broken, broken.tests[:-1], effects())
+    asked = beside_slips(found, 0)
+
+    def gain(of: FittedModel) -> float:
+        return of.term("spindle_bearing").gains["gain"]
+
+    assert abs(gain(found.fitted) / gain(whole) - 1) > 0.1, "the slip bends the fit"
+    assert gain(asked.fitted) == pytest.approx(gain(whole), rel=0.03)
+    assert [t.id for t in asked.fitted.responses[0].terms] == ["spindle_bearing"]
+    level = asked.fitted.responses[0].residual(tests[2])
+    assert np.nanmedian(level[-20:]) - np.nanmedian(level[:20]) == pytest.approx(-40.0, abs=2.0), "the slip is left"
 
 
 def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(spec: Model) -> None:

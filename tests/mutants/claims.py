@@ -741,6 +741,13 @@ MUTANTS = [
     ),
     Mutant(
         "thermodata/diagnosis/sound.py",
+        "    if not steps:\n",
+        "    if steps or not steps:\n",
+        "a slip bends the effects that are asked of",
+        ("tests/diagnosis/test_answer.py",),
+    ),
+    Mutant(
+        "thermodata/diagnosis/sound.py",
         "(t.campaign, t.test) not in wrong",
         "True",
         "a turned test takes part in the choice",

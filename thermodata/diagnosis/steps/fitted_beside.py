@@ -10,7 +10,7 @@ from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.dataset import Dataset
+from thermodata.view.grid.dataset import Dataset
 
 
 def fitted_beside(steps: Sequence[Step], fitted: FittedModel, spec: Model, index: int, data: Dataset) -> FittedModel:
