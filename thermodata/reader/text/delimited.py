@@ -218,6 +218,7 @@ def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
         if reader.stopped:
             break
     yield from reader.losses.rest()
+    yield from reader.sixty.told(table.name)
 
 
 def _without_header(chunk: Chunk, first: int) -> Chunk:
