@@ -285,3 +285,30 @@ def test_sheets_have_names_that_differ_whatever_streams_are_called() -> None:
     assert len({n.casefold() for n in names}) == len(names)
     assert all(0 < len(n) <= 31 for n in names)
     assert _sheet_names(["daq", "nc"]) == ["daq", "nc"]
+
+
+def test_parquet_says_that_its_times_are_utc_and_what_its_columns_are(view: StoreView, tmp_path: Path) -> None:
+    import pyarrow.parquet as pq
+
+    export_test(view, "c", "sp9000", tmp_path / "x.parquet", step="10 s")
+    schema = pq.read_schema(tmp_path / "x.parquet")
+    assert str(schema.field("t").type) == "timestamp[ns, tz=UTC]"
+    assert schema.field("T_front").metadata[b"unit"] == b"degC"
+
+
+def test_a_displacement_of_parquet_without_a_sign_is_asked_for_it(tmp_path: Path) -> None:
+    """As older exports have it: their columns say no sign, and it may be unknown."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    from thermodata.draft.make import draft_files
+
+    t = np.datetime64("2026-03-01T08:00:00", "ns") + np.arange(240) * np.timedelta64(30, "s")
+    columns = {"campaign": ["c"] * 240, "test": ["warm"] * 240, "t": t, "t_s": np.arange(240) * 30.0}
+    units = {b"thermodata.units": b'{"t_s": "s", "disp_X": "um"}'}
+    pq.write_table(
+        pa.table({**columns, "disp_X": np.arange(240) / 10}).replace_schema_metadata(units), tmp_path / "warm.parquet"
+    )
+    (channel,) = draft_files(tmp_path).draft.channels
+    assert channel.name == "disp_X"
+    assert not channel.as_exported
