@@ -10,7 +10,7 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.archives import packed, packed_by
+from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
 from thermodata.reader.finding.foreign_files import foreign_file
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
@@ -118,9 +118,9 @@ def _kind(start: Head) -> str:
     if not start.size_bytes:
         return "an empty file"
     if (inside := packed(start.start)) is not None:
-        return f"{_ARCHIVE} ({inside}, ...): unpack it first"
+        return f"{_ARCHIVE} ({inside}, ...): unpack it first: {how_to_unpack('ZIP', start.name)}"
     if (packer := packed_by(start.start)) is not None:
-        return f"{packer}: unpack it first"
+        return f"{packer}: unpack it first: {how_to_unpack(packer, start.name)}"
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what
