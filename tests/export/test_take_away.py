@@ -70,7 +70,7 @@ def test_a_grid_comes_back_equal(view: StoreView, tmp_path: Path, suffix: str) -
     grid = view.binned("c", "sp9000", "10 s").to_arrow_table()
     stream = data.recording.signals[0].stream
     assert done.rows == grid.num_rows
-    zero = np.datetime64(START, "ns").astype(np.int64) if suffix == "mf4" else 0
+    zero = np.datetime64(START, "ns").astype(np.int64)
     np.testing.assert_array_equal(data.t_ns[stream] - zero, np.rint(grid["t_s"].to_numpy() * 1e9).astype(np.int64))
     for name in ("T_front", "T_rear", "speed"):
         np.testing.assert_array_equal(data.values[stream, name], grid[name].to_numpy())
@@ -102,6 +102,8 @@ def test_matlab_finds_what_describes_the_test(view: StoreView, tmp_path: Path) -
     assert found["about"]["test"] == "sp9000"
     assert found["about"]["notes"] == "first of the day"
     assert found["about"]["start_utc"] == START + "Z"
+    assert found["time_epoch"] == START + "Z"
+    assert found["time"][0] == 0, "counts from time_epoch, in seconds"
     assert found["units"]["speed"] == "rpm"
     assert found["channels"]["T_front"]["at"] == "spindle.bearing.front"
     assert found["channels"]["T_front"]["notes"] == "glued čidlo"
@@ -219,6 +221,7 @@ def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, t
     ("file", "step"),
     [
         ("warm.csv", "30 s"),
+        ("warm.parquet", "30 s"),
         ("warm.xlsx", "30 s"),
         ("warm.xlsx", "logged"),
         ("warm.mat", "30 s"),
@@ -232,7 +235,7 @@ def test_an_own_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Pat
     lab, back = tmp_path / "lab", tmp_path / "back"
     lab.mkdir()
     back.mkdir()
-    t = np.datetime64("2026-03-01T08:00:00", "s") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
+    t = np.datetime64("2026-03-01T08:00:00.250", "ms") + np.arange(0, 7200, 10) * np.timedelta64(1, "s")
     rows = [f"{a},{22 + i / 100:.2f},{i / 50:.2f},{i / 40:.3f},{i // 200 % 2},{i}" for i, a in enumerate(t)]
     (lab / "warm.csv").write_text("time,T [degC],Z [um],X [um],Coolant on,Feed [mm/min]\n" + "\n".join(rows) + "\n")
     (lab / "campaign.yaml").write_text("""
@@ -266,12 +269,15 @@ tests: [{id: warm, kind: spindle, role: calibration}]
     assert "in mm/min" not in text
     again = Store(tmp_path / "again", create=True)
     ingest(again, back / "campaign.yaml")
-    own, other = (
-        StoreView(s).binned(c, "warm", "30 s").to_arrow_table()["disp_Z"].to_pylist()
-        for s, c in ((store, "c"), (again, "back"))
-    )
-    assert other == pytest.approx(own)
-    assert own[-1] < own[0] - 10, "turned to the machine's axis in the first store, and not again in the other"
+    views = [(StoreView(store), "c"), (StoreView(again), "back")]
+    own, other = (v.binned(c, "warm", "30 s").to_arrow_table() for v, c in views)
+    assert other["t"].to_pylist() == own["t"].to_pylist()
+    for name in ("T_front", "disp_Z", "disp_X", "coolant_on", "feed_Z"):
+        assert other[name].to_pylist() == pytest.approx(own[name].to_pylist()), name
+    turned = own["disp_Z"].to_pylist()
+    assert turned[-1] < turned[0] - 10, "turned to the machine's axis in the first store, and not again in the other"
+    said = "select channel, unit, sign from channel where axis is not null order by channel"
+    assert views[0][0].sql(said).fetchall() == views[1][0].sql(said).fetchall()
 
 
 def test_sheets_have_names_that_differ_whatever_streams_are_called() -> None:
@@ -279,3 +285,30 @@ def test_sheets_have_names_that_differ_whatever_streams_are_called() -> None:
     assert len({n.casefold() for n in names}) == len(names)
     assert all(0 < len(n) <= 31 for n in names)
     assert _sheet_names(["daq", "nc"]) == ["daq", "nc"]
+
+
+def test_parquet_says_that_its_times_are_utc_and_what_its_columns_are(view: StoreView, tmp_path: Path) -> None:
+    import pyarrow.parquet as pq
+
+    export_test(view, "c", "sp9000", tmp_path / "x.parquet", step="10 s")
+    schema = pq.read_schema(tmp_path / "x.parquet")
+    assert str(schema.field("t").type) == "timestamp[ns, tz=UTC]"
+    assert schema.field("T_front").metadata[b"unit"] == b"degC"
+
+
+def test_a_displacement_of_parquet_without_a_sign_is_asked_for_it(tmp_path: Path) -> None:
+    """As older exports have it: their columns say no sign, and it may be unknown."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    from thermodata.draft.make import draft_files
+
+    t = np.datetime64("2026-03-01T08:00:00", "ns") + np.arange(240) * np.timedelta64(30, "s")
+    columns = {"campaign": ["c"] * 240, "test": ["warm"] * 240, "t": t, "t_s": np.arange(240) * 30.0}
+    units = {b"thermodata.units": b'{"t_s": "s", "disp_X": "um"}'}
+    pq.write_table(
+        pa.table({**columns, "disp_X": np.arange(240) / 10}).replace_schema_metadata(units), tmp_path / "warm.parquet"
+    )
+    (channel,) = draft_files(tmp_path).draft.channels
+    assert channel.name == "disp_X"
+    assert not channel.as_exported

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
+from thermodata.reader.times.since import since
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, check_unit, to_ns, with_step
 from thermodata.reader.times.zone import NAT
 
@@ -53,3 +54,13 @@ def test_a_count_since_1970_may_leave_its_step_open(text: str | None, unit: str 
 def test_a_unit_that_is_none_of_time_is_refused() -> None:
     with pytest.raises(FormatError, match="unknown unit of time 'olle'"):
         check_unit("olle", "here")
+
+
+def test_a_date_that_times_count_from_has_a_fraction_of_a_second() -> None:
+    epoch = EPOCHS["s since 2026-03-01t08:00:00.123456789z"]
+    start = int(np.datetime64("2026-03-01T08:00:00.123456789", "ns").astype(np.int64))
+    assert not epoch.local
+    assert epoch.ns(np.array([0.0, 1.5, np.nan])).tolist() == [start, start + 1_500_000_000, NAT]
+    found = since("ms since 2026-03-01 08:00:00,25 UTC")
+    assert found is not None
+    assert found[1].unit("ms") == "ms since 2026-03-01t08:00:00.25z"

@@ -474,3 +474,47 @@ def test_looking_at_every_test_is_no_attempt(
     else:
         assert ingest(store, lab).tests == TESTS
     assert not left
+
+
+def test_a_clock_set_back_and_an_open_scale_are_told_of_tests_that_are_left_alone_too(tmp_path: Path) -> None:
+    def write(test: int, off_k: float = 0.0) -> None:
+        lines = ["Gain;1;0.05", "time;T [degC];Z [mm]"]
+        for k in range(200):
+            minute = 480 + k - 60 * (k >= 20)  # set back by an hour while it ran
+            lines.append(
+                f"2026-03-{test:02d} {minute // 60:02d}:{minute % 60:02d}:00;{20 + k / 100 + off_k};{100 + 3 * k}"
+            )
+        (tmp_path / f"t{test}_a.csv").write_text("\n".join([*lines, ""]))
+        other = [
+            f"2026-03-{test:02d} {(420 + k) // 60:02d}:{(420 + k) % 60:02d}:00;{1000 * (k > 50)}" for k in range(200)
+        ]
+        (tmp_path / f"t{test}_b.csv").write_text("\n".join(["time;n [rpm]", *other, ""]))
+
+    for test in (1, 2):
+        write(test)
+    campaign = tmp_path / "campaign.yaml"
+    campaign.write_text("""schema: thermodata/campaign/1
+id: c
+sources:
+  a: {reader: table, files: "{test}_a.csv", timezone: UTC, clock: {resets: allow}}
+  b: {reader: table, files: "{test}_b.csv", timezone: UTC}
+channels:
+  T_bed: {source: a, signal: T, quantity: temperature, unit: degC, at: bed}
+  pos_Z: {source: a, signal: Z, quantity: position, unit: mm, at: axis.z}
+  speed: {source: b, signal: n, quantity: rotational_speed, unit: rpm, at: spindle}
+tests: [{id: t1, kind: spindle, role: calibration}, {id: t2, kind: spindle, role: calibration}]
+""")
+    store = Store(tmp_path / "store", create=True)
+
+    def told() -> list[tuple[str | None, bool, bool]]:
+        losses = ingest(store, campaign).losses
+        return [
+            (x["test"], "was set back by" in x["reason"], "campaign file leaves open" in x["reason"]) for x in losses
+        ]
+
+    every = [(test, *kind) for test in ("t1", "t2") for kind in ((True, False), (False, True))]
+    assert told() == every
+    assert told() == every
+    write(2, off_k=1.0)
+    assert told() == every
+    assert told() == every

@@ -17,6 +17,7 @@ from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
 
 MOST_BYTES = (1 << 31) - (1 << 20)  # of all variables in a file of version 5
+TIME_EPOCH = "time_epoch"
 _NAME = 63  # characters of a name in MATLAB
 
 
@@ -32,6 +33,9 @@ def variables(content: Content) -> dict[str, Any]:
         # MATLAB: datetime(about.start_posix, 'ConvertFrom', 'posixtime', 'TimeZone', 'UTC')
         about["start_utc"] = _iso(content.start_ns)
         about["start_posix"] = content.start_ns / 1e9
+        # what `time` counts from: readers that know the word date it, and so does MATLAB:
+        # datetime(time_epoch, 'InputFormat', 'uuuu-MM-dd''T''HH:mm:ss.SSSSSSSSSX', 'TimeZone', 'UTC') + seconds(time)
+        found[TIME_EPOCH] = about["start_utc"]
     if content.conditions:
         about["conditions"] = {_safe(k): v for k, v in content.conditions.items()}
     about["flag_bits"] = flag_bits()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thermodata.errors import UsageError
 from thermodata.export.content import LOGGED, check_test, read_content
-from thermodata.schema.agreed.exported import TIME_UTC, UNSIGNED
+from thermodata.schema.agreed.exported import SIGN, TIME_UTC, UNSIGNED
 from thermodata.schema.words.sentences import listed
 from thermodata.store.base.files import whole_file
 
@@ -109,21 +110,41 @@ def _write_table(
 ) -> tuple[dict[str, int], list[str], dict[str, str]]:
     table: Any = view.binned(campaign, test, step=step).to_arrow_table()
     units = _units(view, campaign, test, table.column_names)
+    signs = _signs(view, campaign, test)
     if kind == "parquet":
         import pyarrow.parquet as pq
 
         note = {b"thermodata.units": json.dumps(units).encode(), b"thermodata.test": f"{campaign}/{test}".encode()}
-        pq.write_table(table.replace_schema_metadata({**(table.schema.metadata or {}), **note}), part)
+        table = _described(table, units, signs)
+        pq.write_table(table.replace_schema_metadata(note), part)
     else:
         import pyarrow.csv
 
         table = _with_utc(table)
-        bare = _unsigned(view, campaign, test)
+        bare = {c for c, sign in signs.items() if sign == "unknown"}
         names = [
             c + (UNSIGNED if c in bare else "") + (f" [{units[c]}]" if c in units else "") for c in table.column_names
         ]
         pyarrow.csv.write_csv(table.rename_columns(names), part)
     return {"grid": table.num_rows}, list(table.column_names), units
+
+
+def _described(table: Any, units: Mapping[str, str], signs: Mapping[str, str]) -> Any:
+    """The columns with their units and signs as metadata of each, and the times as what they are: in UTC. Without these
+    where no clock was absolute."""
+    import pyarrow as pa
+
+    times = table.column("t")
+    at = table.column_names.index("t")
+    if times.null_count == len(times):
+        table = table.remove_column(at)
+    else:
+        table = table.set_column(at, "t", times.cast(pa.timestamp("ns")).cast(pa.timestamp("ns", "UTC")))
+    fields = []
+    for field in table.schema:
+        said = {"unit": units.get(field.name), SIGN: signs.get(field.name)}
+        fields.append(field.with_metadata({k: v for k, v in said.items() if v} or None))
+    return table.cast(pa.schema(fields))
 
 
 def _with_utc(table: Any) -> Any:
@@ -141,14 +162,14 @@ def _with_utc(table: Any) -> Any:
     return table.set_column(at, TIME_UTC, pc.strftime(ns.cast(pa.timestamp(unit)), "%Y-%m-%dT%H:%M:%SZ"))
 
 
-def _unsigned(view: StoreView, campaign: str, test: str) -> set[str]:
-    """Displacements that nothing turned to the machine's axes: a file that leaves the store has to say it."""
+def _signs(view: StoreView, campaign: str, test: str) -> dict[str, str]:
+    """Of each displacement its sign: unknown where nothing turned it to the machine's axes, which a file that leaves
+    the store has to say."""
     found = view.sql(
-        "select channel from channel where campaign = ? and test = ? and quantity in ('displacement', 'tilt') "
-        "and sign = 'unknown'",
+        "select channel, sign from channel where campaign = ? and test = ? and quantity in ('displacement', 'tilt')",
         [campaign, test],
     ).fetchall()
-    return {str(channel) for (channel,) in found}
+    return {str(channel): str(sign or "unknown") for channel, sign in found}
 
 
 def _units(view: StoreView, campaign: str, test: str, columns: list[str]) -> dict[str, str]:

@@ -3,7 +3,7 @@ cells behind them, which tell the quality of others, and which the unit."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,6 +14,7 @@ from thermodata.reader.signals.header_words import UNIT_SHORT, UNIT_WORDS
 from thermodata.reader.signals.interleaved import bare_header, words_of
 from thermodata.reader.signals.row_units import UnitColumn
 from thermodata.reader.text.cells.status import declared_zero
+from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.unit_column import unit_column, unit_column_note
 from thermodata.reader.text.rows.changed_cells import KEY, Standing, declared_standing, find_standing
 from thermodata.reader.text.rows.quality_columns import (
@@ -140,8 +141,12 @@ def _declared(said: object, names: Sequence[str], beyond: Collection[str], where
     if not isinstance(said, list | tuple):
         return declared_standing(said, names, where)
 
-    def called(one: str, among: Iterable[str]) -> list[str]:
-        return [one] if one in among else [name for name in among if name.endswith(f"/{one}")]
+    def called(one: str, among: Collection[str]) -> list[str]:
+        if one in among:
+            return [one]
+        told = {one, f"column {one}"} if one.isdecimal() else {one}
+        own = {name: name.rpartition("/")[2] for name in among}
+        return [name for name, last in own.items() if last in told or by_name(one, [last]) is not None]
 
     unknown = [one for one in map(str, said) if not called(one, [*names, *beyond])]
     declared_standing(unknown, names, where)

@@ -107,3 +107,51 @@ def test_a_declared_time_of_other_texts_is_refused_in_words(tmp_path: Path) -> N
     with pytest.raises(Exception, match="time") as refused:
         times(path, Source(options={"time": "Timestamp"}))
     assert "ValueError" not in str(refused.value)
+
+
+GPS = (np.datetime64("2026-03-14T23:55:00") - np.datetime64("1980-01-06")).astype(float) + 18  # the week ends within
+COUNTS = GPS + 30.0 * np.arange(40)
+IN_UTC = [int(np.datetime64("2026-03-14T23:55:00", "ns").astype(np.int64)) + 30 * k * 10**9 for k in range(40)]
+
+
+@pytest.mark.parametrize(
+    ("week", "of_week", "scale", "roll"),
+    [("gps_week", "gps_seconds", 1, 0), ("GPS Week", "TOW [s]", 1, 0), ("week", "iTOW", 1000, 0), ("WN", "tow", 1, 2)],
+)
+def test_weeks_of_gps_and_the_times_in_them_are_asked_together(
+    tmp_path: Path, week: str, of_week: str, scale: int, roll: int
+) -> None:
+    weeks = np.floor(COUNTS / 604_800).astype(np.int32) - 1024 * roll
+    seconds = COUNTS % 604_800 * scale
+    path = written(tmp_path / "a.tdms", {week: weeks, of_week: seconds, "T": np.linspace(20, 25, 40)})
+    with pytest.raises(QuestionError) as asked:
+        times(path, Source())
+    assert "2026-03-14 23:55:00 UTC" in asked.value.ask
+    declared = Source(table=dict(asked.value.declare))
+    assert declared.table["time"]["column"] == [week, of_week]
+    assert ("+2048" in declared.table["time"]["format"]) == bool(roll)
+    assert times(path, declared) == IN_UTC
+    assert [s.name for s in described(Reader(), path, declared).signals] == ["Log/T"]
+
+
+def test_rows_whose_week_is_none_are_lost_and_told(tmp_path: Path) -> None:
+    weeks = np.floor(COUNTS / 604_800)
+    weeks[7] = np.nan
+    path = written(tmp_path / "a.tdms", {"gps_week": weeks, "tow": COUNTS % 604_800, "T": np.linspace(20, 25, 40)})
+    source = Source(table={"time": {"column": ["gps_week", "tow"], "format": "gps_week gps_s"}})
+    items = list(guarded(Reader(), path, source, described(Reader(), path, source)))
+    assert sum(b.t_ns.size for b in items if isinstance(b, Block)) == 39
+    assert ["1 row whose time channel" in x.reason for x in items if not isinstance(x, Block)] == [True]
+
+
+@pytest.mark.parametrize(("week", "of_week"), [("week", "seconds"), ("Kalenderwoche", "tow"), ("week", "tow_force")])
+def test_other_weeks_are_signals(tmp_path: Path, week: str, of_week: str) -> None:
+    path = written(tmp_path / "a.tdms", {week: np.full(40, 11.0), of_week: np.arange(40.0), "T": np.arange(40.0)})
+    assert {s.name for s in described(Reader(), path, Source()).signals} >= {f"Log/{week}", "Log/T"}
+
+
+def test_weeks_beside_waveforms_are_signals(tmp_path: Path) -> None:
+    start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 1.0}
+    weeks = {"gps_week": np.floor(COUNTS / 604_800), "tow": COUNTS % 604_800}
+    path = written(tmp_path / "a.tdms", {**weeks, "T": np.arange(40.0)}, **start)
+    assert len(described(Reader(), path, Source()).signals) == 3

@@ -58,7 +58,8 @@ def test_an_archive_of_files_is_no_workbook(tmp_path: Path, packing: int, name: 
         archive.write(inside, name)
     assert Reader().sniff(head(path)) is None
     said = explain(path)
-    assert (said.kind, said.advice) == (f"a ZIP archive of files ({name}, ...): unpack it first", None)
+    how = "python -m zipfile -e old.zip ."
+    assert (said.kind, said.advice) == (f"a ZIP archive of files ({name}, ...): unpack it first: {how}", None)
     with pytest.raises(FormatError, match="not a readable workbook") as caught:
         Reader().describe(path, Source())
     assert f"a ZIP archive of {name}" in str(caught.value)
@@ -69,3 +70,14 @@ def test_an_archive_of_files_is_no_workbook(tmp_path: Path, packing: int, name: 
 def test_a_workbook_may_begin_with_any_of_its_parts(first: str) -> None:
     start = b"PK\x03\x04" + bytes(22) + len(first).to_bytes(2, "little") + bytes(2) + first.encode() + b"..xl/.."
     assert Reader().sniff(Head("a.xlsx", 999, start)) is not None
+
+
+def test_a_packed_log_says_the_command_that_unpacks_it(tmp_path: Path) -> None:
+    import gzip
+
+    text = "".join(f"{k};{20 + k / 10}\n" for k in range(40)).encode()
+    path = tmp_path / "run 1.csv.gz"
+    path.write_bytes(gzip.compress(text))
+    assert explain(path).kind == 'gzip: unpack it first: python -m gzip -d "run 1.csv.gz"'
+    (tmp_path / "run.7z").write_bytes(b"7z\xbc\xaf\x27\x1c\0\4" + bytes(200))
+    assert explain(tmp_path / "run.7z").kind == "7-Zip: unpack it first: 7z x run.7z"

@@ -96,8 +96,8 @@ def test_what_stands_goes_on_over_blocks_with_its_flag_and_begins_with_the_first
 
 
 def test_a_name_that_no_column_has_is_refused() -> None:
-    with pytest.raises(UsageError, match="no column 'Speed'"):
-        declared_standing(["Speed"], ["speed", "T"], "a.csv")
+    with pytest.raises(UsageError, match="no column 'sped'"):
+        declared_standing(["sped"], ["speed", "T"], "a.csv")
     assert declared_standing("all", ["speed", "T"], "a.csv") == {"speed", "T"}
     assert declared_standing("none", ["speed", "T"], "a.csv") == frozenset()
 
@@ -194,3 +194,36 @@ def test_a_column_that_is_sparse_behind_a_sound_head_is_proposed() -> None:
     assert "'n': most cells are empty" in (note or "")
     lost = [c if k < 120 or k % 10 == 0 else "" for k, c in enumerate(FINE)]  # at another rate from there on
     assert find_standing({"T": T, "F": lost}) == (frozenset(), None)
+
+
+@pytest.mark.parametrize("told", ["column 3", "3", 3, "n"])
+@pytest.mark.parametrize("head", ["time;T [degC];n [rpm];mode", None])
+def test_a_column_is_declared_by_its_name_or_its_place(tmp_path: Path, told: str | int, head: str | None) -> None:
+    path = written(tmp_path / "a.csv", changes(T), changes(S), [""] * N)
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    path.write_text("".join(([head + "\n"] if head else []) + lines[1:]), encoding="utf-8")
+    source = Source(table={"stands": [told]})
+    if head is None and told == "n":
+        with pytest.raises(UsageError, match="no column 'n'"):
+            read(path, source)
+        return
+    held, values, _ = read(path, source)
+    (name,) = [name for name, stands in held.items() if stands]
+    assert name == ("n [rpm]" if head else "column 3")
+    assert np.isfinite(values[name]).all()
+
+
+def test_a_column_called_by_the_word_before_its_values_is_declared_by_its_place_too(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    rows = [f"2026-03-01T08:{k // 60:02}:{k % 60:02}Z;T_front;{T[k]};speed;{s}" for k, s in enumerate(changes(S))]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    for told in ("column 5", "speed"):
+        held, values, _ = read(path, Source(table={"stands": [told]}))
+        assert [name for name, stands in held.items() if stands] == ["speed"]
+        assert np.isfinite(values["speed"]).all()
+
+
+def test_a_declared_column_without_a_cell_in_one_file_is_no_fault_of_it(tmp_path: Path) -> None:
+    held, _, rows = read(written(tmp_path / "a.csv", T, [""] * N, [""] * N), Source(table={"stands": ["n", "mode"]}))
+    assert rows == N
+    assert not held["T [degC]"]

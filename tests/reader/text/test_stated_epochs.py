@@ -58,6 +58,8 @@ HEADS = [
     ("# time: days since 1899-12-30 00:00 UTC", "t [d]", since(1899, 12, 30) / 86400, 1 / 1440, None),
     ("# time: ms since 1970-01-01", "time_ms", since(1970) * 1e3, 6e4, None),
     ("# time: minutes since 2026-03-12T08:00:00+01:00", "t [min]", 0, 1, None),
+    ("# time: minutes since 2026-03-12T08:00:00.000+01:00", "t [min]", 0, 1, None),
+    ("# time: seconds since 2026-03-12T06:59:57.25Z", "t [s]", 2.75, 60, None),
     ("# time base: GPS", "time_s", since(1980, 1, 6) + 18, 60, None),
     ("# Time scale: TAI", "time_s", since(1970) + 37, 60, None),
     ("# timestamps: PTP (TAI), s since 1970-01-01", "timestamp_s", since(1970) + 37, 60, None),

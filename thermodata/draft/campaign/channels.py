@@ -78,7 +78,7 @@ def channels_of(
         jump, said = _with_jump(one, said, jumps, twin)
         wished = _wished(_with_series(signal), said)
         name = channel_name(wished.removesuffix(PLAIN).replace(UNSIGNED, "") if exported else wished, taken)
-        turned = exported and said.axis is not None and UNSIGNED not in signal.name and _own_sign(one) != "unknown"
+        turned = exported and said.axis is not None and _is_signed(one)
         calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
         only, lacking = _tests_with(one, group)
         notes_of = (note, scale_note(one.of(f) or signal for f in one.files), _way(one) if said.axis else None)
@@ -112,6 +112,13 @@ def _own_sign(one: OneSignal) -> str | None:
     """The sign that exports say of a signal; unknown where one of several files says none."""
     signs = {own_sign(s.name, s.properties) for f in one.files for s in [one.of(f) or one.signal]}
     return signs.pop() if len(signs) == 1 else "unknown" if any(signs) else None
+
+
+def _is_signed(one: OneSignal) -> bool:
+    """Whether exports say that a displacement goes along its axis: by its sign; in CSV, whose names have their units,
+    by its name alone."""
+    sign, (name, unit) = _own_sign(one), split_unit(one.signal.name)
+    return UNSIGNED not in name and (unit is not None if sign is None else sign != "unknown")
 
 
 def _why_left_out(one: OneSignal, said: Guess, found: Sequence[OneSignal]) -> str | None:

@@ -15,7 +15,7 @@ from thermodata.draft.campaign.orientation import why_idle
 from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
-from thermodata.draft.courses.kinds import kind_of
+from thermodata.draft.courses.kinds import Kind, kind_of
 from thermodata.draft.courses.measuring import rule_of
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.letters_of_files import common
@@ -23,6 +23,7 @@ from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, files_of, tests_of
 from thermodata.draft.folder.legend import with_legends
+from thermodata.draft.folder.notes import Note, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
 from thermodata.draft.folder.packed_pieces import packed_pieces
@@ -66,8 +67,11 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
     sources = asked_once(_sources(groups, keyed, table, found), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
-    warm = warm_starts({t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}, named)
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
+    recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
+    beside_them = [p for p, _ in found.ignored if table is None or p != table.file]
+    notes = notes_of(folder, beside_them, recordings)
+    warm = warm_starts(recordings, named)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]
     known = [j for of_source in of_probes.values() for j in of_source]
@@ -82,7 +86,7 @@ def plan(campaign: str, folder: Path, found: Scan) -> Draft:
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        tuple(_test(t, groups, table, named, warm.get(t), versions.get(t)) for t in ids),
+        tuple(_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t)) for t in ids),
         table,
         left_out,
         found.damaged,
@@ -233,6 +237,7 @@ def _test(
     named: Mapping[int, Named],
     warm: str | None,
     version: RawFile | None,
+    note: Note | None,
 ) -> DraftTest:
     files = [f for g in groups for f in g.tests.get(test, ())]
     listed = table.rows.get(test, {}) if table else {}
@@ -246,11 +251,27 @@ def _test(
             doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
             continue
         conditions[key] = value
+    if note is not None:
+        kind, more = with_note(kind, conditions, note)
+        doubts += more
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     window = next((f.block.window for f in files if f.block is not None), None)
     if window is not None and len(files) > 1:
         doubts.append("window: it is counted in one log, and meant since the start of the first of several")
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
+
+
+def with_note(kind: Kind, conditions: dict[str, str], note: Note) -> tuple[Kind, list[str]]:
+    """(the kind with what a note says of its test in its comment, doubts); the conditions get those that they lack."""
+    told, doubts = list[str](), list[str]()
+    for key, value in note.conditions.items():
+        if key not in conditions:
+            conditions[key] = value
+            told.append(key)
+        elif conditions[key].split()[0].casefold() != value.split()[0].casefold():
+            doubts.append(f"{key}: {note.file} says {value}, and {conditions[key]} is taken")
+    comments = [f"{', '.join(told)} guess: {note.file}" if told else "", note.comment()]
+    return replace(kind, comment="; ".join(filter(None, (kind.comment, *comments)))), doubts
 
 
 def _questions(

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from thermodata.draft.words.naming import without_marks
+from thermodata.draft.words.tool_and_coolant import tool_and_coolant
 
 _NUMBER = r"\d+(?:[.,]\d+)?"
 _RPM = r"(?:k?rpm|u/?min|ot(?:/?min)?|1/min|min-1|转)"
@@ -64,6 +65,9 @@ def said_by(names: Sequence[str]) -> Said:
     speeds = _speed(texts, conditions, guessed, questions)
     _feed(texts, conditions, questions)
     _air(texts, conditions, guessed, questions)
+    for condition, value in tool_and_coolant(names).items():
+        conditions[condition] = value
+        guessed.add(condition)
     start = _date(texts, conditions)
     return Said(conditions, frozenset(guessed), speeds, start, tuple(questions))
 

@@ -20,6 +20,23 @@ _PACKERS = (
 )
 
 
+# what unpacks a file and leaves it there: where Python has it, by what runs on every system
+_UNPACK = {
+    "ZIP": "python -m zipfile -e {} .",
+    "gzip": "python -m gzip -d {}",
+    "bzip2": "bzip2 -dk {}",
+    "xz": "xz -dk {}",
+    "Zstandard": "zstd -d {}",
+    "7-Zip": "7z x {}",
+    "RAR": "unrar x {}",
+}
+
+
+def how_to_unpack(packer: str, name: str) -> str:
+    """The command that unpacks a file of a packer, in the folder that it stands in."""
+    return _UNPACK[packer].format(f'"{name}"' if " " in name else name)
+
+
 def packed_by(start: bytes) -> str | None:
     """The packer of a file that is no ZIP archive ('gzip'), by its first bytes; None where it is not packed."""
     return next((name for magic, name in _PACKERS if start.startswith(magic)), None)

@@ -10,11 +10,12 @@ from pathlib import Path
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
-from thermodata.reader.files.archives import packed, packed_by
+from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
 from thermodata.reader.finding.foreign_files import foreign_file
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
 from thermodata.reader.text.cells.delimiter import BLANKS, find_delimiter
+from thermodata.reader.text.cells.named_values import named_values
 from thermodata.reader.text.file.foreign_texts import foreign_text
 
 # First bytes of what lies in folders of logs without being one
@@ -117,9 +118,9 @@ def _kind(start: Head) -> str:
     if not start.size_bytes:
         return "an empty file"
     if (inside := packed(start.start)) is not None:
-        return f"{_ARCHIVE} ({inside}, ...): unpack it first"
+        return f"{_ARCHIVE} ({inside}, ...): unpack it first: {how_to_unpack('ZIP', start.name)}"
     if (packer := packed_by(start.start)) is not None:
-        return f"{packer}: unpack it first"
+        return f"{packer}: unpack it first: {how_to_unpack(packer, start.name)}"
     for magic, what in _MAGIC:
         if start.start.startswith(magic):
             return what
@@ -144,10 +145,11 @@ def _kind(start: Head) -> str:
 
 def _no_table(text: str) -> str | None:
     """What a text is that holds no table of cells. A line of JSON may stand above one that does."""
-    if (foreign := foreign_text(text.splitlines())) is not None:
+    lines = text.splitlines()
+    if not named_values(lines) and (foreign := foreign_text(lines)) is not None:
         return ": ".join(foreign)
     known = next((what for start, what in _TEXTS if start.match(text)), None)
-    last = next((line for line in reversed(text.splitlines()[-20:]) if line.strip()), "").strip()
+    last = next((line for line in reversed(lines[-20:]) if line.strip()), "").strip()
     return known if last.startswith(tuple('<{}[]"')) else None
 
 

@@ -16,6 +16,7 @@ from thermodata.plugin import Block, Int1D, Loss, Recording, Signal, Source
 from thermodata.reader.signals.row_units import UNIT_OF
 from thermodata.reader.signals.series import TakenApart
 from thermodata.reader.text.cells.delimiter import fields, parted_bytes
+from thermodata.reader.text.cells.named_values import all_in_columns
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Chunk, chunks
 from thermodata.reader.text.names.described import names_at
@@ -212,12 +213,15 @@ def blocks(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
 def _rows(path: Path, table: Table, source: Source) -> Iterator[Block | Loss]:
     reader = RowReader(table, source, path.stat().st_size)
     for chunk in chunks(path, table.sample.encoding):
+        if table.named:
+            chunk = replace(chunk, data=all_in_columns(chunk.data, table.named))
         if table.blanks:
             chunk = replace(chunk, data=parted_bytes(chunk.data))
         yield from reader.read(_without_header(chunk, table.layout.first))
         if reader.stopped:
             break
     yield from reader.losses.rest()
+    yield from reader.sixty.told(table.name)
 
 
 def _without_header(chunk: Chunk, first: int) -> Chunk:

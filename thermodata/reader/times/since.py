@@ -26,7 +26,7 @@ _DATE = (
     rf"|(?P<n4>{'|'.join(_MONTHS)})[a-z]*\.? (?P<d4>\d{{1,2}}),? (?P<y4>\d{{4}})"
     r"|(?P<y5>1900|1904|1970|1980|2000)(?![\d.:/-])"
 )
-_CLOCK = r"(?:(?:\s*,)?[ t]\s*(?P<hh>\d{1,2}):(?P<mm>\d{2})(?::(?P<ss>\d{2})(?:[.,]0*)?)?)?"
+_CLOCK = r"(?:(?:\s*,)?[ t]\s*(?P<hh>\d{1,2}):(?P<mm>\d{2})(?::(?P<ss>\d{2})(?:[.,](?P<part>\d{1,9})?\d*)?)?)?"
 _ZONE = r"(?:\s*\(?(?P<zone>z|utc|gmt|ut)(?![a-z])(?P<own>[+-]\d{1,2}(?::?\d{2})?)?|\s*(?P<off>[+-]\d{2}:?\d{2}))?"
 _MOMENT = re.compile(rf"(?i)(?:{_DATE}){_CLOCK}{_ZONE}")
 _COUNT = re.compile(
@@ -47,15 +47,18 @@ _JOINED = re.compile(r"(?<=\d)_(?=\d)")
 
 @dataclass(frozen=True, slots=True)
 class Zero:
-    """What times count from. zero_s: on the Unix scale [s]; local: in the time of the place, not in UTC."""
+    """What times count from. zero_s: on the Unix scale [s]; local: in the time of the place, not in UTC; part_ns: of a
+    second, behind zero_s."""
 
     zero_s: int
     local: bool
+    part_ns: int = 0
 
     def unit(self, of: str) -> str:
         """The unit of a count of 's', 'min', 'd', ... from there, as `since` reads it."""
         moment = _OF_UNIX + timedelta(seconds=self.zero_s)
-        return f"{of} since {moment.isoformat()}{'' if self.local else 'z'}".lower()
+        part = f".{self.part_ns:09d}".rstrip("0") if self.part_ns else ""
+        return f"{of} since {moment.isoformat()}{part}{'' if self.local else 'z'}".lower()
 
 
 @lru_cache(maxsize=1024)
@@ -128,7 +131,8 @@ def moment_in(text: str, seconds: bool = True) -> Zero | None:
     if offset is not None:
         digits = offset[1:].replace(":", "")
         ahead = timedelta(hours=int(digits[:2]), minutes=int(digits[2:] or 0)) * (-1 if offset[0] == "-" else 1)
-    return Zero(round((moment - ahead - _OF_UNIX).total_seconds()), not zoned)
+    part_ns = int((part["part"] or "0").ljust(9, "0"))
+    return Zero(round((moment - ahead - _OF_UNIX).total_seconds()), not zoned, part_ns)
 
 
 def _first(part: dict[str, str | None], keys: tuple[str, ...]) -> str | None:

@@ -59,19 +59,23 @@ SECONDS = {
 class Epoch:
     """seconds: of one unit; zero_s: its zero on the Unix scale [s]; local: in the time of the place, not in UTC; years:
     the units are years, each as long as it is, and `seconds` is their mean; leaps: by how many leap seconds it was
-    ahead of UTC in 1980, where it counts them, and UTC does not; None where it does not either."""
+    ahead of UTC in 1980, where it counts them, and UTC does not; None where it does not either; part_ns: of a second,
+    behind zero_s."""
 
     seconds: float
     zero_s: int
     local: bool
     years: bool = False
     leaps: int | None = None
+    part_ns: int = 0
 
     def ns(self, values: Array) -> Int1D:
         """Nanoseconds on the Unix scale, in UTC or local time, shape as values; NAT where a number is no time."""
         if self.years:
             return _ns_of_years(values)
         ns = to_ns(values, self.seconds, self.zero_s)
+        if self.part_ns:
+            ns = np.where(ns == NAT, NAT, ns + self.part_ns)
         return ns if self.leaps is None else _without_leaps(ns, self.leaps)
 
 
@@ -83,7 +87,7 @@ class _Epochs(dict[str, Epoch]):
         if found is None:
             raise KeyError(name)
         unit, zero = found
-        return Epoch(SECONDS[unit], zero.zero_s, zero.local)
+        return Epoch(SECONDS[unit], zero.zero_s, zero.local, part_ns=zero.part_ns)
 
     def __contains__(self, name: object) -> bool:
         return super().__contains__(name) or (isinstance(name, str) and since(name) is not None)

@@ -1,5 +1,5 @@
-"""By what a file of our own is known again: the first columns of a CSV file, and what a workbook or a MAT file says of
-its channels."""
+"""By what a file of our own is known again: the first columns of a CSV file, and what a workbook, a MAT or a Parquet
+file says of its channels."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ TIME_UTC = "time_utc"  # times in UTC, which a table has to say
 OF_TEST = ("campaign", "test", "t_s")  # beside the times: of no channel
 PLAIN = " [1]"  # after the name of what has no unit
 _ABOUT = {"quantity", "unit", "sign"}  # of a channel, in the table of a workbook
+SIGN = "thermodata.sign"  # what the metadata of a Parquet column say of its sign, as the table `channel` does
 UNSIGNED = " (sign unknown)"  # after the name of a displacement that nothing turned to the machine's axes
 
 
@@ -32,5 +33,5 @@ def own_sign(name: str, properties: Mapping[str, object]) -> str | None:
     """The sign that an export says of a channel: + or - where it goes along the machine's axis in the file, unknown
     where nobody knew; None where it says none."""
     key = sign_key(name)
-    found = (str(v) for k, v in properties.items() if k == key or k.endswith(f"/{key}"))
+    found = (str(v) for k, v in properties.items() if k in (key, SIGN) or k.endswith(f"/{key}"))
     return next(found, None)

@@ -28,7 +28,7 @@ def claims(lines: Sequence[str]) -> str | None:
         return "rows of a date and time between ';' or tabs" if dated else None
     except FormatError:
         return None
-    if table.delimiter not in (";", "\t") or not table.groups[0].absolute or not table.groups[0].formats:
+    if table.delimiter not in (";", "\t") or table.named or not table.groups[0].absolute or not table.groups[0].formats:
         return None
     between = "';'" if table.delimiter == ";" else "tabs"
     column = table.groups[0].group.time[0] + 1

@@ -123,16 +123,42 @@ def test_clocks_of_their_own_make_rows_of_their_own(tmp_path: Path, write: Any, 
 
 
 @pytest.mark.parametrize("early", [{}, {"T": []}])
-def test_an_array_that_begins_late_is_one(tmp_path: Path, write: Any, read: Any, early: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("begins", "ends"), [(25, 60), (350, 420), (350, 360)])
+def test_an_array_that_begins_late_is_one(
+    tmp_path: Path, write: Any, read: Any, early: dict[str, Any], begins: int, ends: int
+) -> None:
     def made(ks: list[int]) -> dict[str, Any]:
-        late = {"T": [20.0 + k for k in ks]} if ks[0] >= 25 * N else early
+        late = {"T": [20.0 + k for k in ks]} if begins * N <= ks[0] < ends * N else early
         return {"t": [at(k) for k in ks], "dZ": ks, **late}
 
-    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(60, made)))
+    many = 60 if ends == 60 else 420
+    recording, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(many, made)))
     assert not losses
     assert {s.name for s in recording.signals} == {"/daq.dZ", "/daq.T"}
-    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(60 * N), atol=1000)
-    np.testing.assert_array_equal(values["/daq.T"], [np.nan] * 25 * N + [20.0 + k for k in range(25 * N, 60 * N)])
+    np.testing.assert_allclose(times["/daq"], T0 + STEP * np.arange(many * N), atol=1000)
+    held = [20.0 + k if begins * N <= k < ends * N else np.nan for k in range(many * N)]
+    np.testing.assert_array_equal(values["/daq.T"], held)
+
+
+def test_samples_that_begin_after_a_long_wait_stand_at_their_times(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        return {"t": [at(k) for k in ks], "dZ": ks} if ks[0] >= 250 * N else {"state": "waiting"}
+
+    _, times, values, _, losses = read(write(tmp_path / "a.mcap", batches(300, made)))
+    assert not losses
+    dz = np.array(values["/daq.dZ"], float)
+    good = np.isfinite(dz)
+    np.testing.assert_array_equal(dz[good], np.arange(250 * N, 300 * N))
+    np.testing.assert_allclose(times["/daq"][good], T0 + STEP * dz[good], atol=1000)
+
+
+def test_a_vector_that_comes_late_beside_samples_stays_one(tmp_path: Path, write: Any, read: Any) -> None:
+    def made(ks: list[int]) -> dict[str, Any]:
+        late = {"xyz": [1.0, 2.0, 3.0]} if ks[0] >= 300 * N else {}
+        return {"t": [at(k) for k in ks], "dZ": ks, **late}
+
+    recording, *_ = read(write(tmp_path / "a.mcap", batches(320, made)))
+    assert {s.name for s in recording.signals} == {"/daq.dZ", *(f"/daq.xyz[{k}]" for k in range(3))}
 
 
 def test_an_array_with_times_of_its_own_is_of_no_step_around_it(tmp_path: Path, write: Any, read: Any) -> None:

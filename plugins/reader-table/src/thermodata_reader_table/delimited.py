@@ -10,6 +10,7 @@ from thermodata.plugin import Block, Head, Loss, Recording, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.claim import claimed_table, head_lines
 from thermodata.reader.text.file.locate import line_of
+from thermodata.schema.words.sentences import with_count
 
 _TAGS = {"_name", "node id", "nodeid", "tag", "tagname", "tag name", "item", "itemid", "display name", "displayname"}
 _FEWEST_LINES = 10
@@ -29,6 +30,8 @@ def claims(head: Head) -> str | None:
         return None
     if table.layout.first == 0 and len(table.sample.head) < _FEWEST_LINES:
         return None  # a few numbers without a header may be anything
+    if table.named:
+        return f"lines of a time and of names with their values: {with_count(table.named, 4)}"
     shown = "blanks" if table.blanks else "tab" if table.delimiter == "\t" else f"'{table.delimiter}'"
     return f"table: cells separated by {shown}, time in column '{table.layout.names[table.layout.time[0]]}'"
 

@@ -26,6 +26,7 @@ from thermodata.reader.text.clocks.time_questions import (
 )
 from thermodata.reader.text.clocks.unit_of_numbers import unit_of_numbers
 from thermodata.reader.text.clocks.zoned_beside import beside_note, zoned_beside
+from thermodata.reader.text.names.called_column import by_name
 from thermodata.reader.text.names.header import split_unit
 from thermodata.reader.text.names.time_header import is_time_header, since_midnight
 from thermodata.reader.text.times.clock_numbers import columns_of_clock
@@ -45,10 +46,8 @@ def column(wanted: int | str, names: Sequence[str], where: str) -> int:
         if not 1 <= wanted <= len(names):
             raise FormatError(f"no column {wanted}", where=where, expected=f"1 to {len(names)}", got=str(wanted))
         return wanted - 1
-    for fold in (str, str.casefold):
-        hits = [i for i, n in enumerate(names) if fold(wanted) in (fold(n), fold(split_unit(n)[0]))]
-        if len(hits) == 1:
-            return hits[0]
+    if (found := by_name(wanted, names)) is not None:
+        return found
     close = nearest(wanted, names)
     raise UsageError(
         f"no time column '{wanted}'",

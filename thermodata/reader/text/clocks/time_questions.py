@@ -53,18 +53,26 @@ def weeks_question(
     places, form = found
     row = next(r for r in data if all(is_number(r[i]) for i in places))
     got = " ".join(str(row[i]).strip() for i in places)
+    return question_of_weeks([i + 1 for i in places], [names[i] for i in places], got, form, where)
+
+
+def question_of_weeks(
+    columns: Sequence[int | str], names: Sequence[str], got: str, form: str, where: str
+) -> QuestionError:
+    """Whether two columns are a week of GPS and the time in it. columns: as they are declared; names: of both; got:
+    what a row has there; form: by which they read."""
     (reading, *_) = declared_parts(form, 2)
     assert reading.reads is not None
     at = str(np.datetime64(reading.reads(got) // 10**9, "s")).replace("T", " ")
-    said = {"time": {"column": [i + 1 for i in places], "format": form}}
+    said = {"time": {"column": list(columns), "format": form}}
     return QuestionError(
         "times in weeks of GPS",
         where=where,
         expected="a date and a time of day, or how they are counted",
         got=got,
-        hint=f"declare table: {{time: {{column: {said['time']['column']}, format: '{form}'}}}}",
-        times=[names[i] for i in places],
-        ask=f"format of the times: are '{names[places[0]]}' and '{names[places[1]]}' a week of GPS and the time in it "
+        hint=f"declare table: {{time: {{column: [{', '.join(map(str, columns))}], format: '{form}'}}}}",
+        times=list(names),
+        ask=f"format of the times: are '{names[0]}' and '{names[1]}' a week of GPS and the time in it "
         f"({form})? '{got}' is {at} UTC then",
         declare=said,
         meanwhile=said,

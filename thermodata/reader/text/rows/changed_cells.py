@@ -20,6 +20,7 @@ from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.reader.signals.set_values import are_set
 from thermodata.reader.text.cells.cell import number_of
 from thermodata.reader.text.cells.no_value import EMPTY
+from thermodata.reader.text.names.called_column import by_name, by_name_or_place
 from thermodata.reader.text.names.header import split_unit
 from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.sentences import with_count
@@ -152,15 +153,21 @@ def _doubt(sparse: Sequence[str]) -> str | None:
     )
 
 
-def declared_standing(said: object, names: Sequence[str], where: str) -> frozenset[str] | None:
-    """The columns that the campaign file declares; None where it says nothing. UsageError for a name that is none."""
+def declared_standing(
+    said: object, names: Sequence[str], where: str, every: Sequence[str] = ()
+) -> frozenset[str] | None:
+    """The columns that the campaign file declares; None where it says nothing. names: of those that may stand; every:
+    of all columns of the table, by whose places one may be declared. UsageError for a name that is none."""
     if said is None:
         return None
     if isinstance(said, str):
         return frozenset(names if said == "all" else ())
     assert isinstance(said, list | tuple)
+    found: set[str] = set()
     for name in map(str, said):
-        if name not in names:
+        place = by_name_or_place(name, every) if every else by_name(name, names)
+        told = None if place is None else (every or names)[place]
+        if told is None or told not in names:
             close = nearest(name, names)
             raise UsageError(
                 f"no column '{name}' in the table, which {KEY} declares",
@@ -169,7 +176,8 @@ def declared_standing(said: object, names: Sequence[str], where: str) -> frozens
                 got=name,
                 hint=f"did you mean '{close}'?" if close else None,
             )
-    return frozenset(map(str, said))
+        found.add(told)
+    return frozenset(found)
 
 
 def _written(name: str, cells: Sequence[str], filled: Bool1D, full: Bool1D) -> _Written:

@@ -11,6 +11,8 @@ from typing import Any
 from thermodata.errors import FormatError
 from thermodata.plugin import Source
 from thermodata.reader.text.cells import delimiter as delimiters
+from thermodata.reader.text.cells.named_values import TIME as NAMED_TIME
+from thermodata.reader.text.cells.named_values import named_values
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.cells.status import declared_zero
 from thermodata.reader.text.cells.zone_words import stated_zone
@@ -100,9 +102,12 @@ def find_table(
     that)."""
     if not any(line.strip() for line in head):
         raise FormatError("no whole line", where=where, expected="a table", got="nothing")
-    refuse_foreign(head, where)
+    if not named_values(head):
+        refuse_foreign(head, where)
     said = source.table or {}
     whole = part(head, first, said, where)
+    if whole.named:
+        said = {"names": [NAMED_TIME, *whole.named], **said}
     lines, rows = whole, whole.rows()
     if (end := second_header(rows)) is not None:  # what stands behind it is not read: it tells nothing of the columns
         lines, rows = whole.up_to(end), rows[:end]
@@ -163,6 +168,7 @@ def find_table(
         quality=quality,
         notes=tuple(dict.fromkeys(note for note in notes if note)),
         blanks=whole.blanks,
+        named=whole.named,
         begin=begin,
         zone=zone,
         unit=told_unit,

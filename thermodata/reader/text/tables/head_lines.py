@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from thermodata.errors import FormatError
 from thermodata.reader.text.cells import delimiter as delimiters
+from thermodata.reader.text.cells.named_values import in_columns, named_values
 from thermodata.reader.text.cells.quotes import clean
 from thermodata.reader.text.file.lines import Sample
 from thermodata.reader.text.rows.fixed_width import by_width, fixed_width
@@ -41,7 +43,7 @@ def top_of(head: Sequence[str]) -> Sequence[str]:
 class HeadLines:
     """The first lines, and what parts their cells. top: those in which the layout shows; sample: all that was
     sampled of the file. blanks: whether runs of blanks part cells: there are tabs in their place. quoted: whether cells
-    may stand in quotes."""
+    may stand in quotes. named: the names that stand before each value, which are in columns here."""
 
     head: Sequence[str]
     top: Sequence[str]
@@ -49,6 +51,7 @@ class HeadLines:
     delimiter: str
     blanks: bool
     quoted: bool
+    named: tuple[str, ...] = ()
 
     def cells(self, line: str) -> list[str]:
         """The cells of a line, without blanks and quotes around them."""
@@ -78,6 +81,11 @@ def part(head: Sequence[str], first: Sample, said: Mapping[str, Any], where: str
     """first: all that was sampled of the file; said: what is declared of the table. FormatError where nothing parts
     cells."""
     top = top_of(head)
+    if not said.get("delimiter") and (named := named_values((*top, *first.rest))):
+        each = partial(in_columns, names=named)
+        first = replace(first, head=tuple(map(each, first.head)), rest=tuple(map(each, first.rest)))
+        head = list(map(each, head))
+        return HeadLines(head, top_of(head), first, "\t", False, False, named)
     delimiter = delimiters.declared(said["delimiter"]) if said.get("delimiter") else None
     delimiter = delimiter or delimiters.find_delimiter(top)
     if delimiter is None:

@@ -25,9 +25,10 @@ def standing_columns(
 ) -> tuple[frozenset[int], str | None]:
     """(columns whose values stand over the empty cells behind them, a note): as declared, or as the cells tell. The
     quality of such a value stands as it does, or a bad one would be good from the next row on."""
-    names = [layout.names[i] for g in groups for i in g.group.columns if kinds[i] is not None]
+    columns = [i for g in groups for i in g.group.columns]
+    names = [layout.names[i] for i in columns if kinds[i] is not None]
     qualities = {own for own, _ in quality.values()}
-    told = declared_standing(said.get(KEY), names, where)
+    told = declared_standing(said.get(KEY), [layout.names[i] for i in columns], where, layout.names)
     note = None
     if told is None:
         if len(groups) > 1 or groups[0].group.counted or _runs_back(groups[0], layout, cells_of):

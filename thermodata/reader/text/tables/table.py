@@ -82,7 +82,8 @@ def header_lines(head: Sequence[str], first: int, cells: Callable[[str], Sequenc
 class Table:
     """What the first look at a file found. header: the lines above the data, by `bare_line`; kinds: of each column;
     quality: value column -> (the column of its quality, whether the code 0 is good); blanks: whether any number of them
-    parts its cells: lines are looked at, and read, with tabs in their place; begin: what its times count from, where
+    parts its cells: lines are looked at, and read, with tabs in their place; named: names that stand before each value
+    of a line, which become columns so; begin: what its times count from, where
     its head says so; zone: what a line above the rows says of it, and that line; series: how rows of several sensors or
     hosts are taken apart; unit: the column that holds the one of its numbers; units_told: the note on such a column,
     of rows that are of no series; stands: columns whose empty cells say that the value before them still stands;
@@ -102,6 +103,7 @@ class Table:
     quality: Pairs
     notes: tuple[str, ...]
     blanks: bool = False
+    named: tuple[str, ...] = ()
     begin: Begin | None = None
     zone: tuple[str, str] | None = None
     series: Series | None = None

@@ -22,6 +22,7 @@ from thermodata.reader.text.rows.typed import parse
 from thermodata.reader.text.tables.another_header import another_header, last_repeated
 from thermodata.reader.text.tables.row_clock import RowClock
 from thermodata.reader.text.tables.table import Table, TimedGroup
+from thermodata.reader.text.times.second_sixty import SecondsSixty
 from thermodata.reader.times.zone import NAT
 from thermodata.schema.flag import Flag
 
@@ -49,6 +50,7 @@ class RowReader:
         self.losses = Losses(table.name, max(size, 1), qualities)
         self.sure = table.decimal is not None
         self.grid = table.grid(table.decimal or ("," if table.delimiter != "," else "."))
+        self.sixty = SecondsSixty()
         self.clocks = [RowClock(timed, timed.stated or source.timezone, table.begin) for timed in table.groups]
         wide = len(table.layout.names) + 8
         self.rows_of_a_block = max(1, int(source.options.get("block_rows", _BLOCK_VALUES // wide)))
@@ -168,6 +170,8 @@ class RowReader:
         good = t_ns != NAT
         columns = [i for i in group.columns if table.kinds[i] is not None]
         told = [*told, *self._without_time(clock, rows, good, columns, data, line)]
+        if clock.timed.formats:
+            self.sixty.add([rows.times[i] for i in group.time], clock.timed.formats, rows.line, t_ns)
         for i in columns:
             kind = table.kinds[i] or ""
             for row, cell in rows.columns[i].odd:

@@ -52,6 +52,11 @@ def find_weeks(names: Sequence[str], data: Sequence[Sequence[Cell]]) -> tuple[tu
     return (week, place), f"gps_week{f'+{more}' if more else ''} gps_{'ms' if milli else 's'}"
 
 
+def may_be_of_weeks(name: str) -> bool:
+    """Whether a column is called as a week of GPS or as the time in it is."""
+    return _WEEK.fullmatch(_bare(name)) is not None or _IN_WEEK.fullmatch(_bare(name)) is not None
+
+
 def reads_weeks(pieces: Sequence[str]) -> Callable[[str], int] | None:
     """What reads '2417 108000.5' in the pieces 'gps_week', 'gps_s' of a format; None where they are others."""
     week = _PIECE.fullmatch(pieces[0]) if len(pieces) == 2 and pieces[1] in _STEPS_NS else None
@@ -65,6 +70,18 @@ def seconds_of_weeks(weeks: Array, in_week: Array, form: str) -> Array:
     counted = weeks.astype(np.float64) + int((more and more["more"]) or 0)
     seconds: Array = counted * _WEEK_S + in_week.astype(np.float64) * (_STEPS_NS[step] / 1e9)
     return seconds
+
+
+def utc_of_weeks(weeks: Array, in_week: Array, form: str) -> Int1D:
+    """Nanoseconds since 1970 UTC of weeks and the times in them, shapes (n,); NAT where one is none."""
+    week, step = form.split()
+    more = _PIECE.fullmatch(week)
+    counted, within = weeks.astype(np.float64), in_week.astype(np.float64) * _STEPS_NS[step]
+    with np.errstate(invalid="ignore"):
+        good = (counted >= 0) & (counted < _BEFORE_2100) & (counted % 1 == 0) & (within >= 0) & (within < _WEEK_S * 1e9)
+    whole = np.where(good, counted, 0).astype(np.int64) + int((more and more["more"]) or 0)
+    ns = whole * (_WEEK_S * 10**9) + np.rint(np.where(good, within, 0)).astype(np.int64)
+    return np.where(good, EPOCHS["gps_ns"].ns(ns), NAT)
 
 
 def _read(more: int, step_ns: int, text: str) -> int:

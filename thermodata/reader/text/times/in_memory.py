@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.times import timestamp
 from thermodata.reader.text.times.local_clock import DayCount
+from thermodata.reader.text.times.second_sixty import at_second_sixty, said_of_sixty
 from thermodata.reader.text.times.time_formats import find_formats
 from thermodata.reader.times.time_units import EPOCHS, SECONDS, to_ns
 from thermodata.reader.times.zone import NAT, local_to_utc_ns
@@ -36,12 +37,15 @@ def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | N
     """
     (form,) = find_formats([""], [list(cells)], declared, where)
     ns = timestamp.parse(list(cells), form)
+    at_sixty = at_second_sixty(list(cells), form)
+    told = (said_of_sixty(at_sixty.size, cells[at_sixty[0]]),) if at_sixty.size else ()
     if form.role == "time":
-        return times_of_day(ns, form.cycle_ns, form.of_day)
+        found = times_of_day(ns, form.cycle_ns, form.of_day)
+        return replace(found, notes=(*found.notes, *told))
     if form.zoned:
-        return Stamps(ns, True, ())
+        return Stamps(ns, True, told)
     utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
-    return Stamps(utc, True, tuple(notes))
+    return Stamps(utc, True, (*notes, *told))
 
 
 def times_of_dates(naive: npt.NDArray[np.datetime64], timezone: str | None) -> Stamps:

@@ -83,8 +83,10 @@ class DayCount:
             steps = np.diff(values, prepend=self._last)
             self._clock.add(values)
             ahead = -steps if self._clock.newest_first else steps
-            # a step by more than all of it is no turn: 75:00 goes back to 00:00 where a recording begins anew
-            turned = ((ahead < -self._cycle // 2) & (ahead > -self._cycle)).astype(np.int64)
+            # a step by more than all of it is no turn: 75:00 goes back to 00:00 where a recording begins anew; one by a
+            # whole day is: 23:59:60 and 00:00:00
+            whole = self._cycle + (self._cycle == _DAY)
+            turned = ((ahead < -self._cycle // 2) & (ahead > -whole)).astype(np.int64)
             turned = -turned if self._clock.newest_first else turned
             nights = self._nights + np.cumsum(turned)
             result[good] = values + nights * self._cycle - self._first

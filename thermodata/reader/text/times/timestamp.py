@@ -26,6 +26,7 @@ CENTURY = 69  # years of two digits below it are of this one: 1969 to 2068, as s
 _NO_NUMBERS = ("s", "p", "q", "z")  # parts of a pattern
 _REIWA = 2018  # the year before its first one
 _S = 1_000_000_000
+_LAST_SECOND = 60  # of a minute with a leap second, or rounded up: read as the minute after it
 _EPOCH = date(1970, 1, 1)
 _DAYS_IN_MONTH = np.array([0, 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$", re.ASCII)
@@ -175,12 +176,12 @@ def parse_one(cell: str, form: TimeFormat) -> int:
             if of_day is None:
                 return NAT
             hour = of_day
-        if hour > 23 or minute > 59 or second > 59:
+        if hour > 23 or minute > 59 or second > _LAST_SECOND:
             return NAT
         total += (hour * 3600 + minute * 60 + second) * _S
     if g.get("E") is not None:
         minute, second = int(g.get("M") or 0), int(g.get("S") or 0)
-        if minute > 59 or second > 59:
+        if minute > 59 or second > _LAST_SECOND:
             return NAT
         total += (int(g["E"]) * 3600 + minute * 60 + second) * _S
     if g.get("N") is not None:
@@ -246,10 +247,10 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
             of_day = np.array([-1 if (h := in_24_hours(k, half)) is None else h for k in range(100)])
             hour = of_day[hour]
             bad |= hour < 0
-        bad |= (hour > 23) | (minute > 59) | (second > 59)
+        bad |= (hour > 23) | (minute > 59) | (second > _LAST_SECOND)
         total += (hour * 3600 + minute * 60 + second) * _S
     if "E" in fields:
-        bad |= (minute > 59) | (second > 59)
+        bad |= (minute > 59) | (second > _LAST_SECOND)
         total += (fields["E"] * 3600 + minute * 60 + second) * _S
     if "N" in fields:
         bad |= second > 59

@@ -14,6 +14,7 @@ from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.segment_index import Index
 from thermodata_reader_crio.tdms.time_channel import TimeChannel, time_channel, time_channels
 from thermodata_reader_crio.tdms.waveform_clock import Clock, runs_over
+from thermodata_reader_crio.tdms.weeks_of_gps import weeks_of_gps
 
 _SAME_SCAN_NS = 1_000_000  # channels of one scan may start up to this apart (a multiplexed converter)
 
@@ -69,8 +70,13 @@ def streams_of(
     that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    clocks = time_channels(filled, source, file)
-    apart = set(map(id, clocks))
+    weeks = weeks_of_gps(filled, source, file)
+    clocks = time_channels(filled, source, file) if weeks is None else [weeks.week]
+    apart = {*map(id, clocks), *(() if weeks is None else [id(weeks.in_week)])}
+
+    def timed(time: Channel) -> TimeChannel:
+        return time_channel(time, file, source, notes, above) if weeks is None else weeks.time_channel(file)
+
     late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
     used: set[int] = set()
     step = _seconds(source.options.get("increment"))
@@ -87,7 +93,7 @@ def streams_of(
         own = tuple([c.in_stream(name) for c in part])
         if time is not None:
             used.add(id(time))
-            yield Stream(name, own, None, time_channel(time, file, source, notes, above))
+            yield Stream(name, own, None, timed(time))
             continue
         clock = part[0].clock
         if clock is None:
@@ -109,7 +115,7 @@ def streams_of(
         # a time channel beside waveforms is a signal like any other
         if id(c) not in used:
             name = _name(group, taken)
-            yield Stream(name, (c.in_stream(name),), None, time_channel(c, file, source, notes, above))
+            yield Stream(name, (c.in_stream(name),), None, timed(c))
 
 
 def _name(group: str, taken: dict[str, int]) -> str:

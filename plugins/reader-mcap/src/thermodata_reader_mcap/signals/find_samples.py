@@ -23,9 +23,10 @@ from thermodata_reader_mcap.signals.batches_of_samples import (
     in_columns,
     samples_of,
 )
+from thermodata_reader_mcap.signals.messages_of_each_form import messages_of_each_form
 from thermodata_reader_mcap.signals.sample_times import BEGINS, RATES, STEPS, calls_times, is_number, sizes, word
 
-_LOOKED_AT = 200  # messages
+_LOOKED_AT = 200  # messages, and of each array
 _FORMS = 20  # messages, by which arrays and times are known
 _MOSTLY = 0.9
 _NEAR = 0.1  # by which a step may differ from what the first times of two messages say
@@ -42,25 +43,28 @@ def find_samples(batches: Mapping[Channel, Batch]) -> tuple[dict[str, tuple[Samp
         if any(c.encoding != "json" for c in batches if c.topic == topic):
             continue
         payloads = [p for b in mine for p in b.payloads]
-        whole = [m for p in payloads[:_LOOKED_AT] if (m := decoded(p)) is not None]
-        messages = [m for each in whole if isinstance(m := in_columns(each), Mapping)]
-        if not messages or len(messages) < _MOSTLY * min(len(payloads), _LOOKED_AT):
+        places = messages_of_each_form(payloads, _LOOKED_AT)
+        every = [(k, m, in_columns(m)) for k in places if (m := decoded(payloads[k])) is not None]
+        held = [(k, whole, made) for k, whole, made in every if isinstance(made, Mapping)]
+        if not held or len(held) < _MOSTLY * len(places):
             continue
-        logs = np.concatenate([b.times()[0] for b in mine])[: len(messages)].astype(np.int64)
+        messages = [made for _, _, made in held]
+        logs = np.concatenate([b.times()[0] for b in mine])[[k for k, _, _ in held]].astype(np.int64)
         clocks = _clocks(messages)
         if clocks:  # whose arrays stand where only what they date is in columns
-            messages = [m for each in whole if isinstance(m := in_columns(each, clocks), Mapping)]
+            messages = [in_columns(whole, clocks) for _, whole, _ in held]
             clocks = _clocks(messages)
         if clocks:
             found[topic] = clocks
             notes.append(_note(topic, clocks, messages, logs))
         else:
-            notes += _undated(topic, messages[0])
+            notes += _undated(topic, max(messages, key=lambda m: sum(1 for _ in arrays_in(m))))
     return found, notes
 
 
 def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
-    """Each clock with the arrays that are nearest to it; () where nearly all messages don't hold samples."""
+    """Each clock with the arrays that are nearest to it; () where not nearly all messages with such arrays hold
+    samples."""
     arrays = list(dict.fromkeys(keys for m in messages for keys, _ in arrays_in(m)))
     objects = list(dict.fromkeys(keys for m in messages[:_FORMS] for keys in _objects(m)))
     timed: dict[Keys, Samples] = {}
@@ -78,8 +82,13 @@ def _clocks(messages: Sequence[Mapping[str, Any]]) -> tuple[Samples, ...]:
         own = tuple(a for a in one.arrays if a not in times and _nearest(a, clocks) is one)
         if own:
             made.append(replace(one, arrays=own))
-    holding = sum(any(c.held(m) for c in made) for m in messages)
-    return tuple(made) if holding >= _MOSTLY * len(messages) else ()
+    wanted = {a for c in made for a in c.arrays}
+    holding = [any(c.held(m) for c in made) for m in messages if any(_is_filled(at(m, a)) for a in wanted)]
+    return tuple(made) if sum(holding) >= _MOSTLY * len(holding) else ()
+
+
+def _is_filled(value: Any) -> bool:
+    return isinstance(value, list) and bool(value)
 
 
 def _around(keys: Keys) -> Keys:

@@ -1,0 +1,107 @@
+"""The tool of a test and its coolant, by names, notes beside the logs and heads of these: conditions of its line."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.campaign.parts import DraftTest
+from thermodata.draft.make import draft_files
+from thermodata.draft.words.tool_and_coolant import tool_and_coolant
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("sp6000_toolA_coolant_on", {"tool": "A", "coolant": "on"}),
+        ("Tool 12 wet", {"tool": "12", "coolant": "on"}),
+        ("WZ3_ohne_KSS", {"tool": "3", "coolant": "off"}),
+        ("Werkzeug_Nr_7-mit KSS", {"tool": "7", "coolant": "on"}),
+        ("nástroj D50, bez chlazení", {"tool": "D50", "coolant": "off"}),
+        ("outil: fraise 16, arrosage: non", {"tool": "fraise 16", "coolant": "off"}),
+        ("tool: HSK63 D50", {"tool": "HSK63 D50"}),
+        ("Kühlmittel aus", {"coolant": "off"}),
+        ("sp9000_dry", {"coolant": "off"}),
+        ("S6000 with coolant", {"coolant": "on"}),
+        # the nearest that say neither
+        ("T12", {}),
+        ("tooling", {}),
+        ("tool_change", {}),
+        ("tooltip", {}),
+        ("etve_coolant", {}),
+        ("T_coolant_supply", {}),
+        ("laundry_3", {}),
+        ("hydryl", {}),
+    ],
+)
+def test_words_say_the_tool_and_the_coolant(text: str, said: dict[str, str]) -> None:
+    assert tool_and_coolant([text]) == said
+
+
+def log(path: Path, head: str = "", day: int = 2, speed: int = 6000) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    start = datetime(2026, 3, day, 8)
+    rows = [f"{start + timedelta(seconds=30 * k)};{20 + k * 0.02:.2f};{speed * (k > 20)}" for k in range(200)]
+    path.write_text("\n".join([*filter(None, [head]), "time;T_bed [degC];n_spindle [rpm]", *rows, ""]), "utf-8")
+
+
+def drafted(folder: Path) -> dict[str, DraftTest]:
+    return {t.id: t for t in draft_files(folder).draft.tests}
+
+
+def test_names_of_files_and_folders_are_conditions(tmp_path: Path) -> None:
+    log(tmp_path / "toolA_sp6000_dry.csv")
+    log(tmp_path / "toolB_sp6000_wet.csv", day=3)
+    tests = drafted(tmp_path)
+    assert tests["toolA_sp6000_dry"].conditions == {"speed": "6000 rpm", "tool": "A", "coolant": "off"}
+    assert tests["toolB_sp6000_wet"].conditions == {"speed": "6000 rpm", "tool": "B", "coolant": "on"}
+    assert "tool, coolant guess: name only" in tests["toolA_sp6000_dry"].kind.comment
+
+
+def test_lines_of_notes_are_quoted_with_what_they_say(tmp_path: Path) -> None:
+    for k in (1, 2, 3):
+        log(tmp_path / f"run0{k}.csv", day=k)
+    notes = "March\nrun01: tool D50, 6000 rpm, coolant on\n- run02.csv - tool D20, no coolant; door open\nrun033: x"
+    (tmp_path / "notes.txt").write_text(notes, "utf-8")
+    tests = drafted(tmp_path)
+    assert tests["run01"].conditions == {"speed": "6000 rpm", "tool": "D50", "coolant": "on"}
+    assert tests["run02"].conditions == {"speed": "6000 rpm", "tool": "D20", "coolant": "off"}
+    assert tests["run03"].conditions == {"speed": "6000 rpm"}
+    assert "notes.txt says 'tool D20, no coolant; door open'" in tests["run02"].kind.comment
+    assert not any(t.doubts for t in tests.values())
+
+
+def test_a_table_in_a_readme_is_read_by_its_heads(tmp_path: Path) -> None:
+    rows = [
+        "| nr | tool | speed | coolant |",
+        "|---|---|---|---|",
+        "| 01 | A | 6000 rpm | on |",
+        "| 02 | B | 9000 rpm | off |",
+    ]
+    for k in (1, 2):
+        log(tmp_path / f"0{k}.csv", day=k)
+    (tmp_path / "README.md").write_text("\n".join(["# Tests", "", *rows]), "utf-8")
+    tests = drafted(tmp_path)
+    assert tests["01"].conditions == {"speed": "6000 rpm", "tool": "A", "coolant": "on"}
+    assert tests["02"].conditions == {"speed": "6000 rpm", "tool": "B", "coolant": "off"}
+    assert tests["02"].doubts == ("speed: README.md says 9000 rpm, and 6000 rpm is taken",)
+
+
+def test_heads_of_logs_say_their_tools(tmp_path: Path) -> None:
+    for k, tool in enumerate(("HSK63 D50", "HSK63 D20"), 1):
+        log(tmp_path / f"run0{k}.csv", f"# tool: {tool}\n# coolant: {'on' if k == 1 else 'off'}\n# logger: A", day=k)
+    tests = drafted(tmp_path)
+    assert tests["run01"].conditions == {"speed": "6000 rpm", "tool": "HSK63 D50", "coolant": "on"}
+    assert tests["run02"].conditions == {"speed": "6000 rpm", "tool": "HSK63 D20", "coolant": "off"}
+    assert "tool, coolant guess: the head of run01.csv" in tests["run01"].kind.comment
+
+
+def test_other_texts_and_heads_say_nothing(tmp_path: Path) -> None:
+    for k in (1, 2):
+        log(tmp_path / f"run0{k}.csv", "# logger: A\n# operator: tool shop", day=k)
+    (tmp_path / "notes.txt").write_text("run01 and run02 were warm\nrun01: see run02\nrun01: repeated\n", "utf-8")
+    tests = drafted(tmp_path)
+    assert [t.conditions for t in tests.values()] == [{"speed": "6000 rpm"}] * 2
+    assert not any("notes.txt" in t.kind.comment for t in tests.values())

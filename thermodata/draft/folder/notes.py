@@ -1,0 +1,106 @@
+"""What texts beside the logs, and the heads of these, say of single tests: 'run01: tool D50, no coolant' in notes.txt,
+a row of a table in README.md, '# tool: HSK63' above the rows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.words.said_by_names import said_by
+from thermodata.draft.words.tool_and_coolant import tool_and_coolant
+from thermodata.reader.text.cells.cell import is_number
+from thermodata.reader.text.file.encoding import decode_head
+
+_NOTES = frozenset({".txt", ".md", ".rst", ".log", ""})
+_LARGEST, _HEAD, _MOST_LINES = 100_000, 4096, 40  # bytes of a text, of the head of a log; lines of a head
+_SHOWN = 80
+_CELLS = re.compile(r"[\t|;,]")
+_MARKS = " \t-*•#>"
+_TAKEN = ("speed", "feed", "air")
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """conditions: condition -> value with unit; file: where they stand; quoted: the words, '' where they are all told
+    as conditions, as those of a head."""
+
+    file: str
+    conditions: Mapping[str, str] = field(default_factory=dict)
+    quoted: str = ""
+
+    def comment(self) -> str:
+        return f"{self.file} says '{self.quoted}'" if self.quoted else ""
+
+
+def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
+    """Test -> what is said of it. texts: files beside the logs, which no reader takes; of a test that several
+    lines name nothing is taken from them."""
+    described = sorted(p.name for p in folder.glob("*.md") if p.is_file() and not p.is_symlink())
+    found = _by_lines(folder, [*described, *texts], tests)
+    for test, files in tests.items():
+        if test in found:
+            continue
+        conditions = {k: v for f in reversed(files) for k, v in tool_and_coolant(_head(folder, f)).items()}
+        if conditions:
+            found[test] = Note(f"the head of {files[0].path.name}", conditions)
+    return found
+
+
+def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
+    called = {name: test for test, files in tests.items() for name in _names(test, files)}
+    lines: dict[str, list[Note]] = {}
+    for path in texts:
+        if PurePosixPath(path).suffix.lower() not in _NOTES or not (said := _read(folder / path, _LARGEST + 1)):
+            continue
+        head: list[str] = []
+        for line in said.splitlines() if len(said) <= _LARGEST else ():
+            cells = [c.strip() for c in line.strip(" |").split("|")] if "|" in line else []
+            first, rest = _first(line) if len(cells) < 2 else (cells[0].casefold(), ", ".join(cells[1:]))
+            test = called.get(first)
+            if len(cells) > 1 and len(cells) == len(head) and test is not None:
+                rest = ", ".join(f"{h} {c}" for h, c in zip(head[1:], cells[1:], strict=True) if c)
+            head = cells if len(cells) > 1 and not head else head if len(cells) > 1 else []
+            if test is not None and rest:
+                pieces = [p.strip() for p in re.split(r"[,;|\t]", rest)]
+                more = {k: v for k, v in said_by(pieces).conditions.items() if k in _TAKEN}
+                lines.setdefault(test, []).append(Note(path, {**more, **tool_and_coolant(pieces)}, rest[:_SHOWN]))
+    return {test: notes[0] for test, notes in lines.items() if len(notes) == 1}
+
+
+def _names(test: str, files: Sequence[RawFile]) -> set[str]:
+    """What a line may begin with to be of a test."""
+    own = {n.casefold() for f in files if len(files) == 1 for n in (f.path.name, f.path.stem)}
+    return {test.casefold(), *own}
+
+
+def _first(line: str) -> tuple[str, str]:
+    """(the name that a line begins with, what follows it)."""
+    bare = line.strip().strip(_MARKS)
+    name, mark, rest = bare.partition(":")
+    if not mark or re.search(r"\s", name.strip()):
+        name, rest = (*re.split(r"[\s|;,]", bare, maxsplit=1), "")[:2]
+    return name.strip(" '\"`").casefold(), rest.strip(" \t:=-|–")
+
+
+def _head(folder: Path, file: RawFile) -> list[str]:
+    """The lines of a text above its rows."""
+    found: list[str] = []
+    for line in _read(folder / file.path, _HEAD).splitlines()[:_MOST_LINES]:
+        cells = [c.strip() for c in _CELLS.split(line) if c.strip()]
+        if len(cells) > 2 and sum(is_number(c) for c in cells) * 2 > len(cells):
+            break
+        if len(cells) <= 2:  # 'tool: A', or 'tool;A'; a row of names has more
+            found.append(line.strip().lstrip(_MARKS))
+    return [line for line in found if re.search(r"[:=;,\t|]", line)]
+
+
+def _read(path: Path, size: int) -> str:
+    try:
+        with path.open("rb") as file:
+            data = file.read(size)
+    except OSError:
+        return ""
+    return decode_head(data) or ""
