@@ -1,7 +1,8 @@
 """Whether a candidate is a cause of its own, or refines an effect that the model has.
 
-Three ways to refine: it takes a known effect's place; it is kin (same family, channels or place) and small beside it;
-or it acts as a known effect would if its temperature counted from another one.
+Four ways to refine: it takes a known effect's place; it is kin (same family, channels or place) and small beside it;
+it acts as a known effect would if its temperature counted from another one; or as the air of the model does by other
+time constants.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
+from thermodata.diagnosis.candidates.warm_at_rest import share_at_rest
 from thermodata.diagnosis.claims.probability import probability, sharpness
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.question.discrepancy import Noise
@@ -44,9 +46,14 @@ WORTH = 20.0  # log evidence: an effect that was worth less was never there to b
 KEPT = 0.25  # and stands beside it where it is worth this share
 LIKE = 0.9  # and both act alike (cosine)
 AT_ALL_LIKE = 0.5  # another mode of a known part acts at all as it does
+# the share of what a body's temperature does that the air of the model can do, by any of its time constants,
+FOLLOWS = 0.8
+# or half of it, of a body that moves half as far where nothing at its part does
+HALF = 0.5
 SMALL = 0.6  # of the known effect's size: kin that does less is another mode of it
 OPPOSITE = -0.8  # cosine with the known effect driven by the candidate's temperature,
 SHARE = (0.2, 1.5)  # and how much of it that takes away
+ALONE = 1e-4  # a column that the others make but for this share says nothing of its own
 EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves no such trace
 # nor does the machine move by this share of what the candidate does, in a quarter of the tests in which the known
 # effect does less than the candidate
@@ -71,6 +78,7 @@ class Refinement:
     def __init__(self, fitted: FittedResponse, problem: Problem, noise: Noise) -> None:
         self.fitted, self.problem, self.noise = fitted, problem, noise
         self.owners = tuple(np.array(o, dtype=np.int64) for o in owners(fitted))
+        self.tests = list({b.test.key: b.test for b in problem.blocks}.values())
         self._worth: dict[int, float] = {}
 
     def __call__(self, scored: Scored) -> str | None:
@@ -85,6 +93,8 @@ class Refinement:
             return self._mode(scored)
         if kin == "part" and sharpness(scored) < STRONG:
             return PART
+        if (air := self._air_that_warms_it(scored)) is not None:
+            return mode_of([air])
         if kin == "heat" and not self._acts_beside(scored):
             return self._mode(scored)
         if scored.candidate.of_motion and kin in ("near", "related") and not most and self._like_its_family(scored):
@@ -173,6 +183,39 @@ class Refinement:
         theirs = np.concatenate([self._does(b, term) for b in self.problem.blocks])
         size = float(np.linalg.norm(own) * np.linalg.norm(theirs))
         return abs(float(own @ theirs)) / size if size > 0 else 0.0
+
+    def _air_that_warms_it(self, scored: Scored) -> str | None:
+        """The effect of the air that a single temperature follows. The air warms all that stands in it, each body in
+        its own time, so that one of them has just the time that the effect of the air lacks."""
+        channels, test = scored.candidate.channels, self.problem.blocks[0].test
+        if sharpness(scored) >= EVIDENT or scored.candidate.family == AIR:
+            return None
+        if len(channels) != 1 or not is_warm(test, channels[0]):
+            return None
+        for number, term in enumerate(self.fitted.terms):
+            if term.family != AIR:
+                continue
+            share = self._share_by(scored, number)
+            at_rest = share_at_rest(channels[0], self.tests) if HALF <= share < FOLLOWS else None
+            if share >= FOLLOWS or (at_rest is not None and at_rest >= HALF):
+                return term.id
+        return None
+
+    def _share_by(self, scored: Scored, term: int) -> float:
+        """How much of the square of what a candidate does the columns of a known effect make, one gain each."""
+        does, own, theirs = scored.columns.does(scored.weighed), [], []
+        for block, rows in zip(self.problem.blocks, self.problem.parts, strict=True):
+            known_to_act = [
+                c[:, : len(o)][:, o == term] for c, o in zip((block.base, block.slack), self.owners, strict=True)
+            ]
+            columns = np.column_stack(known_to_act)
+            own.append(does[rows] - does[rows].mean())
+            theirs.append(columns - columns.mean(axis=0))
+        y, x = np.concatenate(own), np.concatenate(theirs)
+        size = np.linalg.norm(x, axis=0)
+        x = x[:, size > 0] / size[size > 0]
+        left = y - x @ np.linalg.lstsq(x, y, rcond=ALONE)[0]
+        return 1.0 - float(left @ left) / float(y @ y) if y.any() else 0.0
 
     def _does(self, block: Block, term: int) -> Float1D:
         gains = len(self.fitted.terms[term].effect.gains)
