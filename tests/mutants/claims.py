@@ -626,7 +626,7 @@ MUTANTS = [
     products("invariance.py", "if moves.sum() < 2:", "if moves.sum() < 1:", "one test says that gains are alike"),
     products("invariance.py", "size > 1e-6 * size.max()", "size > 1e-3 * size.max()", "weak tests are not asked"),
     products("invariance.py", " - np.log(weight)))", "))", "spreads are weighed as if their mean were known"),
-    products("invariance.py", "quad = spread**2 *", "quad = 0.0 *", "spreads are weighed against nothing"),
+    products("invariance.py", "quad = SPREADS**2 *", "quad = 0.0 *", "spreads are weighed against nothing"),
     products(
         "invariance.py", "cross @ solved(known.factor(known.every), cross.T)", "0.0", "the known effects stand still"
     ),
@@ -642,9 +642,12 @@ MUTANTS = [
     products("directions.py", " - np.log(precision).sum()", "", "known effects are for nothing"),
     products("directions.py", " + _left(self._problem)[1]", "", "searched noise: free offsets are for nothing"),
     products("directions.py", " + noise.white**2", "", "searched noise: no white noise"),
-    products("evidence.py", "return before + after\n", "return parts + before + after\n", "the left-out test is seen"),
+    products("known.py", "return before + after\n", "return parts + before + after\n", "the left-out test is seen"),
     products(
-        "ranking.py", "float(without @ without)", "float(without @ without) / 2", "errors are half of what they are"
+        "ranking.py",
+        "base.space.each(without**2)",
+        "base.space.each(without**2) / 2",
+        "errors are half of what they are",
     ),
     # ---- noise and priors
     diagnosis("discrepancy.py", "LEAST_WHITE = 0.1", "LEAST_WHITE = 0.001", "a trifle that repeats outweighs all"),

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
+from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtri, dtrtrs
 
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
@@ -114,13 +114,14 @@ def _sound(solution: Float2D, info: int) -> Float2D:
 
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
-    covariance, offsets included. parts: the samples of each test among all. kept: what was whitened already and is
-    asked again beside other effects, by who asks, `KEPT_BYTES` at most. products: of these with each other, by who asks
-    them."""
+    covariance, offsets included. parts: the samples of each test among all; sizes: how many, shape (tests,). kept: what
+    was whitened already and is asked again beside other effects, by who asks, `KEPT_BYTES` at most. products: of these
+    with each other, by who asks them."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
         self.parts = problem.parts
+        self.sizes = np.array([len(b.t_s) for b in problem.blocks])
         self.kept: dict[int, tuple[object, Float2D]] = {}
         self.products: dict[int, tuple[object, NDArray[np.float64]]] = {}
         self._room = KEPT_BYTES
@@ -211,6 +212,11 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     if not right.size:
         return right
     return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
+
+
+def inverse(factor: Float2D) -> Float2D:
+    """L^-1 for a lower Cholesky factor L."""
+    return _sound(*dtrtri(factor, lower=1)) if factor.size else factor
 
 
 def free_of(block: Block) -> Float2D:
