@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtri, dtrtrs
+from scipy.linalg.lapack import dpbtrf, dpotrf, dtbtrs, dtrtri, dtrtrs
 
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
@@ -214,6 +214,11 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
 
 
+def cholesky(precision: Float2D) -> Float2D:
+    """The lower factor L of a matrix, likewise."""
+    return _sound(*dpotrf(precision, lower=1)) if precision.size else precision
+
+
 def inverse(factor: Float2D) -> Float2D:
     """L^-1 for a lower Cholesky factor L."""
     return _sound(*dtrtri(factor, lower=1)) if factor.size else factor
@@ -254,13 +259,14 @@ def left_over(problem: Problem) -> float:
 def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:
     """A local maximum of a goal by steps that halve, shape (k,). x: its start, shape (k,); bounds: lower and upper
     ones, shape (k, 2); most: how often the goal is asked at about most."""
-    x = np.clip(x, bounds[:, 0], bounds[:, 1])
+    low, high = bounds.T
+    x = np.clip(x, low, high)
     best, step, asked = goal(x), 0.8, 1
     while step > 0.12 and asked < most:
         moved = False
         for way in _ways(len(x)):
-            z = np.clip(x + step * way, bounds[:, 0], bounds[:, 1])
-            if np.array_equal(z, x):
+            z = np.minimum(np.maximum(x + step * way, low), high)
+            if (z == x).all():
                 continue
             value = goal(z)
             asked += 1

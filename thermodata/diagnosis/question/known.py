@@ -17,6 +17,7 @@ from thermodata.diagnosis.question.discrepancy import (
     Whitened,
     ascend,
     bounds_of,
+    cholesky,
     halved,
     inverse,
     left_over,
@@ -72,7 +73,7 @@ class Known:
         """Cholesky factor of the posterior precision, from some tests."""
         key = tests.tobytes()
         if key not in self._factors:
-            self._factors[key] = np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
+            self._factors[key] = cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
         return self._factors[key]
 
     def mean(self, tests: Int1D) -> Float1D:
@@ -90,8 +91,8 @@ class Known:
     def of_others(self) -> Others:
         """The same of all tests but one, for each in turn."""
         if not self._others:
-            factor = np.linalg.cholesky(others_of_each(self.gram) + np.diag(self.precision))
-            found = Others(np.stack([inverse(one) for one in factor]), np.empty_like(self.cross))
+            each = others_of_each(self.gram) + np.diag(self.precision)
+            found = Others(np.stack([inverse(cholesky(one)) for one in each]), np.empty_like(self.cross))
             self._others.append(replace(found, mean=found.solved(others_of_each(self.cross))))
         return self._others[0]
 
@@ -176,8 +177,8 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
 
     def evidence(x: Float1D, part: Int1D) -> float:
         gram, cross, energy, logdet, rows = products(x)
-        precision = _precision(gains, slack, _of(x).share)[part]
-        return log_evidence(gram[np.ix_(part, part)], cross[part], energy, logdet, rows, precision)
+        precision = _precision(gains, slack, float(np.exp(x[3])))[part]
+        return log_evidence(gram[part[:, None], part], cross[part], energy, logdet, rows, precision)
 
     begin = np.log(astuple(first if start is None else start))
     found = [_of(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
