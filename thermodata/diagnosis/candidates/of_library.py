@@ -108,8 +108,8 @@ class CandidateEffect:
         return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
 
     def in_test(self, test: TestData) -> InTest:
-        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there. So it
-        is where its drivers rest (`plugin.Effect.basis`)."""
+        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there. It
+        is zero, too, where its drivers rest (`plugin.Effect.basis`)."""
         nothing = np.zeros((len(test.t_s), len(self.effect.gains)))
         failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
         if failed or not has_drivers(test, self.binding):
