@@ -160,9 +160,7 @@ def each_of_all(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
         for one, white in zip(group, _whites(known, group), strict=True):
             if id(one) not in kept:  # the same, whatever is known
                 kept[id(one)] = one, _squares(white, one)
-            # test by test: of long columns the library makes less than of what is near the processor
-            both = np.sum([white[rows].T @ known.both[rows] for rows in known.space.parts], axis=0)
-            cross = both.reshape(*one.whole.shape[1:], -1)
+            cross = known.space.product(white, known.both).reshape(*one.whole.shape[1:], -1)
             yield Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
 
 
@@ -216,13 +214,19 @@ def _weigh(columns: Columns, left: FloatND, right: FloatND) -> tuple[FloatND, Fl
     return log_bf + columns.prior, deviation * solution
 
 
-def of_each_series(known: Known, columns: Columns, series: Float2D) -> Float1D:
-    """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,)."""
-    tests, count = known.every, series.shape[1]
+def explained(known: Known, series: Float2D) -> Float2D:
+    """The coefficients of the known effects in other responses, whitened, of all tests, (rows, s): shape (k, s)."""
+    return solved(known.factor(known.every), known.space.product(known.white, series))
+
+
+def of_each_series(known: Known, columns: Columns, series: Float2D, already: Float2D) -> Float1D:
+    """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,). already: what is `explained` of
+    them."""
+    count = series.shape[1]
     (white,), (products,) = _whites(known, [columns]), each_of_all(known, [columns])
-    left, _ = beyond_known(known, products, tests)
-    right = (white.T @ series).reshape(*columns.whole.shape[1:], count)
-    right -= products.known @ solved(known.factor(tests), known.white.T @ series)
+    left, _ = beyond_known(known, products, known.every)
+    right = known.space.product(white, series).reshape(*columns.whole.shape[1:], count)
+    right -= products.known @ already
     deviation = SIZES[:, None] * columns.width
     scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
     scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0
