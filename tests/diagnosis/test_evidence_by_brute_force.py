@@ -20,7 +20,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.question import discrepancy
 from thermodata.diagnosis.question.directions import Weighted, log_evidence
 from thermodata.diagnosis.question.discrepancy import Noise
-from thermodata.diagnosis.question.known import Known, known, likeliest
+from thermodata.diagnosis.question.known import Known, known, likeliest, others_of_each
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.on_locked import _with, foretell
 from thermodata.diagnosis.weigh import evidence as weighing
@@ -30,9 +30,9 @@ from thermodata.diagnosis.weigh.evidence import (
     columns,
     each_left_out,
     each_of_all,
+    explained,
     moments,
     of_each_series,
-    others_of_each,
     weigh,
 )
 from thermodata.diagnosis.weigh.in_noise_of_best import likeliest_beside
@@ -170,7 +170,7 @@ def test_each_of_many_series_is_weighed_as_one_at_a_time() -> None:
     base, cols = known(one, NOISE), made(small())
     rng = np.random.default_rng(0)
     series = np.column_stack([base.response, base.space.of(rng.normal(size=(one.rows, 3)))])
-    found = of_each_series(base, cols, series)
+    found = of_each_series(base, cols, series, explained(base, series))
     for k in range(4):
         cross = np.stack([base.white[rows].T @ series[rows, k] for rows in one.parts])
         other = replace(base, both=np.column_stack([base.white, series[:, k]]), cross=cross)
@@ -266,6 +266,11 @@ def contributions(factors: Sequence[float]) -> tuple[Problem, list[Float1D]]:
 EVERY = np.ones(4, dtype=np.bool_)
 
 
+def spread(one: Problem, own: Sequence[Float1D], acts: Bool1D = EVERY) -> float:
+    base = known(one, NOISE)
+    return spread_of_gain(base, base.space.of(np.concatenate(own)[:, None])[:, 0], acts)
+
+
 def spread_by_hand(one: Problem, own: Sequence[Float1D], acts: Bool1D) -> float:
     """Each test in which it acts a factor, N(mean, spread^2), the mean free: as an offset of all these tests together.
     Where it rests, a free one of its own."""
@@ -292,22 +297,22 @@ def test_the_spread_of_the_gain_is_weighed_by_its_marginal_likelihood(
     one, own = contributions(factors)
     acts = np.array([i not in rests for i in range(len(factors))])
     expected = min(spread_by_hand(one, own, EVERY), spread_by_hand(one, own, acts))
-    assert spread_of_gain(known(one, NOISE), np.concatenate(own), acts) == pytest.approx(expected, abs=1e-4)
+    assert spread(one, own, acts) == pytest.approx(expected, abs=1e-4)
 
 
 def test_a_cause_has_one_gain_and_a_proxy_several() -> None:
     alike, own = contributions((1.0, 1.0, 1.0, 1.0))
     apart, _ = contributions((0.1, 1.0, 2.5, 0.2))
-    assert spread_of_gain(known(alike, NOISE), np.concatenate(own), EVERY) < 0.3
-    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), EVERY) > 0.6
+    assert spread(alike, own) < 0.3
+    assert spread(apart, own) > 0.6
 
 
 def test_where_it_rests_its_gain_is_not_asked() -> None:
     """A bearing that follows the air for a night, and what the air leaves over."""
     apart, own = contributions((1.0, 1.0, 1.0, 9.0))
     acts = np.array([True, True, True, False])
-    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), EVERY) > 0.6
-    assert spread_of_gain(known(apart, NOISE), np.concatenate(own), acts) < 0.3
+    assert spread(apart, own) > 0.6
+    assert spread(apart, own, acts) < 0.3
 
 
 @pytest.mark.parametrize(("second", "expected"), [(0.9e-3, True), (1.1e-3, False)])
@@ -317,7 +322,7 @@ def test_what_acts_in_one_test_only_may_have_any_gain(second: float, expected: b
     base = known(one, NOISE)
     energy = np.sqrt(base.space.each(base.space.of(np.concatenate(own)[:, None])[:, 0] ** 2))
     parts = [own[0] / energy[0], second * own[1] / energy[1], 0 * own[2], 0 * own[3]]
-    assert (spread_of_gain(base, np.concatenate(parts), EVERY) == 1.0) is expected
+    assert (spread(one, parts) == 1.0) is expected
 
 
 # ---- chance
@@ -337,6 +342,11 @@ def drawn(one: Problem, base: Known, noise: Noise, count: int, seed: int) -> Flo
     return base.space.of(np.vstack(series))
 
 
+def best_of_each(base: Known, pool: Sequence[Columns], series: Float2D) -> Float1D:
+    already = explained(base, series)
+    return np.max([of_each_series(base, c, series, already) - c.candidate.log_prior for c in pool], axis=0)
+
+
 def test_p_values_are_uniform_on_responses_in_which_nothing_is_missing() -> None:
     one = small(cause=0.0)
     base = known(one, NOISE)
@@ -345,10 +355,10 @@ def test_p_values_are_uniform_on_responses_in_which_nothing_is_missing() -> None
     assert chance.shape == (199,)
     assert (np.diff(chance) >= 0).all()
     series = drawn(one, base, NOISE, 300, seed=1)
-    best = np.max([of_each_series(base, c, series) - c.candidate.log_prior for c in pool], axis=0)
+    best = best_of_each(base, pool, series)
     p = [p_value(float(b), chance) for b in best]
     assert kstest(p, "uniform").statistic < 0.13
-    wrong = np.max([of_each_series(base, c, 2.0 * series) - c.candidate.log_prior for c in pool], axis=0)
+    wrong = best_of_each(base, pool, 2.0 * series)
     assert kstest([p_value(float(b), chance) for b in wrong], "uniform").statistic > 0.2, "the test can fail"
 
 
@@ -458,11 +468,15 @@ def test_all_tests_left_out_at_once_say_what_each_left_out_says() -> None:
     base, cols = known(small(), NOISE), made(small())
     products = moments(base, cols)
     found = each_left_out(base, cols, products)
-    assert len(found) == len(base.every)
-    for i, one in enumerate(found):
-        by_itself = weigh(base, cols, products.of(base.others(i)), base.others(i))
-        np.testing.assert_allclose(one.log_bf, by_itself.log_bf, rtol=1e-10, atol=1e-10)
-        np.testing.assert_allclose(one.mean, by_itself.mean, rtol=1e-9, atol=1e-12)
+    assert len(found.total) == len(base.every)
+    for i in base.every:
+        others = np.delete(base.every, i)
+        by_itself, of_others = weigh(base, cols, products.of(others), others), products.of(others).known
+        assert found.total[i] == pytest.approx(by_itself.total, rel=1e-10)
+        assert found.point[i] == by_itself.best[0]
+        np.testing.assert_allclose(found.coefficients[i], by_itself.coefficients, rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(found.toward[i], by_itself.coefficients @ of_others[found.point[i]], rtol=1e-9)
+        np.testing.assert_allclose(base.of_others.mean[i], base.mean(others), rtol=1e-9)
 
 
 def test_the_others_of_each_lose_no_digits_beside_one_that_is_large() -> None:

@@ -577,7 +577,7 @@ def test_an_effect_among_what_is_known_may_grow_and_move_its_time_constant_at_a_
     best = rank_in(one, [made], NOISE).ranked[0]
     point = best.weighed.best[0]
     assert point == 0, "the driver acts at once"
-    more = extended(one, made, best.weighed)
+    more = extended(one, [(made, best.weighed)])
     for old, new, rows in zip(one.blocks, more.blocks, one.parts, strict=True):
         full = made.whole[rows]
         own = full[:, point, :1] * best.weighed.coefficients[:1]

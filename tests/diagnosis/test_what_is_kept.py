@@ -52,6 +52,24 @@ def test_a_point_that_changes_nothing_is_not_ranked_again() -> None:
 
 
 @dataclass(frozen=True)
+class Refused(Scaled):
+    """It may not be asked where nothing moves."""
+
+    def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
+        assert drivers.values["u"].any()
+        return super().basis(drivers, p)
+
+
+def test_what_rests_in_a_test_is_not_asked_there() -> None:
+    rng = np.random.default_rng(0)
+    of = [np.zeros(120), np.cumsum(rng.normal(size=120))]
+    one = problem(*(Parts(rng.normal(size=120), values={"T_a": u}) for u in of))
+    found = basis(one, CandidateEffect(Refused(), {"u": "T_a"}, "feed_x"))
+    assert [bool(own.any()) for own in found.own] == [False, True]
+    assert [own.shape for own in found.own] == [(120, 10, 1)] * 2
+
+
+@dataclass(frozen=True)
 class Powered(Scaled):
     """The driver, to the power of an exponent, over the time constant."""
 

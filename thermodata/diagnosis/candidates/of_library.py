@@ -108,11 +108,16 @@ class CandidateEffect:
         return with_effect(spec, EffectSpec(effect=self.effect.name, drivers=dict(self.binding)))
 
     def in_test(self, test: TestData) -> InTest:
-        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there."""
+        """What it does in a test; zero where the test lacks a channel, or its sensor failed: nothing is known there. It
+        is zero, too, where its drivers rest (`plugin.Effect.basis`)."""
+        nothing = np.zeros((len(test.t_s), len(self.effect.gains)))
         failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
         if failed or not has_drivers(test, self.binding):
-            return lambda p: np.zeros((len(test.t_s), len(self.effect.gains)))
-        led = with_lead(make_drivers(test, self.effect, self.binding))
+            return lambda p: nothing
+        drivers = make_drivers(test, self.effect, self.binding)
+        if not any(values.any() for values in drivers.values.values()):
+            return lambda p: nothing
+        led = with_lead(drivers)
         return lambda p: columns(self.effect, led, p)
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:

@@ -152,7 +152,7 @@ class Pair:
 
     def told(self, i: int, gains: FloatND) -> Float2D:
         """Of a test's squared rises, what gains, shape (channels, 1 or s, k), foretell: shape (channels, s)."""
-        return _share(self._left(i, gains), self.energy[i])
+        return _share(self._left([i], gains), self.energy[i])
 
     def _near(self, shift_s: float) -> Bool1D:
         return np.asarray(np.abs(self.shifts_s - shift_s) <= UNMOVED_S)
@@ -160,25 +160,29 @@ class Pair:
     def _shares(self, i: int | None = None) -> Float2D:
         """Of the squared rises, foretold: shape (channels, s). i: the test that is asked of, by the others unmoved."""
         if i is not None:
-            return _share(self._left(i, self._gains(_but(self.tests, i))[:, self.shifts_s == 0]), self.energy[i])
-        left = sum(self._left(t, self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
+            return _share(self._left([i], self._unmoved(_but(self.tests, i))), self.energy[i])
+        left = sum(self._left([t], self._gains(_but(self.tests, t))) for t in range(len(self.tests)))
         return _share(np.asarray(left), self.energy.sum(axis=0))
 
     def _told_elsewhere(self, i: int) -> Float1D:
         """The share that is foretold in all tests but one, unmoved, by their own gains: shape (channels,)."""
-        others, unmoved = _but(self.tests, i), self.shifts_s == 0
-        gains = self._gains(others)
-        left = sum(self._left(t, gains) for t in others)
-        return _share(np.asarray(left), self.energy[others].sum(axis=0))[:, unmoved][:, 0]
+        others = _but(self.tests, i)
+        shares = _share(self._left(others, self._unmoved(others)), self.energy[others].sum(axis=0))
+        return shares[:, self.shifts_s == 0][:, 0]
 
     def _at_rest(self, i: int) -> Float2D:
         """The same of a test as if no command worked in it."""
-        gains = self._gains(_but(self.tests, i))[:, self.shifts_s == 0]
-        return _share(self._left(i, gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
+        gains = self._unmoved(_but(self.tests, i))
+        return _share(self._left([i], gains * (np.arange(gains.shape[-1]) == gains.shape[-1] - 1)), self.energy[i])
 
     def by_its_own(self, i: int) -> Float2D:
         """The same of a test with the gains that it gives itself."""
-        return _share(self._left(i, self._gains([i])), self.energy[i])
+        return _share(self._left([i], self._gains([i])), self.energy[i])
+
+    def _unmoved(self, of: Sequence[int]) -> FloatND:
+        """The gains at no shift: shape (channels, 1, k)."""
+        at = self.shifts_s == 0
+        return replace(self, gram=self.gram[:, :, at], cross=self.cross[:, :, at])._gains(of)
 
     def _gains(self, of: Sequence[int]) -> FloatND:
         """At which commands, and what is warm already, act in some tests: shape (channels, s, k)."""
@@ -188,12 +192,13 @@ class Pair:
         held = RIDGE * np.eye(size.shape[-1])
         return np.asarray(np.linalg.solve(gram + held, (self.cross[of].sum(axis=0) / size)[..., None])[..., 0] / size)
 
-    def _left(self, i: int, gains: FloatND) -> Float2D:
-        """Squared rises of a test, less what gains foretell of them, shape (channels, s)."""
-        gains = np.broadcast_to(gains, self.cross[i].shape)
-        along = np.einsum("nsk,nsk->ns", gains, self.cross[i])
-        said = np.einsum("nsj,nsjk,nsk->ns", gains, self.gram[i], gains)
-        return np.asarray(self.energy[i] - 2 * along + said)
+    def _left(self, of: Sequence[int], gains: FloatND) -> Float2D:
+        """Squared rises of some tests, less what gains foretell of them, shape (channels, s)."""
+        energy, cross, gram = (each[of].sum(axis=0) for each in (self.energy, self.cross, self.gram))
+        gains = np.broadcast_to(gains, cross.shape)
+        along = np.einsum("nsk,nsk->ns", gains, cross)
+        said = np.einsum("nsj,nsjk,nsk->ns", gains, gram, gains)
+        return np.asarray(energy - 2 * along + said)
 
     def _disagreement(self, shares: Float2D, tell: Bool1D) -> Disagreement | None:
         """tell: which channels say something, shape (channels,)."""
@@ -260,15 +265,14 @@ def _sums(
     cross = np.zeros((len(parts), channels, len(shifts), drives + 1))
     energy = np.zeros((len(parts), channels, len(shifts)))
     for i, (held, value, air) in enumerate(parts):
-        n = len(value)
+        n, works, around = len(value), _mean_over(held, over), _mean_over(air, over)
+        rises, begins = value[over:] - value[:-over], value[:-over]
         for k, shift in enumerate(map(int, shifts)):
             if n - abs(shift) <= 2 * over or n - abs(shift) < LEAST_LEFT * n:
                 continue
-            worked = _mean_over(held[max(0, -shift) : n - max(0, shift)], over)
-            rows = slice(max(0, shift), n - max(0, -shift))
-            here = value[rows]
-            both = [worked, here[over:] - here[:-over], here[:-over]]
-            worked, rise, warm = _beside(both, _mean_over(air[rows], over))
+            then = slice(max(0, -shift), n - over - max(0, shift))
+            rows = slice(max(0, shift), n - over - max(0, -shift))
+            worked, rise, warm = _beside([works[then], rises[rows], begins[rows]], around[rows])
             energy[i, :, k] = np.sum(rise**2, axis=0)
             seen = (energy[i, :, k] > 0).astype(np.float64)  # what was not measured says nothing of the commands
             gram[i, :, k, -1, -1] = np.sum(warm**2, axis=0)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.diagnosis.question.discrepancy import Noise, distances, free_of, halved
+from thermodata.diagnosis.question.discrepancy import Noise, cholesky, distances, free_of, halved
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.plugin import Float1D, Float2D
 
@@ -94,7 +94,7 @@ def _left(problem: Problem) -> tuple[list[Float2D], float]:
 
 def log_evidence(gram: Float2D, cross: Float1D, energy: float, logdet: float, rows: int, precision: Float1D) -> float:
     """Of a response under a prior of the known effects, of which all products are given."""
-    factor: Float2D = np.asarray(np.linalg.cholesky(gram + np.diag(precision)), dtype=np.float64)
+    factor = cholesky(gram + np.diag(precision))
     half = halved(factor, cross[:, None])[:, 0]
-    of_prior = 2 * np.log(np.diag(factor)).sum() - np.log(precision).sum()
+    of_prior = 2 * np.log(factor.diagonal()).sum() - np.log(precision).sum()
     return float(-0.5 * (energy - half @ half + of_prior + logdet + rows * np.log(2 * np.pi)))

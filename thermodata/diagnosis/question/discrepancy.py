@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpbtrf, dtbtrs, dtrtrs
+from scipy.linalg.lapack import dpbtrf, dpotrf, dtbtrs, dtrtri, dtrtrs
 
 from thermodata.diagnosis.question.problem import Block, Problem, start_directions
 from thermodata.plugin import Float1D, Float2D
@@ -36,6 +36,7 @@ START_TAU_S = 7200.0
 
 KEPT_BYTES = 64 << 20  # of whitened columns, a noise: those of 25 channels take 25 MB
 NEAR = 1 << 17  # values that are whitened at once
+PIECE = 320  # rows of which products are taken at once
 WIDE = 400  # columns from which on it costs less to take samples one by one
 SPACES = 3  # noises whose columns are kept: what is chosen is asked in two by turns, and of a third between
 
@@ -114,13 +115,14 @@ def _sound(solution: Float2D, info: int) -> Float2D:
 
 class Whitened:
     """The tests of a problem under one noise. rows: that are left once the offsets are known. logdet: of the
-    covariance, offsets included. parts: the samples of each test among all. kept: what was whitened already and is
-    asked again beside other effects, by who asks, `KEPT_BYTES` at most. products: of these with each other, by who asks
-    them."""
+    covariance, offsets included. parts: the samples of each test among all; sizes: how many, shape (tests,). kept: what
+    was whitened already and is asked again beside other effects, by who asks, `KEPT_BYTES` at most. products: of these
+    with each other, by who asks them."""
 
     def __init__(self, problem: Problem, noise: Noise) -> None:
         self.noise = noise
         self.parts = problem.parts
+        self.sizes = np.array([len(b.t_s) for b in problem.blocks])
         self.kept: dict[int, tuple[object, Float2D]] = {}
         self.products: dict[int, tuple[object, NDArray[np.float64]]] = {}
         self._room = KEPT_BYTES
@@ -163,6 +165,12 @@ class Whitened:
     def each(self, values: Float1D | Float2D) -> NDArray[np.float64]:
         """The sum of values of all tests, shape (rows, ...), in each of them, shape (tests, ...)."""
         return np.asarray(np.add.reduceat(values, [rows.start for rows in self.parts], axis=0))
+
+    def product(self, left: Float2D, right: Float2D) -> Float2D:
+        """Of the columns of both, shapes (rows, k) and (rows, s): shape (k, s). Piece by piece: of long columns the
+        library makes less than of what is near the processor."""
+        pieces = (slice(i, i + PIECE) for i in range(0, len(left), PIECE))
+        return np.asarray(sum(left[rows].T @ right[rows] for rows in pieces))
 
     def projected(self, white: Float2D, first: int = 0) -> Float2D:
         """Columns in units of the noise, shape (rows, k), of a test and as many that follow as there are rows, less
@@ -213,6 +221,16 @@ def halved(factor: Float2D, right: Float2D, *, transposed: bool = False) -> Floa
     return _sound(*dtrtrs(factor, right, lower=1, trans=int(transposed)))
 
 
+def cholesky(precision: Float2D) -> Float2D:
+    """The lower factor L of a matrix, likewise."""
+    return _sound(*dpotrf(precision, lower=1)) if precision.size else precision
+
+
+def inverse(factor: Float2D) -> Float2D:
+    """L^-1 for a lower Cholesky factor L."""
+    return _sound(*dtrtri(factor, lower=1)) if factor.size else factor
+
+
 def free_of(block: Block) -> Float2D:
     """A column for each free offset of a test, 1 where it counts, and what fades from a warm start, (m, columns)."""
     offsets = np.asarray(block.segment[:, None] == np.unique(block.segment)[None], dtype=np.float64)
@@ -248,13 +266,14 @@ def left_over(problem: Problem) -> float:
 def ascend(goal: Callable[[Float1D], float], x: Float1D, bounds: Float2D, most: int = 90) -> Float1D:
     """A local maximum of a goal by steps that halve, shape (k,). x: its start, shape (k,); bounds: lower and upper
     ones, shape (k, 2); most: how often the goal is asked at about most."""
-    x = np.clip(x, bounds[:, 0], bounds[:, 1])
+    low, high = bounds.T
+    x = np.clip(x, low, high)
     best, step, asked = goal(x), 0.8, 1
     while step > 0.12 and asked < most:
         moved = False
         for way in _ways(len(x)):
-            z = np.clip(x + step * way, bounds[:, 0], bounds[:, 1])
-            if np.array_equal(z, x):
+            z = np.minimum(np.maximum(x + step * way, low), high)
+            if (z == x).all():
                 continue
             value = goal(z)
             asked += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass, field, replace
 from functools import partial
@@ -16,7 +17,9 @@ from thermodata.diagnosis.question.discrepancy import (
     Whitened,
     ascend,
     bounds_of,
+    cholesky,
     halved,
+    inverse,
     left_over,
     whitened,
 )
@@ -31,13 +34,32 @@ FREE = 1.0  # or of what would make it as large as the response: an effect that 
 
 
 @dataclass(frozen=True, slots=True)
+class Others:
+    """What all tests but one say of the known effects, for each in turn. inverse: of the factors of their posterior
+    precision, shape (tests, k, k). mean: coefficients, (tests, k)."""
+
+    inverse: FloatND
+    mean: Float2D
+
+    def halved(self, right: FloatND) -> FloatND:
+        """The inverse factor of each times the right sides, shape (tests, ..., k)."""
+        rows = right.reshape(len(right), math.prod(right.shape[1:-1]), right.shape[-1])
+        return np.asarray((rows @ self.inverse.swapaxes(1, 2)).reshape(right.shape))
+
+    def solved(self, right: Float2D) -> Float2D:
+        """The inverse precision of each times the right side, shape (tests, k)."""
+        return np.asarray((self.halved(right)[:, None] @ self.inverse)[:, 0])
+
+
+@dataclass(frozen=True, slots=True)
 class Known:
-    """The known effects under a noise. both: columns and, last, the response, whitened, of all tests, (rows, k + 1).
-    gram: shape (tests, k, k). cross: (tests, k), with the response. energy: (tests,). precision: (k,), of the prior.
-    Factors and means are asked beside each candidate, and kept, by tests."""
+    """The known effects under a noise. held: their columns in all tests, (rows, k). both: the same and, last, the
+    response, whitened, (rows, k + 1). gram: shape (tests, k, k). cross: (tests, k), with the response. energy:
+    (tests,). precision: (k,), of the prior. Factors and means are asked beside each candidate, and kept, by tests."""
 
     problem: Problem
     space: Whitened
+    held: Float2D
     both: Float2D
     gram: FloatND
     cross: Float2D
@@ -45,12 +67,13 @@ class Known:
     precision: Float1D
     _factors: dict[bytes, Float2D] = field(default_factory=dict, init=False, repr=False, compare=False)
     _means: dict[bytes, Float1D] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _others: list[Others] = field(default_factory=list, init=False, repr=False, compare=False)
 
     def factor(self, tests: Int1D) -> Float2D:
         """Cholesky factor of the posterior precision, from some tests."""
         key = tests.tobytes()
         if key not in self._factors:
-            self._factors[key] = np.linalg.cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
+            self._factors[key] = cholesky(self.gram[tests].sum(axis=0) + np.diag(self.precision))
         return self._factors[key]
 
     def mean(self, tests: Int1D) -> Float1D:
@@ -64,9 +87,14 @@ class Known:
     def every(self) -> Int1D:
         return np.arange(len(self.gram))
 
-    def others(self, test: int) -> Int1D:
-        """All tests but one."""
-        return np.flatnonzero(self.every != test)
+    @property
+    def of_others(self) -> Others:
+        """The same of all tests but one, for each in turn."""
+        if not self._others:
+            each = others_of_each(self.gram) + np.diag(self.precision)
+            found = Others(np.stack([inverse(cholesky(one)) for one in each]), np.empty_like(self.cross))
+            self._others.append(replace(found, mean=found.solved(others_of_each(self.cross))))
+        return self._others[0]
 
     @property
     def white(self) -> Float2D:
@@ -85,10 +113,12 @@ class Known:
     @property
     def squares_left_out(self) -> Float1D:
         """Mean square of the error of each test that is left out, shape (tests,)."""
-        squares, held = [], self.problem.known
-        for i, (block, rows) in enumerate(zip(self.problem.blocks, self.space.parts, strict=True)):
-            squares.append(np.mean((block.response - held[rows] @ self.mean(self.others(i))) ** 2))
-        return np.array(squares)
+        left = np.concatenate(self.problem.response_blocks) - self.does(self.of_others.mean)
+        return np.asarray(self.space.each(left**2) / self.space.sizes)
+
+    def does(self, coefficients: Float2D) -> Float1D:
+        """What the known effects do in all tests by coefficients of each, shape (tests, k): shape (rows,)."""
+        return np.concatenate([self.held[rows] @ one for rows, one in zip(self.space.parts, coefficients, strict=True)])
 
     def log_probability(self, tests: Int1D) -> float:
         """Of some tests, but for terms of the noise and the prior: for differences between sets of known effects that
@@ -107,11 +137,13 @@ class Known:
 def known(problem: Problem, noise: Noise) -> Known:
     """The known effects and the response of each test, whitened by the noise, with their products."""
     space = whitened(problem, noise)
-    both = space.of(np.column_stack([problem.known, np.concatenate(problem.response_blocks)]))
+    held = problem.known
+    both = space.of(np.column_stack([held, np.concatenate(problem.response_blocks)]))
     products = np.stack([both[rows].T @ both[rows] for rows in space.parts])
     return Known(
         problem,
         space,
+        held,
         both,
         products[:, :-1, :-1],
         products[:, :-1, -1],
@@ -145,8 +177,8 @@ def likeliest_of(problem: Problem, parts: Sequence[Int1D], start: Noise | None =
 
     def evidence(x: Float1D, part: Int1D) -> float:
         gram, cross, energy, logdet, rows = products(x)
-        precision = _precision(gains, slack, _of(x).share)[part]
-        return log_evidence(gram[np.ix_(part, part)], cross[part], energy, logdet, rows, precision)
+        precision = _precision(gains, slack, float(np.exp(x[3])))[part]
+        return log_evidence(gram[part[:, None], part], cross[part], energy, logdet, rows, precision)
 
     begin = np.log(astuple(first if start is None else start))
     found = [_of(ascend(partial(evidence, part=part), begin, bounds)) for part in parts]
@@ -162,6 +194,15 @@ def _thinned(problem: Problem, every: int) -> Problem:
     """What its samples alone say is kept with the whole problem, for the next search."""
     kept = problem.kept.setdefault("thinned", {}).setdefault(every, {})
     return replace(problem.thinned(every), kept=kept)
+
+
+def others_of_each(parts: FloatND) -> FloatND:
+    """The sum of all parts but one, for each in turn, shape (tests, ...) as the parts: of those before and after it,
+    for a difference to the whole would lose digits."""
+    before, after = np.zeros_like(parts), np.zeros_like(parts)
+    np.cumsum(parts[:-1], axis=0, out=before[1:])
+    np.cumsum(parts[:0:-1], axis=0, out=after[-2::-1])
+    return before + after
 
 
 def solved(factor: Float2D, right: Float2D) -> Float2D:

@@ -52,11 +52,14 @@ class Commands:
 
     def __init__(self, problem: Problem) -> None:
         self._step_s = problem.step_s
-        self._jumps = [over_three(b.residual, b.t_s) for b in problem.blocks]
-        self._moves = [over_three(b.response, b.t_s) for b in problem.blocks]
+        self._jumps = np.concatenate([over_three(b.residual, b.t_s) for b in problem.blocks])
+        self._moves = np.concatenate([over_three(b.response, b.t_s) for b in problem.blocks])
+        self._sizes = np.array([len(b.t_s) for b in problem.blocks])
+        self._starts = np.cumsum(self._sizes) - self._sizes
         found = {n: c for b in problem.blocks for n, c in b.test.channels.items()}
         self._commands: list[_Command] = []
-        self._changes: dict[tuple[int, int, int, int], tuple[Float1D, Float1D, Int1D, Int1D]] = {}
+        self._changes: dict[tuple[int, int], tuple[Float1D, Int1D, Int1D]] = {}
+        self._followed: dict[tuple[int, int, int, int], tuple[Float1D, Float1D, Int1D, Int1D]] = {}
         for name, quantity in sorted((n, c.quantity) for n, c in found.items()):
             if quantity in JUMPING:
                 told = quantity in COMMANDS
@@ -93,7 +96,7 @@ class Commands:
         return most
 
     def _explains(self, command: Sequence[Course | None], block: int, i: int) -> bool:
-        own, jump = command[block], float(self._jumps[block][i])
+        own, jump = command[block], float(self._jumps[self._starts[block] + i])
         if own is None or not np.isfinite(jump):
             return False
         for way, rows in own.rows.items():
@@ -116,18 +119,33 @@ class Commands:
             return False
         slope, alike = through_zero(x, y)
         most = abs(slope) * float(np.abs(x).max())
-        return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[block][i]))
+        return alike >= ALIKE and most >= FORETOLD * abs(float(self._jumps[self._starts[block] + i]))
 
     def _elsewhere(
-        self, command: Sequence[Course | None], jumps: Sequence[Float1D], block: int, i: int, lag: int, way: int
+        self, command: Sequence[Course | None], jumps: Float1D, block: int, i: int, lag: int, way: int
     ) -> tuple[Float1D, Float1D]:
         """Changes of the command elsewhere, and the jumps so many samples after each: shape (k,) both."""
         key = id(command), id(jumps), lag, way
-        if key not in self._changes:
-            self._changes[key] = _everywhere(command, jumps, lag, way)
-        x, y, where, at = self._changes[key]
-        near = (where == block) & (np.abs(at - i) <= int(ELSEWHERE_S / self._step_s))
-        return x[~near], y[~near]
+        if key not in self._followed:
+            self._followed[key] = self._everywhere(command, jumps, lag, way)
+        x, y, where, at = self._followed[key]
+        far = (where != block) | (np.abs(at - i) > int(ELSEWHERE_S / self._step_s))
+        return x[far], y[far]
+
+    def _everywhere(
+        self, command: Sequence[Course | None], jumps: Float1D, lag: int, way: int
+    ) -> tuple[Float1D, Float1D, Int1D, Int1D]:
+        """All changes of a command, the jumps so many samples after each, and in which block and before which of its
+        samples these are: shape (k,) each."""
+        if (id(command), way) not in self._changes:
+            self._changes[id(command), way] = _changes(command, way)
+        x, rows, where = self._changes[id(command), way]
+        after = rows + lag
+        seen = np.flatnonzero((after >= 0) & (after < self._sizes[where]))
+        y = jumps[self._starts[where[seen]] + after[seen]]
+        known = np.isfinite(y)
+        seen = seen[known]
+        return x[seen], y[known], where[seen], after[seen]
 
 
 def commands_of(problem: Problem) -> Commands:
@@ -139,23 +157,13 @@ def commands_of(problem: Problem) -> Commands:
     return found
 
 
-def _everywhere(
-    command: Sequence[Course | None], jumps: Sequence[Float1D], lag: int, way: int
-) -> tuple[Float1D, Float1D, Int1D, Int1D]:
-    """All changes of a command, the jumps so many samples after each, and in which block and before which of its
-    samples these are: shape (k,) each."""
-    x, y, where, at = [np.empty(0)], [np.empty(0)], [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-    for k, course in enumerate(command):
-        if course is None:
-            continue
-        after = course.rows[way] + lag
-        after = after[(after >= 0) & (after < len(jumps[k]))]
-        after = after[np.isfinite(jumps[k][after])]
-        x.append(course.change[way][after - lag])
-        y.append(jumps[k][after])
-        where.append(np.full(len(after), k))
-        at.append(after)
-    return np.concatenate(x), np.concatenate(y), np.concatenate(where), np.concatenate(at)
+def _changes(command: Sequence[Course | None], way: int) -> tuple[Float1D, Int1D, Int1D]:
+    """All changes of a command, before which sample, and in which block these are: shape (k,) each."""
+    own = [(k, c.change[way], c.rows[way]) for k, c in enumerate(command) if c is not None]
+    x = np.concatenate([np.empty(0), *(change[rows] for _, change, rows in own)])
+    rows = np.concatenate([np.empty(0, np.int64), *(rows for _, _, rows in own)])
+    where = [np.full(len(rows), k) for k, _, rows in own]
+    return x, rows, np.concatenate([np.empty(0, np.int64), *where])
 
 
 def tells(jump: float, change: float, x: Float1D, y: Float1D, *, at_once: bool) -> bool:

@@ -96,7 +96,7 @@ def _with(problem: Problem, tests: Int1D, noise: Noise, chosen: Sequence[Scored]
         does = made.does(weighed)
         size = np.array([_rms([does[rows]]) for rows in base.space.parts])
         acts |= size >= ACTS * size[tests].max()
-        problem = extended(problem, made, weighed)
+        problem = extended(problem, [(made, weighed)])
     return problem, acts
 
 

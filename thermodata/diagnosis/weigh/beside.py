@@ -12,17 +12,24 @@ from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.evidence import Columns, Weighed
 from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.plugin import Float2D
 
 
 def beside(problem: Problem, chosen: Sequence[Scored]) -> Problem:
     """The same with chosen effects among what is known."""
-    for one in chosen:
-        problem = extended(problem, one.columns, one.weighed)
-    return problem
+    return extended(problem, [(one.columns, one.weighed) for one in chosen])
 
 
-def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
-    """The same with an effect among what is known: at its likeliest time constant, its neighbours at a price."""
+def extended(problem: Problem, some: Sequence[tuple[Columns, Weighed]]) -> Problem:
+    """The same with effects among what is known."""
+    if not some:
+        return problem
+    own, spare = zip(*(_as_known(made, weighed) for made, weighed in some), strict=True)
+    return problem.with_known(np.hstack(own), np.hstack(spare))
+
+
+def _as_known(made: Columns, weighed: Weighed) -> tuple[Float2D, Float2D]:
+    """An effect at its likeliest time constant, and, at a price, how else it may act: by its neighbours, too."""
     point, gains = weighed.best[0], made.gains
     sized, here = weighed.coefficients[:gains], made.whole[:, point]
     own = here[:, :gains] * np.where(sized == 0, 1.0, sized)
@@ -30,7 +37,7 @@ def extended(problem: Problem, made: Columns, weighed: Weighed) -> Problem:
     if made.on_a_line:
         neighbours = [p for p in (point - 1, point + 1) if 0 <= p < len(made.points)]
         spare += [(made.whole[:, p, :gains] @ sized - own.sum(axis=1))[:, None] for p in neighbours]
-    return problem.with_known(own, np.hstack(spare))
+    return own, np.hstack(spare)
 
 
 def each_beside_others(problem: Problem, chosen: Sequence[Scored], noise: Noise) -> list[Scored]:

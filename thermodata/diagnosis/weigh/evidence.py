@@ -21,7 +21,7 @@ import numpy as np
 from thermodata.diagnosis.candidates.basis import basis
 from thermodata.diagnosis.candidates.of_library import UNNAMED, CandidateEffect
 from thermodata.diagnosis.question.discrepancy import halved
-from thermodata.diagnosis.question.known import FloatND, Known, rms, solved
+from thermodata.diagnosis.question.known import FloatND, Known, others_of_each, rms, solved
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.plugin import Float1D, Float2D, Int1D, Param
 
@@ -99,6 +99,18 @@ class Weighed:
         return np.asarray(self.mean[self.best])
 
 
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """Of all tests but one, for each of them in turn. total: shape (tests,), as of `Weighed`. point: (tests,), the
+    likeliest one; coefficients: (tests, c), there at the likeliest size. toward: (tests, k), the products of what it
+    then does in these tests with the known effects."""
+
+    total: Float1D
+    point: Int1D
+    coefficients: Float2D
+    toward: Float2D
+
+
 def columns(problem: Problem, candidate: CandidateEffect) -> Columns | None:
     """None where its drivers never move."""
     made = basis(problem, candidate)
@@ -148,9 +160,7 @@ def each_of_all(known: Known, some: Sequence[Columns]) -> Iterator[Moments]:
         for one, white in zip(group, _whites(known, group), strict=True):
             if id(one) not in kept:  # the same, whatever is known
                 kept[id(one)] = one, _squares(white, one)
-            # test by test: of long columns the library makes less than of what is near the processor
-            both = np.sum([white[rows].T @ known.both[rows] for rows in known.space.parts], axis=0)
-            cross = both.reshape(*one.whole.shape[1:], -1)
+            cross = known.space.product(white, known.both).reshape(*one.whole.shape[1:], -1)
             yield Moments(kept[id(one)][1], cross[..., :-1], cross[..., -1])
 
 
@@ -170,27 +180,17 @@ def weigh(known: Known, columns: Columns, moments: Moments, tests: Int1D) -> Wei
     return Weighed(*_weigh(columns, *beyond_known(known, moments, tests)))
 
 
-def each_left_out(known: Known, columns: Columns, moments: Moments) -> list[Weighed]:
+def each_left_out(known: Known, columns: Columns, moments: Moments) -> LeftOut:
     """What all tests but one say, for each of them in turn. moments: a test each."""
-    cross = others_of_each(moments.known)
-    count, points, c, k = cross.shape
-    half = np.empty_like(cross)
-    right = others_of_each(moments.response)
-    for i in range(count):
-        others = known.others(i)
-        half[i] = halved(known.factor(others), cross[i].reshape(points * c, k).T).T.reshape(points, c, k)
-        right[i] -= cross[i] @ known.mean(others)
-    left = others_of_each(moments.own) - half @ half.swapaxes(-1, -2)
-    return [Weighed(*one) for one in zip(*_weigh(columns, left, right), strict=True)]
-
-
-def others_of_each(parts: FloatND) -> FloatND:
-    """The sum of all parts but one, for each in turn, shape (tests, ...) as the parts: of those before and after it,
-    for a difference to the whole would lose digits."""
-    before, after = np.zeros_like(parts), np.zeros_like(parts)
-    np.cumsum(parts[:-1], axis=0, out=before[1:])
-    np.cumsum(parts[:0:-1], axis=0, out=after[-2::-1])
-    return before + after
+    cross, others = others_of_each(moments.known), known.of_others
+    half = others.halved(cross)
+    right = others_of_each(moments.response) - (cross @ others.mean[:, None, :, None])[..., 0]
+    log_bf, mean = _weigh(columns, others_of_each(moments.own) - half @ half.swapaxes(-1, -2), right)
+    by_test = log_bf.reshape(len(log_bf), -1)
+    best = by_test.argmax(axis=1)
+    point, sized = best // len(SIZES), mean.reshape(*by_test.shape, -1)[known.every, best]
+    toward = (sized[:, None] @ cross[known.every, point])[:, 0]
+    return LeftOut(_log_sum(by_test.T), point, sized, toward)
 
 
 def beyond_known(known: Known, moments: Moments, tests: Int1D) -> tuple[FloatND, FloatND]:
@@ -214,13 +214,19 @@ def _weigh(columns: Columns, left: FloatND, right: FloatND) -> tuple[FloatND, Fl
     return log_bf + columns.prior, deviation * solution
 
 
-def of_each_series(known: Known, columns: Columns, series: Float2D) -> Float1D:
-    """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,)."""
-    tests, count = known.every, series.shape[1]
+def explained(known: Known, series: Float2D) -> Float2D:
+    """The coefficients of the known effects in other responses, whitened, of all tests, (rows, s): shape (k, s)."""
+    return solved(known.factor(known.every), known.space.product(known.white, series))
+
+
+def of_each_series(known: Known, columns: Columns, series: Float2D, already: Float2D) -> Float1D:
+    """log BF of other responses, whitened, of all tests, shape (rows, s): shape (s,). already: what is `explained` of
+    them."""
+    count = series.shape[1]
     (white,), (products,) = _whites(known, [columns]), each_of_all(known, [columns])
-    left, _ = beyond_known(known, products, tests)
-    right = (white.T @ series).reshape(*columns.whole.shape[1:], count)
-    right -= products.known @ solved(known.factor(tests), known.white.T @ series)
+    left, _ = beyond_known(known, products, known.every)
+    right = known.space.product(white, series).reshape(*columns.whole.shape[1:], count)
+    right -= products.known @ already
     deviation = SIZES[:, None] * columns.width
     scaled = deviation[None, :, :, None] * left[:, None] * deviation[None, :, None, :]
     scaled[..., np.arange(len(columns.width)), np.arange(len(columns.width))] += 1.0

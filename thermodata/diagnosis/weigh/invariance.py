@@ -15,19 +15,19 @@ from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 SPREADS = np.array([0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5])
 
 
-def spread_of_gain(known: Known, contribution: Float1D, acts: Bool1D) -> float:
+def spread_of_gain(known: Known, white: Float1D, acts: Bool1D) -> float:
     """Standard deviation of the factor between tests, as a share of 1: the mean over its likelihood, flat over
-    `SPREADS`. contribution: of all tests, shape (rows,). acts: in which tests it does something, shape (tests,).
+    `SPREADS`. white: the contribution in all tests, whitened, shape (rows,). acts: in which tests it does something,
+    shape (tests,).
 
     Of all tests, or of those in which it acts, the factors of the others left free, whichever is less: where it rests
     its gain may speak for it, and not against it, for what else moves there it hardly moves.
     """
-    white = known.space.of(contribution[:, None])
-    size = known.space.each(white[:, 0] ** 2)
+    size = known.space.each(white**2)
     moves = size > 1e-6 * size.max()
     if moves.sum() < 2:
         return 1.0
-    both = known.space.each(known.both * white)
+    both = known.space.each(known.both * white[:, None])
     cross, right = both[:, :-1], both[:, -1]
     precision = np.diag(size) - cross @ solved(known.factor(known.every), cross.T)
     right = right - cross @ known.mean(known.every)
@@ -37,7 +37,7 @@ def spread_of_gain(known: Known, contribution: Float1D, acts: Bool1D) -> float:
 
 
 def _spread(precision: Float2D, right: Float1D) -> float:
-    weight = np.array([_log_likelihood(precision, right, s) for s in SPREADS])
+    weight = _log_likelihood(precision, right)
     weight = np.exp(weight - weight.max())
     return float(weight @ SPREADS / weight.sum())
 
@@ -52,15 +52,14 @@ def _of_some(precision: Float2D, right: Float1D, some: Int1D, moves: Bool1D) -> 
     return own - across @ held[:, :-1], right[some] - across @ held[:, -1]
 
 
-def _log_likelihood(precision: np.ndarray, right: Float1D, spread: float) -> float:
-    """Of the factors' estimates, their common mean integrated out; relative to free factors."""
-    count = len(right)
-    # (P^-1 + s^2)^-1 without inverting P: (1 + s^2 P)^-1 P
-    inner = np.eye(count) + spread**2 * precision
-    both = np.linalg.solve(inner, np.column_stack([precision, right]))
-    shared, pulled = both[:, :count], both[:, count]
-    one = np.ones(count)
-    weight, toward = one @ shared @ one, one @ pulled
+def _log_likelihood(precision: Float2D, right: Float1D) -> Float1D:
+    """Of the factors' estimates under each of the spreads, their common mean integrated out; relative to free factors,
+    shape (spreads,). Along the directions of the precision P the factors are apart."""
+    sure, directions = np.linalg.eigh(precision)
+    one, along = directions.sum(axis=0), directions.T @ right
+    # (P^-1 + s^2)^-1 without inverting P: P / (1 + s^2 P)
+    inner = 1.0 + SPREADS[:, None] ** 2 * sure
+    weight, toward = (one**2 * sure / inner).sum(axis=1), (one * along / inner).sum(axis=1)
     # quad of the estimates f = P^-1 r under the shared model, less that under P alone, which all spreads share
-    quad = spread**2 * right @ pulled
-    return float(0.5 * (quad + toward**2 / weight - np.linalg.slogdet(inner)[1] - np.log(weight)))
+    quad = SPREADS**2 * (along**2 / inner).sum(axis=1)
+    return np.asarray(0.5 * (quad + toward**2 / weight - np.log(inner).sum(axis=1) - np.log(weight)))

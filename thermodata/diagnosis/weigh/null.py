@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from thermodata.diagnosis.question.known import Known
-from thermodata.diagnosis.weigh.evidence import Columns, of_each_series
+from thermodata.diagnosis.weigh.evidence import Columns, explained, of_each_series
 from thermodata.plugin import Float1D, Float2D
 
 DRAWS = 199  # the smallest p is 0.5 %
@@ -21,9 +21,9 @@ DRAWS = 199  # the smallest p is 0.5 %
 def best_of_chance(known: Known, pool: Sequence[Columns], seed: int = 0) -> Float1D:
     """The largest evidence of any candidate on each null response, sorted, shape (`DRAWS`,)."""
     series = _responses(known, np.random.default_rng(seed))
-    best = np.full(DRAWS, -np.inf)
+    already, best = explained(known, series), np.full(DRAWS, -np.inf)
     for one in pool:
-        np.maximum(best, of_each_series(known, one, series) - one.candidate.log_prior, out=best)
+        np.maximum(best, of_each_series(known, one, series, already) - one.candidate.log_prior, out=best)
     return np.sort(best)
 
 

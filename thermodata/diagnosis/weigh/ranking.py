@@ -9,14 +9,13 @@ import numpy as np
 
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import Known, known, solved
-from thermodata.diagnosis.question.problem import Block, Problem
+from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.weigh.evidence import (
     Columns,
     Weighed,
     each_left_out,
     each_of_all,
     moments,
-    others_of_each,
     weigh,
 )
 from thermodata.diagnosis.weigh.invariance import spread_of_gain
@@ -43,42 +42,46 @@ def rank_in(problem: Problem, pool: Sequence[Columns], noise: Noise, *, left_out
         for one, products in zip(pool, each_of_all(base, pool), strict=True)
     ]
     weighed.sort(key=lambda item: -item[0].total)
-    ranked = [score(base, one, w) if left_out else _seen(base, one, w) for w, one in weighed[:SCORED]]
-    ranked += [_unscored(one, w) for w, one in weighed[SCORED:]]
+    ranked = _scored(base, weighed[:SCORED], left_out=left_out) + [_unscored(one, w) for w, one in weighed[SCORED:]]
     return Ranked(base, tuple(ranked))
 
 
 def score(base: Known, one: Columns, w: Weighed) -> Scored:
     """With what the left-out tests say of it. base: the known effects; w: what all tests say."""
-    tests, parts, known_columns, products = base.every, base.space.parts, base.problem.known, moments(base, one)
-    before, after, own_before, own_after, gained = np.zeros((5, len(tests)))
-    of_all, toward = (base.mean(tests), base.factor(tests)), products.known.sum(axis=0)
-    toward_others = others_of_each(products.known)
-    for i, seen in enumerate(each_left_out(base, one, products)):
-        block, others, best = base.problem.blocks[i], base.others(i), seen.best
-        gained[i] = w.total - seen.total
-        held, sized = known_columns[parts[i]], seen.coefficients
-        does = one.whole[parts[i], best[0]] @ sized
-        of_others = base.mean(others), base.factor(others)
-        before[i], after[i] = _errors(block, held, does, *of_others, toward_others[i, best[0]].T @ sized)
-        own_before[i], own_after[i] = _errors(block, held, does, *of_all, toward[best[0]].T @ sized)
-    contribution = one.does(w)
-    rows = np.array([len(contribution[own]) for own in parts])
-    size = np.sqrt(base.space.each(contribution**2) / rows)
-    return Scored(
-        candidate=one.candidate,
-        columns=one,
-        weighed=w,
-        evidence=w.total - one.candidate.log_prior,
-        gained=gained,
-        rows=rows,
+    return _scored(base, [(w, one)])[0]
+
+
+def _scored(base: Known, some: Sequence[tuple[Weighed, Columns]], *, left_out: bool = True) -> list[Scored]:
+    """What they look like and, where these are asked, what the left-out tests say of them."""
+    if not some:
+        return []
+    does = np.column_stack([one.does(w) for w, one in some])
+    white = base.space.of(does)
+    seen = [replace(_unscored(one, w), shape=s) for (w, one), s in zip(some, _shapes(base, white), strict=True)]
+    return [_with_left_out(base, s, does[:, i], white[:, i]) for i, s in enumerate(seen)] if left_out else seen
+
+
+def _with_left_out(base: Known, seen: Scored, does: Float1D, white: Float1D) -> Scored:
+    """does: its contribution, shape (rows,); white: the same whitened."""
+    one, space, products = seen.columns, base.space, moments(base, seen.columns)
+    others = each_left_out(base, one, products)
+    point, sized = others.point, others.coefficients
+    alone = np.concatenate([one.whole[rows, point[i]] @ sized[i] for i, rows in enumerate(space.parts)])
+    of_all = (sized[:, None] @ products.known.sum(axis=0)[point])[:, 0]
+    pulled = solved(base.factor(base.every), of_all.T).T
+    own_before, own_after = _errors(base, np.tile(base.mean(base.every), (len(sized), 1)), pulled, alone)
+    before, after = _errors(base, base.of_others.mean, base.of_others.solved(others.toward), alone)
+    size = np.sqrt(space.each(does**2) / space.sizes)
+    return replace(
+        seen,
+        gained=seen.weighed.total - others.total,
+        rows=space.sizes,
         sse_before=before,
         sse_after=after,
         own_before=own_before,
         own_after=own_after,
         size=size,
-        spread=spread_of_gain(base, contribution, acting(size)),
-        shape=_shape(base, contribution),
+        spread=spread_of_gain(base, white, acting(size)),
         sides=tuple(_evidence(base, side) for side in one.sides),
     )
 
@@ -88,21 +91,12 @@ def _evidence(base: Known, one: Columns) -> float:
     return weigh(base, one, products, base.every).total - one.candidate.log_prior
 
 
-def _errors(
-    block: Block, held: Float2D, does: Float1D, theta: Float1D, factor: Float2D, toward: Float1D
-) -> tuple[float, float]:
-    """Squared error of a test without and with the candidate of the others. held: the known effects' columns. does:
-    what the candidate does there. theta, factor, toward: of the tests that the known effects are fitted to: their
-    coefficients and posterior, and their products with the candidate."""
-    without = block.response - held @ theta
-    pulled = solved(factor, toward[:, None])[:, 0]
-    among = without + held @ pulled - does
-    return float(without @ without), float(among @ among)
-
-
-def _seen(base: Known, one: Columns, w: Weighed) -> Scored:
-    """What it looks like, without the left-out tests."""
-    return replace(_unscored(one, w), shape=_shape(base, one.does(w)))
+def _errors(base: Known, theta: Float2D, pulled: Float2D, does: Float1D) -> tuple[Float1D, Float1D]:
+    """Squared error of each test without and with the candidate of the others. theta: coefficients of the known effects
+    in each, shape (tests, k); pulled: what the candidate takes off these; does: what it does there, shape (rows,)."""
+    without = np.concatenate(base.problem.response_blocks) - base.does(theta)
+    among = without + base.does(pulled) - does
+    return base.space.each(without**2), base.space.each(among**2)
 
 
 def _unscored(one: Columns, w: Weighed) -> Scored:
@@ -111,9 +105,8 @@ def _unscored(one: Columns, w: Weighed) -> Scored:
     return Scored(one.candidate, one, w, evidence, no, no, no, no, no, no, no, spread=1.0, shape=no)
 
 
-def _shape(base: Known, contribution: Float1D) -> Float1D:
-    """The whitened contribution without what the known effects can do, unit length."""
-    white = base.space.of(contribution[:, None])
-    whole = (white - base.white @ solved(base.factor(base.every), base.white.T @ white))[:, 0]
-    length = float(np.linalg.norm(whole))
-    return np.asarray(whole / length if length > 0 else whole)
+def _shapes(base: Known, white: Float2D) -> list[Float1D]:
+    """Whitened contributions, shape (rows, c), without what the known effects can do, of unit length: each (rows,)."""
+    whole = white - base.white @ solved(base.factor(base.every), base.white.T @ white)
+    length = np.linalg.norm(whole, axis=0)
+    return list(np.ascontiguousarray((whole / np.where(length > 0, length, 1.0)).T))
