@@ -132,6 +132,7 @@ def _registry() -> Any:
     import pint
 
     registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None)
+    registry.define("per_unit = 1")  # a share of what is rated, 1 of which is 100 %
     return registry
 
 
