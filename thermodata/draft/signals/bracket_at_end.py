@@ -14,11 +14,11 @@ from thermodata.schema.units.scale import scaled_unit
 
 _AT_END = re.compile(r"[\[(（［](?P<said>[^\[\]()（）［］]+)[\])）］]$")
 # in capitals, or in any letters, these say where or how as well: high pressure, a controlled value, an inlet
-_WORDS = frozenset("hp cv oc in at out on min max d h s".split())
+_WORDS = frozenset(["hp", "cv", "oc", "in", "at", "out", "on", "min", "max", "d", "h", "s"])
 # what counts or shares, of which nobody knows how much one is
-_OF_COUNTS = frozenset(
-    "frac fract fraction ratio cts ct steps step ticks tick digit digits dig lsb pulses pulse "
-    "imp inkr inkremente increments incr incs counts count adu a.u. au arb arb.u. units unit".split()
+_OF_COUNTS = re.compile(
+    r"fract?|fraction|ratio|cts?|steps?|ticks?|dig|digits?|lsb|pulses?|imp|inkr|inkremente|incrs?|increments|incs|"
+    r"counts?|adu|a\.?u|arb|arb\.u|units?"
 )
 _SIGNS = re.compile(r"[/%‰°º²³^·*\"″]|[µμ]")
 _LETTERS = re.compile(r"[^\W\d_]")
@@ -45,7 +45,7 @@ def unknown(name: str, quantity: str | None) -> str | None:
     if said is None or quantity in (None, "state", "label"):
         return None
     bare = said.casefold().rstrip(".")
-    if bare in _OF_COUNTS or said.casefold() in _OF_COUNTS:
+    if _OF_COUNTS.fullmatch(bare):
         return said
     if bare in _WORDS or not (_LETTERS.search(said) or _SIGNS.search(said)) or _is_word(words(said)):
         return None

@@ -247,7 +247,7 @@ def _share(found: Guess, unit: str, values: Values | None) -> Guess:
 
 
 def _may_be_of_one(values: Values) -> bool:
-    """Whether a share that no unit is said of stays so low that it may count from 0 to 1; whole numbers are per cent."""
+    """Whether a share without a unit stays so low that it may count from 0 to 1; whole numbers are per cent."""
     return not values.constant and not values.whole and max(-values.low, values.high) <= _MOST_OF_ONE
 
 

@@ -95,7 +95,7 @@ QUANTITY_MEANING: dict[str, str] = {
 # units in pint's spelling that need not be looked up: to begin, pint reads its definitions for half a second
 AT_HAND = frozenset(
     {
-        *UNIT_SPELLING.values(),
+        *(u for u in UNIT_SPELLING.values() if u != "per_unit"),  # which is defined here
         *(u for u in CANONICAL_UNIT.values() if u not in ("1", "%", "Ohm", "N m", "W/m2")),
         *("nm", "mm", "cm", "m", "mm/min", "m/s", "mm/s", "mrad", "rad", "degF", "s", "ms", "min", "h"),
         *("mV", "mA", "W", "N", "kN", "Pa", "kPa", "MPa", "mbar", "l/h", "kg"),
