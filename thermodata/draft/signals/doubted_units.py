@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity import Guess, range_text
-from thermodata.draft.signals.values import Values
+from thermodata.draft.signals.values import Values, least_reading
 from thermodata.schema.words.places import AROUND
 
 _NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
@@ -32,7 +32,7 @@ def doubted(found: Guess, name: str, values: Values) -> Guess:
     """With a question where values of a channel without a unit may be of another one than `found` has."""
     asked = None
     if found.quantity == "temperature" and found.unit == "degC":
-        least = _coldest(values)
+        least = least_reading(values)
         closed = _NO_HALL_C if units.may_be_fahrenheit(name) or _stands_at(found, AROUND) else _NO_REST_C
         asked = "degF, or degC?" if values.n > 0 and least >= closed else None
     elif found.quantity == "rotational_speed" and found.unit == "rpm" and not _stands_at(found, _SLOW):
@@ -64,18 +64,13 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
             asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
     elif found.quantity == "temperature" and units.kelvins(found.unit) is None:
         factor, offset = units.to_degc(found.unit)
-        least = factor * _coldest(values) + offset
+        least = factor * least_reading(values) + offset
         coldest, warmest = _COLD_K if is_fired(text) else (_COLDEST_K, _HOTTEST_K)
         if coldest <= least <= warmest and factor * values.median + offset <= _HOTTEST_K:
             asked = f"unit: K, or {found.unit}? no reading is below {least:.3g} degC"
         elif _NO_REST_C <= least <= _COLDEST_K and _stands_at(found, _COOL):
             asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
     return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
-
-
-def _coldest(values: Values) -> float:
-    """The lowest reading; without the zeros that a logger writes where it lost one."""
-    return min(values.first, values.median) if values.low == 0.0 else values.low
 
 
 def _stands_at(found: Guess, places: tuple[str, ...]) -> bool:
