@@ -86,3 +86,22 @@ def test_what_the_head_says_of_a_sign_or_a_jump_is_quoted_beside_its_displacemen
     lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
     told = [line.strip().split(":")[0] for line in lines if f"the head of the file says '{head}'" in line]
     assert told == quoted
+
+
+@pytest.mark.parametrize(
+    ("head", "asked"),
+    [
+        ("# speed in 1/s, T_bed in degC", "unit: rpm, or 1/s? the head of the file says '# speed in 1/s"),
+        ("# speed in rpm, T_bed in degC", ""),
+        ("# speed in a table", ""),
+        ("# Operator: A, speed: V", ""),
+    ],
+)
+def test_a_unit_that_the_head_says_of_a_column_is_asked_beside_that_of_its_name(
+    tmp_path: Path, say: Say, head: str, asked: str
+) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00,{25 + k / 7:.2f},{66 + 66 * (k > 30)}" for k in range(60)]
+    (tmp_path / "run1.csv").write_text("\n".join([head, "time,T_bed,speed_rpm", *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert asked in text if asked else "the head of the file" not in text

@@ -9,7 +9,7 @@ from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.preamble.units_said import OTHERS, units_in
+from thermodata.reader.text.preamble.units_said import OTHERS, unit_of, units_in
 from thermodata.schema.units.quantity import CANONICAL_UNIT, converts, normal_unit
 from thermodata.schema.words.sentences import with_count
 
@@ -40,9 +40,16 @@ def with_head(
         return replace(said, questions=questions), note
     if signal.unit is None and said.quantity in _LENGTHS_AND_HEAT and OTHERS.search(line):
         return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}? {told}")), note
+    own = unit_of(line, signal.name)
+    if own is not None and said.unit is not None and _fits(own, said.quantity) and not _same(own, said.unit):
+        return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}, or {own}? {told}")), note
     if normal_unit(signal.unit or "") not in ("V", "mV"):  # which a scale of the logger makes another unit of
         return said, note
     return said, "; ".join(filter(None, (note, told)))
+
+
+def _same(one: str, other: str) -> bool:
+    return normal_unit(one) == normal_unit(other)
 
 
 def _fits(unit: str, quantity: str | None) -> bool:
