@@ -20,7 +20,7 @@ from thermodata.store.tidy.series import Member
 from thermodata.store.tidy.source_clock import Clock, Span
 
 # counts the changes of calibration, flagging and layout that make older tidy files out of date
-TIDY_VERSION = "21"
+TIDY_VERSION = "22"
 
 
 def member_key(
