@@ -17,7 +17,7 @@ from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
 from thermodata.draft.signals.guess import called, guess, guess_of
-from thermodata.draft.signals.head_said import with_head
+from thermodata.draft.signals.head_said import with_head, with_text
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
@@ -237,7 +237,7 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     said = replace(said, sure=False) if where else said
     if any(heads):
         said, note = with_head(said, signal, note, heads)
-    said = with_scale_asked(said, own_signals or {"": signal})
+    said = with_scale_asked(with_text(said, next(iter(own_signals.values()), signal)), own_signals or {"": signal})
     if STATE_OF in signal.properties and said.quantity != "state":
         asked = (
             f"the state of '{signal.properties[STATE_OF]}'? ({range_text(values)}) which codes are bad is not known "
