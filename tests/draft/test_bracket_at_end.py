@@ -45,7 +45,15 @@ def test_a_unit_of_the_quantity_is_taken(header: str, high: float, quantity: str
 
 @pytest.mark.parametrize(
     "header",
-    ["X Position (counts/rev)", "Position Y (cts)", "Y pos (steps)", "X Pos (″)", "T_front (°Ra)"],
+    [
+        "X Position (counts/rev)",
+        "Position Y (cts)",
+        "Y pos (steps)",
+        "X Pos (″)",
+        'Y Pos (")',
+        "Z Pos (2.5 um)",
+        "T_front (°Ra)",
+    ],
 )
 def test_what_reads_as_a_unit_and_is_none_known_is_asked_and_no_other_is_guessed(header: str) -> None:
     said = _said(header, 20.0, 30.0)
@@ -66,6 +74,12 @@ def test_what_reads_as_a_unit_and_is_none_known_is_asked_and_no_other_is_guessed
         ("T bearing (front)", "degC"),
         ("Temp hall (Pt100)", "degC"),
         ("Speed (S1)", "rpm"),
+        ("T bearing (1/2)", "degC"),
+        ("T bearing (L/R)", "degC"),
+        ("T bearing (B)", "degC"),
+        ("X Position (A/B)", "mm"),
+        ("X Position (2nd)", "mm"),
+        ('T ("hall")', "degC"),
     ],
 )
 def test_a_word_in_brackets_asks_nothing_of_the_unit(header: str, unit: str) -> None:

@@ -15,13 +15,15 @@ from thermodata.schema.units.scale import scaled_unit
 _AT_END = re.compile(r"[\[(（［](?P<said>[^\[\]()（）［］]+)[\])）］]$")
 # in capitals, or in any letters, these say where or how as well: high pressure, a controlled value, an inlet
 _WORDS = frozenset(["hp", "cv", "oc", "in", "at", "out", "on", "min", "max", "d", "h", "s"])
+_OTHERWISE = ("cv", "oc")  # of which no quantity says whether they are units
 # what counts or shares, of which nobody knows how much one is
 _OF_COUNTS = re.compile(
     r"fract?|fraction|ratio|cts?|steps?|ticks?|dig|digits?|lsb|pulses?|imp|inkr|inkremente|incrs?|increments|incs|"
     r"counts?|adu|a\.?u|arb|arb\.u|units?"
 )
-_SIGNS = re.compile(r"[/%‰°º²³^·*\"″]|[µμ]")
-_LETTERS = re.compile(r"[^\W\d_]")
+# signs that no word has; a stroke between two of a kind, 'A/B' or '1/2', is none of them
+_SIGNS = re.compile(r"[%‰°º²³^″µμ]|^\"$|[^\W\d_]/(?:s|sec|min|h|hr|rev|turn|count|digit|m?V|K|mm|m)$")
+_NUMBER = re.compile(r"^\d[\d.,/]*\s*(?=[^\W\d_])")
 
 
 def of_quantity(name: str, quantity: str | None) -> str | None:
@@ -33,7 +35,7 @@ def of_quantity(name: str, quantity: str | None) -> str | None:
     if said.casefold() in units.SHARE_WORDS.get(str(quantity), ()):
         return "pu"
     unit = said.rstrip(".")
-    if not is_unit(unit) or scaled_unit(unit)[0] != 1.0:
+    if unit.casefold() in _OTHERWISE or not is_unit(unit) or scaled_unit(unit)[0] != 1.0:
         return None
     return unit if units.may_be(unit, str(quantity)) and normal_unit(unit) != "dimensionless" else None
 
@@ -47,9 +49,13 @@ def unknown(name: str, quantity: str | None) -> str | None:
     bare = said.casefold().rstrip(".")
     if _OF_COUNTS.fullmatch(bare):
         return said
-    if bare in _WORDS or not (_LETTERS.search(said) or _SIGNS.search(said)) or _is_word(words(said)):
+    if bare in _WORDS or _is_word(words(said)):
         return None
-    return said if _SIGNS.search(said) or is_unit(bare) or is_unit(said) or scaled_unit(said)[0] != 1.0 else None
+    if _SIGNS.search(said):
+        return said
+    # a letter alone is the name of one of several
+    unit = _NUMBER.sub("", said.rstrip("."))
+    return said if len(bare) > 1 and "/" not in unit and not unit.isdigit() and is_unit(unit) else None
 
 
 def _said(name: str) -> str | None:
