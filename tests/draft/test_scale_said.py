@@ -46,9 +46,7 @@ def test_a_scale_of_the_head_is_asked_of_its_column_alone(tmp_path: Path, say: S
     assert 'unit: "0.1 um", instead_of: um' in told[0]
 
 
-@pytest.mark.parametrize(
-    "head", ["# ADC 16 bits 10 V range", "# sample counts 200 s", "# counts 300", "# steps of 10 um"]
-)
+@pytest.mark.parametrize("head", ["# ADC 16 bits 10 V range", "# sample counts 200 s", "# counts 300"])
 def test_a_head_that_says_no_scale_asks_none(tmp_path: Path, say: Say, head: str) -> None:
     rows = [f"2026-03-12 08:{k:02d}:00;{20 + k / 7:.2f};{4 + 3 * k}" for k in range(60)]
     text = "\n".join([head, "Time;T_front [degC];dZ_um", *rows, ""])
