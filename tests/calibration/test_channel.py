@@ -164,3 +164,33 @@ def test_text_becomes_numbers_and_labels_stay_text() -> None:
 
 def test_empty_input_gives_empty_output() -> None:
     assert values(np.empty(0), channel("temperature"), "degC") == []
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "raw", "wanted"),
+    [
+        ("temperature", "0.0078125 degC", 2560.0, 20.0),
+        ("temperature", "1/128 °C", 2560.0, 20.0),
+        ("temperature", "0,05 K", 5863.0, 20.0),
+        ("temperature_difference", "0.25 K", 8.0, 2.0),
+        ("displacement", "20 nm", 50.0, 1.0),
+        ("displacement", "0.02 um", 50.0, 1.0),
+        ("power", "0.5 W", 2000.0, 1.0),
+    ],
+)
+def test_a_declared_unit_may_say_how_much_one_count_is(quantity: str, unit: str, raw: float, wanted: float) -> None:
+    assert values([raw], channel(quantity, unit=unit)) == pytest.approx([wanted])
+
+
+def test_a_number_before_the_unit_of_a_file_may_be_its_range() -> None:
+    with pytest.raises(CalibrationError, match="20 nm"):
+        values([50.0], channel("displacement"), "20 nm")
+    with pytest.raises(CalibrationError, match="0 um"):
+        values([50.0], channel("displacement", unit="0 um"))
+
+
+def test_the_kind_that_is_advised_is_one_that_the_quantity_can_have() -> None:
+    for quantity, kind in (("temperature", "linear"), ("power", "linear"), ("displacement", "scale")):
+        with pytest.raises(CalibrationError) as told:
+            values([1.0], channel(quantity, unit="count"))
+        assert f"kind: {kind}, gain" in str(told.value.hint)

@@ -248,3 +248,50 @@ def test_a_reading_below_others_about_it_is_no_clear_sky() -> None:
     x = np.round(400 + np.random.default_rng(2).normal(0, 12, 4320))
     x[2000:2040] = 396.0
     assert of_clear_sky(x)[2000:2040].all()
+
+
+def drive(low: float, high: float, seed: int = 5) -> Float1D:
+    """What follows a spindle that is switched on and off, with the noise of its reading."""
+    on = (np.arange(N) // 700) % 2
+    x = low + (high - low) * on + 0.02 * (high - low) * np.random.default_rng(seed).standard_normal(N) * on
+    return np.round(x, 3)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "low", "high", "code"),
+    [
+        ("rotational_speed", 0, 8000, 65535.0),
+        ("rotational_speed", 0, 0, 32767.0),  # it never turns
+        ("power", 0.12, 3.2, 3276.7),
+        ("load", 0.4, 15, 255.0),
+        ("current", 1, 7, -3276.8),
+        ("flow", 6, 9, 999.9),
+        ("torque", 0, 20, -9999.0),
+        ("feed", 0, 10, 6553.5),
+        ("position", -300, 300, 32767.0),
+    ],
+)
+def test_a_code_for_no_value_is_out_of_range_in_a_drive_too(
+    quantity: str, low: float, high: float, code: float
+) -> None:
+    x = drive(low, high)
+    x[1000:1003] = code
+    flags, events = run(clock(), d=(quantity, x))
+    assert np.flatnonzero(flags["d"] & Flag.OUT_OF_RANGE).tolist() == [1000, 1001, 1002]
+    assert [e.detail for e in events if e.flag == "out_of_range"] == ["a logger's code for 'no value'"]
+
+
+@pytest.mark.parametrize(
+    ("quantity", "x"),
+    [
+        ("rotational_speed", np.where(np.arange(N) % 1000 > 500, 9999.0, 0.0)),
+        ("rotational_speed", np.where(np.arange(N) == 3000, 9999.0, 100.0)),
+        ("position", np.where(np.arange(N) % 1000 > 500, 9999.0, 0.0)),
+        ("load", np.maximum(3.0, 255.0 - np.abs(np.arange(N) - 3000.0))),  # by a ramp
+        ("load", np.where(np.arange(N) % 1000 > 500, 255.0, 110.0) + drive(0, 60) * (np.arange(N) % 1000 < 500)),
+        ("power", np.linspace(0, 9999.0, N)),
+    ],
+)
+def test_what_a_drive_comes_to_is_data(quantity: str, x: Float1D) -> None:
+    flags, _ = run(clock(), d=(quantity, x))
+    assert not (flags["d"] & Flag.OUT_OF_RANGE).any()

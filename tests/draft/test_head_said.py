@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from thermodata.draft.signals.guess import guess_of
+from thermodata.draft.signals.head_said import with_text
+from thermodata.draft.signals.values import values_of
+from thermodata.plugin import Signal
 
 from .conftest import Said
 
@@ -86,3 +92,39 @@ def test_what_the_head_says_of_a_sign_or_a_jump_is_quoted_beside_its_displacemen
     lines = (tmp_path / "campaign.yaml").read_text(encoding="utf-8").splitlines()
     told = [line.strip().split(":")[0] for line in lines if f"the head of the file says '{head}'" in line]
     assert told == quoted
+
+
+@pytest.mark.parametrize(
+    ("head", "asked"),
+    [
+        ("# speed in 1/s, T_bed in degC", "unit: rpm, or 1/s? the head of the file says '# speed in 1/s"),
+        ("# speed in rpm, T_bed in degC", ""),
+        ("# speed in a table", ""),
+        ("# Operator: A, speed: V", ""),
+    ],
+)
+def test_a_unit_that_the_head_says_of_a_column_is_asked_beside_that_of_its_name(
+    tmp_path: Path, say: Say, head: str, asked: str
+) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00,{25 + k / 7:.2f},{66 + 66 * (k > 30)}" for k in range(60)]
+    (tmp_path / "run1.csv").write_text("\n".join([head, "time,T_bed,speed_rpm", *rows, ""]), encoding="utf-8")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+    assert asked in text if asked else "the head of the file" not in text
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("time in hours, dZ in mm, n in 1/s", "unit: rpm, or 1/s? the file's info says 'time in hours"),
+        ("time in hours, n in rpm", ""),
+        ("n in a row, dZ in mm", ""),
+        ("dZ in mm, speed in 1/s", ""),  # of another signal
+    ],
+)
+def test_a_text_beside_the_signals_that_says_a_unit_is_asked(text: str, asked: str) -> None:
+    signal = Signal("n", "s", None, "float64", None, {"info": text})
+    said = with_text(guess_of(signal, values_of(np.linspace(0.0, 133.0, 300))), signal)
+    assert (said.quantity, said.unit) == ("rotational_speed", "rpm")
+    questions = " ".join(said.questions)
+    assert asked in questions if asked else "says" not in questions

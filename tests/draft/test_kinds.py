@@ -190,6 +190,7 @@ def spindle_log(folder: Path, name: str, rows: list[tuple[float, float]]) -> Pat
         ([(0, 0), (1, 2000), (2, 6500), (3, 8000), (9000, 0), (9001, 0)], "spindle", "8000 rpm"),  # the ramps pass
         ([(0, 0), (3600, 8000), (7200, 0)], "spindle", "8000 rpm"),  # each row is a third of it
         ([(10 * i, 8000 * (i == 50)) for i in range(100)], "other", None),  # one row of many is a glitch
+        ([(10 * i, 65535 if 40 <= i < 50 else 8000) for i in range(100)], "spindle", "8000 rpm"),  # a code for no value
     ],
 )
 def test_a_speed_is_one_by_how_long_it_stands(

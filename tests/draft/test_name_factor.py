@@ -33,3 +33,18 @@ def test_a_factor_in_a_name_is_asked(name: str, asked: str) -> None:
     found = guess(name, name.partition("[")[2].rstrip("]"), "float64", values_of(np.linspace(20.0, 31.0, 50)))
     said = "; ".join(found.questions)
     assert asked in said if asked else "the name says" not in said
+
+
+@pytest.mark.parametrize(
+    ("name", "way"),
+    [
+        ("dX_tenths_um", 'then unit: "0.1 um", instead_of: um'),
+        ("T_vorn_zehntel_degC", 'then unit: "0.1 degC", instead_of: degC'),
+        ("dZ hundertstel mm", 'then unit: "0.01 mm", instead_of: mm'),
+        ("dX_lengths_um", None),
+        ("dZ_decimator_um", None),
+    ],
+)
+def test_a_word_for_a_share_of_the_unit_is_asked(name: str, way: str | None) -> None:
+    asked = " ".join(guess(name, None, "float64", values_of(np.linspace(20.0, 31.0, 300))).questions)
+    assert way in asked if way else "the name says" not in asked

@@ -41,3 +41,25 @@ def test_files_of_one_name_in_a_folder_each_are_told_apart(tmp_path: Path) -> No
         text(tmp_path / test / "data.csv", ["t [s]", "T_hall"], columns, mark=",")
     (hall,) = draft_files(tmp_path).draft.channels
     assert any(q.startswith("unit: in b/data.csv values 295") for q in hall.said.questions)
+
+
+@pytest.mark.parametrize(("hall", "asked"), [(1.8, True), (1.0, False)])
+def test_tests_in_fahrenheit_are_asked_and_one_that_was_warm_before_is_not(
+    tmp_path: Path, hall: float, asked: bool
+) -> None:
+    """hall: by how much its numbers differ from degC; the bearing's are those of Fahrenheit in two tests of four."""
+    t = np.arange(300) * 10.0
+    for test, factor in (("a", 1.0), ("b", 1.0), ("c", 1.8), ("d", 1.8)):
+        bearing, air = 22 + t / 300, 20.5 + t / 5000
+        columns = [bearing * factor + 32 * (factor > 1)]
+        own = hall if factor > 1 else 1.0
+        columns.append(air * own + 32 * (own > 1))
+        text(
+            tmp_path / f"{test}.csv",
+            ["t [s]", "T_bearing", "T_hall"],
+            [numbers(t, 0), *(numbers(c, 3) for c in columns)],
+            mark=",",
+        )
+    questions = {c.name: " ".join(c.said.questions) for c in draft_files(tmp_path).draft.channels}
+    assert ("unit: in c.csv, d.csv values" in questions["T_bearing"]) is asked
+    assert ("degF there" in questions["T_hall"]) is asked

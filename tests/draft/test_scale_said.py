@@ -29,6 +29,10 @@ Say = Callable[..., Said]
         ("Kanal;CH1;CH2\nName;T_front;dZ\nEinheit;degC;um\nFaktor;1;0,1\nDatum/Zeit;CH1;CH2", "'Faktor = 0,1'"),
         ("# dZ: 1 digit = 0.1 um\nTime;T_front [degC];dZ [um]", "'1 digit = 0.1'"),
         ("Time;T_front [degC];dZ [um]\nScale;1;0.1", "'Scale = 0.1'"),
+        ("# displacement counts 0.1 um\nTime;T_front [degC];dZ_um", "'1 count = 0.1'"),
+        ("# dZ: 1 digit = 0.1 um\nTime;T_front [degC];dZ_um", "'1 digit = 0.1'"),
+        ("# 0.1 um per digit\nTime;T_front [degC];dZ_um", "'1 digit = 0.1'"),
+        ("# Inkremente zu 0,1 µm\nTime;T_front [degC];dZ [um]", "'1 Inkrement = 0,1'"),
     ],
 )
 def test_a_scale_of_the_head_is_asked_of_its_column_alone(tmp_path: Path, say: Say, head: str, asked: str) -> None:
@@ -40,6 +44,15 @@ def test_a_scale_of_the_head_is_asked_of_its_column_alone(tmp_path: Path, say: S
     assert len(told) == 1
     assert "quantity: displacement" in told[0]
     assert 'unit: "0.1 um", instead_of: um' in told[0]
+
+
+@pytest.mark.parametrize("head", ["# ADC 16 bits 10 V range", "# sample counts 200 s", "# counts 300"])
+def test_a_head_that_says_no_scale_asks_none(tmp_path: Path, say: Say, head: str) -> None:
+    rows = [f"2026-03-12 08:{k:02d}:00;{20 + k / 7:.2f};{4 + 3 * k}" for k in range(60)]
+    text = "\n".join([head, "Time;T_front [degC];dZ_um", *rows, ""])
+    (tmp_path / "run1.csv").write_text(text, encoding="utf-8")
+    assert say("init", tmp_path).code in (0, 3)
+    assert "the file says" not in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
 
 
 N = 120

@@ -31,3 +31,21 @@ def test_kelvins_among_degrees_are_told(readings: list[float], told: dict[str, s
     losses = other_units(tests)
     assert {str(x["test"]): "K" if " in K" in str(x["reason"]) else "degC" for x in losses} == told
     assert all(str(x["reason"]).startswith("T_b, T_hall: in t") for x in losses)
+
+
+@pytest.mark.parametrize(
+    ("bearing", "hall", "told"),
+    [
+        ([22.0, 24.0, 73.0, 75.0], [21.0, 20.0, 69.0, 70.0], ["t2", "t3"]),
+        ([22.0, 24.0, 73.0, 75.0], [21.0, 20.0, 20.0, 21.0], []),  # warm before its test
+        ([22.0, 24.0, 110.0], [21.0, 20.0, 108.0], []),  # an oven, or what else is no Fahrenheit
+        ([22.0, 24.0, 41.0], [21.0, 20.0, 38.0], []),  # a hot day
+        ([73.0, 75.0], [69.0, 70.0], []),  # nothing beside it says otherwise
+    ],
+)
+def test_fahrenheit_among_degrees_is_told_where_all_stand_so(
+    bearing: list[float], hall: list[float], told: list[str]
+) -> None:
+    losses = other_units([levels(f"t{i}", T_b=b, T_hall=h) for i, (b, h) in enumerate(zip(bearing, hall, strict=True))])
+    assert [x["test"] for x in losses] == told
+    assert all("channels: {T_b: {unit: degF}}" in str(x["reason"]) for x in losses)

@@ -15,7 +15,9 @@ from thermodata.schema.files.campaign import Channel, Sensor
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.letters import encoding_hint
 from thermodata.schema.units.quantity import (
+    MEASURED,
     canonical,
+    declared_conversion,
     delta_factor,
     is_unit,
     linear_conversion,
@@ -109,7 +111,7 @@ def unit_contradiction(channel: Channel, signal_unit: str | None) -> str | None:
 def same_unit(one: str, other: str) -> bool:
     """Whether two spellings mean one unit."""
     try:
-        factor, offset = linear_conversion(one, other)
+        factor, offset = declared_conversion(one, other)
     except UsageError:
         return False
     return bool(abs(factor - 1) < 1e-9 and abs(offset) < 1e-9)
@@ -139,7 +141,7 @@ def reading_unit(
 def _applied(values: Float1D, unit: str, calibration: CalibrationResult, where: str | None) -> tuple[Float1D, str]:
     if calibration.unit_in:
         try:
-            factor, shift = linear_conversion(unit, calibration.unit_in)
+            factor, shift = declared_conversion(unit, calibration.unit_in)
         except UsageError as error:
             raise CalibrationError(
                 f"calibration '{calibration.name}' takes {calibration.unit_in}, the channel gives {unit}",
@@ -172,7 +174,8 @@ def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, w
     try:
         # a difference has no zero point: 5 degC of difference are 5 K
         difference = channel.quantity == "temperature_difference"
-        factor, shift = (delta_factor(unit, target), 0.0) if difference else linear_conversion(unit, target)
+        factor, shift = (declared_conversion if channel.unit else linear_conversion)(unit, target)
+        shift = 0.0 if difference else shift
     except UsageError as error:
         raise CalibrationError(
             f"a {channel.quantity} in {unit}" + ("" if calibrated else " without a calibration"),
@@ -186,7 +189,7 @@ def _canonical(values: Float1D, unit: str, channel: Channel, calibrated: bool, w
 
 def _to_calibrate(quantity: str, ratio: str) -> str:
     """What to try where a reading is in no unit of its quantity. Only what is displaced can be moved by a known way."""
-    gain = f"(kind: scale, gain: ... {ratio})"
+    gain = f"(kind: {'scale' if quantity in MEASURED else 'linear'}, gain: ... {ratio})"
     if quantity == "displacement":
         return f"add 'calibration:' with a jump test (kind: jump) or the data sheet's gain {gain}, or correct the unit"
     if quantity == "temperature" and ratio.rpartition("/")[2] == "ohm":

@@ -12,7 +12,7 @@ import numpy as np
 
 from thermodata.calibration.quality.edges import without_pauses
 from thermodata.calibration.quality.frozen import drives_stand, frozen_runs
-from thermodata.calibration.quality.limit import SAY_RANGE, clipped, impossible, sentinels
+from thermodata.calibration.quality.limit import NO_VALUE, SAY_RANGE, clipped, impossible, no_values, sentinels
 from thermodata.calibration.quality.range import Limits
 from thermodata.calibration.quality.spike import spikes
 from thermodata.calibration.quality.step import offset_steps, stood_before
@@ -21,6 +21,7 @@ from thermodata.calibration.quality.time import TimeFlags, time_flags
 from thermodata.calibration.quality.value import RunStats, held_runs, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D, Int1D
 from thermodata.schema.flag import Flag
+from thermodata.schema.units.quantity import HELD_QUANTITIES
 from thermodata.schema.words.places import is_at_tool
 
 # Quantities whose readings carry noise, so that an exactly constant stretch is suspicious ...
@@ -175,12 +176,16 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         beyond = impossible(x, column.quantity, stats) & ~told
         if beyond.any():
             mark(Flag.OUT_OF_RANGE, beyond, f"no {column.quantity.replace('_', ' ')} can be that")
+    if stats is None and x.dtype.kind in "iuf" and column.quantity not in HELD_QUANTITIES:
+        code = no_values(np.asarray(x, dtype=np.float64), column.quantity) & ~told
+        if code.any():
+            mark(Flag.OUT_OF_RANGE, code, NO_VALUE)
     if stats is not None:
         y = np.asarray(x, dtype=np.float64)
         declared = bool((flags & np.uint16(Flag.SATURATED)).any())
         code = sentinels(y, stats) & ~told
         if code.any():
-            mark(Flag.OUT_OF_RANGE, code, "a logger's code for 'no value'")
+            mark(Flag.OUT_OF_RANGE, code, NO_VALUE)
         at_end = np.zeros(len(y), dtype=bool)
         for limit, side in zip(column.limits, ("lower", "upper"), strict=True):
             here = (y == limit) & ~told

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from thermodata.calibration.quality.value import RunStats, is_staircase, refreshed, true_runs
+from thermodata.calibration.quality.value import RunStats, is_staircase, refreshed, run_stats, true_runs
 from thermodata.plugin import Array, Bool1D, Float1D
 
 # What can be measured in a lab, in canonical units: heaters and cuts are hot, no machine is colder than -60 degC.
@@ -19,27 +19,18 @@ _POSSIBLE = {
     "flow": (-1e5, 1e5),
 }
 # What loggers write for "no value": full scale of their counters (with one decimal too), and rows of nines.
-_SENTINELS = np.array(
-    [
-        32767.0,
-        -32768.0,
-        3276.7,
-        -3276.8,
-        6553.5,
-        65535.0,
-        9999.0,
-        -9999.0,
-        99999.0,
-        -99999.0,
-        999.9,
-        -999.9,
-        9999.9,
-        -9999.9,
-    ]
-)
+_FULL_SCALE = np.array([32767.0, -32768.0, 3276.7, -3276.8, 6553.5, 65535.0])
+_NINES = np.array([9999.0, -9999.0, 99999.0, -99999.0, 999.9, -999.9, 9999.9, -9999.9])
+_SENTINELS = np.concatenate([_FULL_SCALE, _NINES])
+# a byte's full scale is no share of what is rated, and a row of nines may be what somebody commands
+_CODES = {
+    "load": np.append(_SENTINELS, 255.0),
+    **dict.fromkeys(("rotational_speed", "feed", "position", "angle"), _FULL_SCALE),
+}
 _HUGE = 1e30
 _HOT, _LEAP_K = 250.0, 100.0  # a broken Pt100 reads 850 degC from one sample to the next
 _PILES_UP = 2.0  # times as many samples at the end of a range as on the reading next to it
+NO_VALUE = "a logger's code for 'no value'"
 SAY_RANGE = "the end of a range? say it in 'sensor: {range: ...}'"
 _ANALOG_FULL_SCALE = frozenset({"displacement", "voltage", "tilt"})
 
@@ -76,17 +67,27 @@ def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
     return mask
 
 
-def sentinels(x: Float1D, own: RunStats) -> Bool1D:
+def no_values(x: Float1D, quantity: str) -> Bool1D:
+    """The same of a drive or a flow, which may leave where it is and come back within a few samples: a ramp to a code,
+    or what is commanded so, is a reading. x: shape (n,), in the quantity's canonical unit."""
+    codes = _CODES.get(quantity, _SENTINELS)
+    ends = np.array([np.fmin.reduce(x), np.fmax.reduce(x)]) if len(x) else np.zeros(2)
+    if not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():
+        return np.zeros(len(x), dtype=bool)
+    return sentinels(x, run_stats(x), codes)
+
+
+def sentinels(x: Float1D, own: RunStats, codes: Float1D = _SENTINELS) -> Bool1D:
     """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
     none: Bool1D = np.zeros(len(x), dtype=bool)
     ends = np.array([own.low, own.high])
-    if np.isfinite(own.leap) and not (np.isin(ends, _SENTINELS) | (np.abs(ends) >= _HUGE)).any():
+    if np.isfinite(own.leap) and not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():
         return none
     with np.errstate(invalid="ignore"):
         rest = x[np.abs(x) < _HUGE]  # an overflow beside them is no reading either
     coded: list[float] = []
     # a code is an extreme, once those beyond it are left out; between others it is a reading
-    while len(rest) >= 10 and len(at := np.intersect1d([rest.min(), rest.max()], _SENTINELS)):
+    while len(rest) >= 10 and len(at := np.intersect1d([rest.min(), rest.max()], codes)):
         coded += at.tolist()
         rest = rest[~np.isin(rest, at)]
     if not coded or len(rest) < 10:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from thermodata.calibration.quality.limit import no_values
 from thermodata.draft.courses.cuts import feeds_with_spindle, is_loaded
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.files.sample import Course
@@ -81,6 +82,7 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
             if said.quantity == "position" and said.questions:
                 continue  # it may be a probe's, and shows no axis that stands still
             factor = _factor(said.quantity, said.unit)
+            course = None if course is None else _read(course, said.quantity or "")
             _add(
                 found,
                 said.quantity,
@@ -93,6 +95,12 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
                 work.add(said.quantity, said.at or "", Course(course.t_ns, factor * course.values))
         work.tell(found)
     return found
+
+
+def _read(course: Course, quantity: str) -> Course:
+    """Without a logger's codes for no value: 65535 is no speed."""
+    coded = no_values(course.values, quantity)
+    return Course(course.t_ns[~coded], course.values[~coded]) if coded.any() else course
 
 
 @dataclass(slots=True)

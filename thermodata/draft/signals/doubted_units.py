@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from thermodata.draft.signals import units
 from thermodata.draft.signals.quantity import Guess, range_text
-from thermodata.draft.signals.values import Values
+from thermodata.draft.signals.values import Values, least_reading
+from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.places import AROUND
 
 _NO_HALL_C = 45.0  # of whose rest a hall's 20 degC may be read in Fahrenheit
@@ -15,6 +16,7 @@ _NO_REST_C = 60.0  # no bearing, column or oil begins a log above that, though a
 # spindles turn with hundreds of rpm; in krpm, or in turns a second, a test has fewer than this
 _FEW_RPM = 60.0
 _FURTHEST_UM = 3000.0  # a tool is displaced by tenths of a millimetre
+_NO_PART_C = 150.0  # and no motor is hotter all through its test
 _COOL = ("bed", "column", "table", "crossbeam", "saddle", *AROUND)  # no heat is made there
 # what never is colder counts kelvins: of a machine at -20 degC, and what runs hottest; counts of a converter beyond
 # are asked for elsewhere
@@ -25,6 +27,12 @@ _HOTTEST_C, _HOTTEST_FIRE_C = 400.0, 1800.0
 _FIRE = re.compile(
     r"\b(?:furnace|oven|kiln|exhaust|flue|burner|hot ?gas|ofen|abgas|rauchgas|brenner|hei(?:ss|ß)gas|spalin)"
 )
+# no machine tool draws, turns or feeds more: (how much, its unit, units that were meant)
+_MOST = {
+    "power": (500.0, "kW", "W"),
+    "rotational_speed": (250_000.0, "rpm", "rpm"),
+    "feed": (500.0, "m/min", "mm/min"),
+}
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -32,7 +40,7 @@ def doubted(found: Guess, name: str, values: Values) -> Guess:
     """With a question where values of a channel without a unit may be of another one than `found` has."""
     asked = None
     if found.quantity == "temperature" and found.unit == "degC":
-        least = _coldest(values)
+        least = least_reading(values)
         closed = _NO_HALL_C if units.may_be_fahrenheit(name) or _stands_at(found, AROUND) else _NO_REST_C
         asked = "degF, or degC?" if values.n > 0 and least >= closed else None
     elif found.quantity == "rotational_speed" and found.unit == "rpm" and not _stands_at(found, _SLOW):
@@ -58,24 +66,25 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
     if found.unit is None or values.n == 0:
         return found
     asked = None
-    if found.quantity == "displacement":
+    if found.quantity in _MOST:
+        most, unit, others = _MOST[found.quantity]
+        top = max(-values.low, values.high) * units.factor_to(found.unit, unit)
+        if top > most:
+            other = "" if normal_unit(found.unit) == normal_unit(others) else f", or {others}"
+            asked = f"unit: {found.unit}{other}? it goes up to {top:.3g} {unit}, and no machine tool's does"
+    elif found.quantity == "displacement":
         span = (values.high - values.low) * units.factor_to(found.unit, "um")
         if span > _FURTHEST_UM:
             asked = f"unit: {found.unit}? it goes over {span / 1000:.3g} mm, and a tool is displaced by far less"
     elif found.quantity == "temperature" and units.kelvins(found.unit) is None:
         factor, offset = units.to_degc(found.unit)
-        least = factor * _coldest(values) + offset
+        least = factor * least_reading(values) + offset
         coldest, warmest = _COLD_K if is_fired(text) else (_COLDEST_K, _HOTTEST_K)
         if coldest <= least <= warmest and factor * values.median + offset <= _HOTTEST_K:
             asked = f"unit: K, or {found.unit}? no reading is below {least:.3g} degC"
-        elif _NO_REST_C <= least <= _COLDEST_K and _stands_at(found, _COOL):
+        elif (_NO_REST_C if _stands_at(found, _COOL) else _NO_PART_C) <= least <= _COLDEST_K and not is_fired(text):
             asked = f"unit: {found.unit}? no reading is below {least:.3g} degC"
     return found if asked is None else replace(found, sure=False, questions=(*found.questions, asked))
-
-
-def _coldest(values: Values) -> float:
-    """The lowest reading; without the zeros that a logger writes where it lost one."""
-    return min(values.first, values.median) if values.low == 0.0 else values.low
 
 
 def _stands_at(found: Guess, places: tuple[str, ...]) -> bool:

@@ -10,7 +10,7 @@ import re
 from dataclasses import replace
 from functools import lru_cache
 
-from thermodata.draft.signals import units
+from thermodata.draft.signals import bracket_at_end, units
 from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
@@ -126,6 +126,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         by_name = quantity_of(what, text, None, dtype, values)
         quantity = by_name.quantity if "name" in by_name.basis else None
         written = next(filter(None, (beside(end, quantity, values) for end in ends)), None)
+        written = written or bracket_at_end.of_quantity(_last(name), quantity)
     known = unit or written
     counts = units.counts_or_range(_last(name)) if not known else None
     if counts or (known and not is_unit(known)):
@@ -153,6 +154,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):
         asked = f"unit: the name ends with '{end}': {found.unit or 'what'}, or another quantity? ({range_text(values)})"
         found = replace(found, sure=False, questions=(*found.questions, asked))
+    if not known and (said := bracket_at_end.unknown(_last(name), found.quantity)):
+        asked = f"unit: the name says '{said}', which is no unit of this known here ({range_text(values)})"
+        found = replace(found, unit=None, sure=False, instead_of=None, questions=(*found.questions, asked))
     found = with_factor_asked(found, _last(name))
     if values is None:
         return found
@@ -204,6 +208,9 @@ def _unit(found: Guess, text: str, unit: str | None, written: str | None, values
         return _in_range(replace(found, unit=written, basis=basis), text, values)
     if unit is not None and quantity in _SHARES:
         return _share(found, unit, values)
+    if quantity in _SHARES and values is not None and _may_be_of_one(values):
+        asked = f'unit: "%", or is 1 100 %? then unit: pu ({range_text(values)})'
+        return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
     implied = _IMPLIED.get(quantity)
     if implied and values is not None and _plausible(quantity, values):
         basis = found.basis if "values" in found.basis else (*found.basis, "values")
@@ -237,6 +244,11 @@ def _share(found: Guess, unit: str, values: Values | None) -> Guess:
         return replace(found, unit="%", instead_of=unit, sure=False, basis=basis)
     asked = f'unit: the file says \'{unit}\', so 1 is read as 100 %; if 1 is 1 %: unit: "%", instead_of: "{unit}"'
     return replace(found, unit=unit, sure=False, questions=(*found.questions, f"{asked} ({range_text(values)})"))
+
+
+def _may_be_of_one(values: Values) -> bool:
+    """Whether a share without a unit stays so low that it may count from 0 to 1; whole numbers are per cent."""
+    return not values.constant and not values.whole and max(-values.low, values.high) <= _MOST_OF_ONE
 
 
 def _plausible(quantity: str, values: Values) -> bool:

@@ -9,11 +9,12 @@ from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.words.naming import parts_of
 from thermodata.plugin import Signal
 from thermodata.reader.text import split_unit
-from thermodata.reader.text.preamble.units_said import OTHERS, units_in
+from thermodata.reader.text.preamble.units_said import HEAD, OTHERS, unit_of, units_in
 from thermodata.schema.units.quantity import CANONICAL_UNIT, converts, normal_unit
 from thermodata.schema.words.sentences import with_count
 
 _FILES, _HEADS = 2, 4  # that are shown
+_LONGEST = 80  # letters of a text
 _LENGTHS_AND_HEAT = ("temperature", "temperature_difference", "displacement", "position")
 
 
@@ -40,9 +41,37 @@ def with_head(
         return replace(said, questions=questions), note
     if signal.unit is None and said.quantity in _LENGTHS_AND_HEAT and OTHERS.search(line):
         return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}? {told}")), note
+    own = unit_of(line, signal.name)
+    if _is_another(own, said):
+        return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}, or {own}? {told}")), note
     if normal_unit(signal.unit or "") not in ("V", "mV"):  # which a scale of the logger makes another unit of
         return said, note
     return said, "; ".join(filter(None, (note, told)))
+
+
+def with_text(said: Guess, signal: Signal) -> Guess:
+    """The same of a text beside the signals of a file that says units of them: a MAT file's `info`, "n in 1/s"."""
+    if signal.unit is not None or said.quantity in (None, "state", "label"):
+        return said
+    name = parts_of(signal.name)[-1]
+    for key, text in signal.properties.items():
+        own = unit_of(text, name) if key != HEAD and " in " in text else None
+        if own is None or not _fits(own, said.quantity):
+            continue
+        told = f"the file's {key} says '{text[:_LONGEST]}'"
+        asked = next((q for q in said.questions if q.startswith("unit")), None)
+        if asked is not None:
+            return replace(said, questions=tuple(f"{q}, {told}" if q == asked else q for q in said.questions))
+        if _is_another(own, said):
+            return replace(said, sure=False, questions=(*said.questions, f"unit: {said.unit}, or {own}? {told}"))
+    return said
+
+
+def _is_another(unit: str | None, said: Guess) -> bool:
+    """Whether a unit is one of the quantity, and not that which was taken."""
+    if unit is None or said.unit is None or not _fits(unit, said.quantity):
+        return False
+    return normal_unit(unit) != normal_unit(said.unit)
 
 
 def _fits(unit: str, quantity: str | None) -> bool:

@@ -8,19 +8,21 @@ from collections.abc import Iterator, Mapping
 
 from thermodata.draft.signals import units
 from thermodata.draft.signals.values import Values
-from thermodata.schema.units.quantity import is_unit, normal_unit
+from thermodata.schema.units.quantity import is_unit
 
 # units in lower case behind a name, as ROS and pandas have them, only beside such a quantity: 'power_hp',
 # but 'pump_hp' is of high pressure, 'T_kw' of cooling water, and 'T_spindle_m' of a motor
 _BESIDE: Mapping[str, Mapping[str, str]] = {
     # one letter alone may be an axis or a phase: 'drive_power_w', 'motor_current_a'
     "power": {"kw": "kW", "hp": "hp", "w": "W"},
-    "displacement": {"m": "m", "nm": "nm"},
-    "position": {"m": "m"},
+    "displacement": {"m": "m", "nm": "nm", "in": "in"},
+    "position": {"m": "m", "in": "in", "ft": "ft"},
     "temperature": {"k": "K"},
 }
 _LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
+_INCH_AT_END = re.compile(r"(?<=[^_\s])(?:\s+|, ?)(in|ft)\.?$")  # 'X pos in', 'Z Height, in.'
 _COLDEST_K = 250.0
+_SHARE_AT_END = re.compile(r"(?<=[^_.\s])[_.\s](pu|p\.u\.|frac|fract|fraction|ratio)$", re.IGNORECASE)
 _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
 _FURTHEST_M = 0.05  # no tool is displaced by more
 _SEPARATED = re.compile(
@@ -35,10 +37,13 @@ _WORDS = ("foot", "feet", "turn", "count")
 def beside(name: str, quantity: str | None, values: Values | None) -> str | None:
     """The unit at the end of a name that says such a quantity: 'power_kw', 'probe_z_m', 'spindle_speed_Hz'. None
     where the values speak against it."""
-    match = _LOWER_AT_END.search(name.strip())
+    share = _SHARE_AT_END.search(name.strip())
+    if share is not None and share[1].lower() in units.SHARE_WORDS.get(quantity or "", ()):
+        return "pu"
+    match = _LOWER_AT_END.search(name.strip()) or _INCH_AT_END.search(name.strip())
     unit = _BESIDE.get(quantity or "", {}).get(match[1]) if match else None
     if unit is None:
-        return next((u for u in _said(name) if quantity is not None and _may_be(u, quantity)), None)
+        return next((u for u in _said(name) if quantity is not None and units.may_be(u, quantity)), None)
     if unit == "m" and quantity == "displacement":
         return unit if values is not None and values.high - values.low < _FURTHEST_M else None
     if unit == "W":
@@ -61,10 +66,10 @@ def strange(name: str, quantity: str | None) -> str | None:
 def _is_strange(unit: str, quantity: str) -> bool:
     """A least value is no rate ('T_degC_min'), nor is what stands low or behind on a machine ('T_bearing_V_h')."""
     above, _, below = unit.partition("/")
-    own = _may_be(above, quantity)
+    own = units.may_be(above, quantity)
     if below and (own if below == "min" else quantity == "temperature" and not own):
         return False
-    return not _may_be(unit, quantity) and _is_written_as_unit(unit)
+    return not units.may_be(unit, quantity) and _is_written_as_unit(unit)
 
 
 def _said(name: str) -> Iterator[str]:
@@ -87,11 +92,3 @@ def _said(name: str) -> Iterator[str]:
 def _is_written_as_unit(text: str) -> bool:
     """With a stroke, or in small letters and capitals as no word is: 'kNm', 'MPa'."""
     return "/" in text or (not text.islower() and not text.isupper() and not text.istitle())
-
-
-def _may_be(unit: str, quantity: str) -> bool:
-    if quantity in ("tilt", "angle"):
-        return units.is_inclination(unit)
-    if quantity in ("load", "humidity"):
-        return normal_unit(unit) in units.SHARES
-    return quantity not in ("state", "label") and units.converts(unit, quantity)

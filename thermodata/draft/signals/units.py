@@ -22,6 +22,7 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "V": ("voltage", "displacement"),
     "mV": ("voltage", "displacement"),
     "percent": ("load", "humidity"),
+    "per_unit": ("load", "humidity"),
     "dimensionless": ("state",),
     "A": ("current",),
     "mA": ("current",),
@@ -41,7 +42,9 @@ _BY_UNIT: dict[str, tuple[str, ...]] = {
     "in": ("position", "displacement"),
     "thou": ("displacement",),
 }
-SHARES = ("percent", "permille", "‰")  # of what, their names say
+SHARES = ("percent", "permille", "‰", "per_unit")  # of what, their names say
+# of 1, at the end of a name; a humidity ratio is kg of water to one of air
+SHARE_WORDS = {"load": ("pu", "p.u.", "frac", "fract", "fraction", "ratio"), "humidity": ("pu", "frac", "fraction")}
 _FREQUENCY = re.compile(r"[munkMG]?hz|1?/(?:ms|s|sec|h|d)|(?:s|h|d)(?:\^?-1|⁻¹)|cps", re.IGNORECASE)
 _SLOPE = re.compile(r"[uμnm]?m/m")
 _ANGLE = re.compile(r"[uμnm]?rad|m?deg|°|grad|gon|arcsec|arcmin|mas", re.IGNORECASE)
@@ -163,3 +166,12 @@ def is_inclination(unit: str) -> bool:
 def converts(unit: str, quantity: str) -> bool:
     """Whether values in this unit can be values of this quantity."""
     return converts_to(unit, CANONICAL_UNIT[quantity])
+
+
+def may_be(unit: str, quantity: str) -> bool:
+    """Whether a unit is one of a quantity, of shares and angles too, which pint takes for any number."""
+    if quantity in ("tilt", "angle"):
+        return is_inclination(unit)
+    if quantity in ("load", "humidity"):
+        return normal_unit(unit) in SHARES
+    return quantity not in ("state", "label") and converts(unit, quantity)

@@ -140,6 +140,11 @@ def _readings(x: Float1D) -> Float1D:
     return x[~marks] if not marks.all() else x
 
 
+def least_reading(values: Values) -> float:
+    """The lowest reading; without the zeros that a logger writes where it lost one."""
+    return min(values.first, values.median) if values.low == 0.0 else values.low
+
+
 def in_unit(values: Values | None, written: str | None, unit: str | None) -> Values | None:
     """A sample in another unit; as it is where either is none, or they have nothing in common."""
     if values is None or written is None or unit is None or written == unit:

@@ -51,7 +51,7 @@ minute hour day week year degree_Celsius delta_degree_Celsius degree_Fahrenheit 
 degree_Rankine delta_degree_Rankine arcminute grade foot thou yard mile micron angstrom gallon
 imperial_gallon cubic_centimeter horsepower metric_horsepower british_thermal_unit pound ounce metric_ton
 force_pound pound_force_per_square_inch standard_atmosphere technical_atmosphere torr inch_Hg inch_H2O
-standard_gravity percent permille ppm dimensionless count bit byte decibel counts_per_second
+standard_gravity percent permille per_unit ppm dimensionless count bit byte decibel counts_per_second
 """
 _ALONE = frozenset(_ALONE_TEXT.split())
 

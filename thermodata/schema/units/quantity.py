@@ -13,7 +13,7 @@ from typing import Any, Literal, get_args
 
 from thermodata.errors import UsageError, nearest
 from thermodata.schema.units.prefixes import usual
-from thermodata.schema.units.scale import scaled_unit
+from thermodata.schema.units.scale import counted_unit, scaled_unit
 from thermodata.schema.units.spelling import UNIT_SPELLING, bare_unit, plain_letters, spelled
 
 Quantity = Literal[
@@ -95,7 +95,7 @@ QUANTITY_MEANING: dict[str, str] = {
 # units in pint's spelling that need not be looked up: to begin, pint reads its definitions for half a second
 AT_HAND = frozenset(
     {
-        *UNIT_SPELLING.values(),
+        *(u for u in UNIT_SPELLING.values() if u != "per_unit"),  # which is defined here
         *(u for u in CANONICAL_UNIT.values() if u not in ("1", "%", "Ohm", "N m", "W/m2")),
         *("nm", "mm", "cm", "m", "mm/min", "m/s", "mm/s", "mrad", "rad", "degF", "s", "ms", "min", "h"),
         *("mV", "mA", "W", "N", "kN", "Pa", "kPa", "MPa", "mbar", "l/h", "kg"),
@@ -132,6 +132,7 @@ def _registry() -> Any:
     import pint
 
     registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None)
+    registry.define("per_unit = 1")  # a share of what is rated, 1 of which is 100 %
     return registry
 
 
@@ -182,6 +183,18 @@ def linear_conversion(unit: str, target: str) -> tuple[float, float]:
             hint="declare the channel's unit in the campaign file (unit: ...)",
         ) from error
     return (at_1 - at_0) * scale / goal_scale, at_0 / goal_scale
+
+
+def declared_conversion(unit: str, target: str) -> tuple[float, float]:
+    """The same of a unit that somebody declares, who may say how much one count is: '0.0078125 degC', '20 nm'."""
+    try:
+        return linear_conversion(unit, target)
+    except UsageError:
+        counted = counted_unit(unit)
+        if counted is None:
+            raise
+    factor, offset = linear_conversion(counted[1], target)
+    return factor * counted[0], offset
 
 
 def converts(unit: str, target: str) -> bool:

@@ -19,6 +19,10 @@ _SCALED = re.compile(
 )
 _DIVIDED = re.compile(r"(?P<unit>(?:[^\W\d_]|[°º%])[^/]*?)\s*/\s*(?P<by>10{1,6})")
 
+_COUNTED = re.compile(
+    r"(?P<share>1/)?(?P<number>\d+(?:[.,]\d+)?(?:[eE][+-]?\d{1,2})?)\s*[*·×]?\s*(?P<unit>[^\W\d_].*|[°º%].*)"
+)
+
 
 @lru_cache(maxsize=4096)
 def scaled_unit(text: str) -> tuple[float, str]:
@@ -40,6 +44,17 @@ def scaled_unit(text: str) -> tuple[float, str]:
     else:
         factor = float((found["fraction"] or found["thousands"]).replace(",", "."))
     return factor, found["unit"]
+
+
+def counted_unit(text: str) -> tuple[float, str] | None:
+    """(how much one count is, its unit) where somebody declares that: '0.0078125 degC', '1/128 degC', '20 nm'. None of
+    any other text. A file that says so may mean a range."""
+    found = _COUNTED.fullmatch(plain_letters(text).strip())
+    if found is None:
+        return None
+    number = float(found["number"].replace(",", "."))
+    factor = 1.0 / number if found["share"] and number else number
+    return (factor, found["unit"]) if factor > 0 and math.isfinite(factor) else None
 
 
 def with_power_of_ten(factor: float, unit: str) -> str | None:

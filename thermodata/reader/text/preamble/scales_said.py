@@ -7,13 +7,19 @@ import re
 from collections.abc import Mapping, Sequence
 
 from thermodata.reader.text.cells.number import of_either_mark, to_bool
-from thermodata.reader.text.names.header import split_unit
-from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET
+from thermodata.reader.text.names.header import looks_like_unit, split_unit
+from thermodata.reader.text.preamble.scale_words import FACTOR, OFFSET, spellings
+from thermodata.schema.units.quantity import converts, is_unit
 
 SCALES_BELOW = 2  # rows of scales below the names, of which no time can be read
-_COUNT = re.compile(
-    r"(?i)\b(?P<key>1 ?(?:digit|count|lsb|bit|inkrement)) ?(?:=|≙|entspricht|is) ?"
-    r"(?P<number>\d+(?:[.,]\d+)?(?:e[-+]?\d+)?)"
+_NUMBER = r"(?P<number>\d+(?:[.,]\d+)?(?:e[-+]?\d+)?)"
+_ONE = r"(?:digit|count|lsb|bit|inkrement|increment)"
+_UNIT = r"(?P<unit>[°º%µμ]?[^\W\d_]+)"
+# '1 digit = 0.1 um', 'counts of 0.02 um', '0.02 um/count'
+_COUNTS = (
+    re.compile(rf"(?i)\b(?P<key>1 ?{_ONE}) ?(?:=|≙|entspricht|is) ?{_NUMBER}(?: ?{_UNIT})?"),
+    re.compile(rf"(?i)\b(?P<key>(?!bit){_ONE}(?:e?s|e)?) ?(?:[:=≙]|of|à|zu|je|entsprechen|are)? ?{_NUMBER} ?{_UNIT}"),
+    re.compile(rf"(?i)(?<![\w.,]){_NUMBER} ?{_UNIT} ?(?:/|per|pro|par|je) ?(?P<key>{_ONE})\b"),
 )
 
 
@@ -29,9 +35,9 @@ def scales_said(above: Sequence[Sequence[str]], names: Sequence[str]) -> Mapping
             for name, text in zip(names[1:], cells[1:], strict=False):
                 if name and to_bool(text) is None and of_either_mark(text) is not None:
                     found.setdefault(name, {})[key] = text
-        elif count := _COUNT.search(text := " ".join(filter(None, cells))):
-            for name in _named(text[: count.start()], names):
-                found.setdefault(name, {})[re.sub(r"^1 ?", "1 ", count["key"])] = count["number"]
+        elif count := _count_in(text := " ".join(filter(None, cells))):
+            for name in _named(text[: count.start()], names, count["unit"]):
+                found.setdefault(name, {})[f"1 {_one(count['key'])}"] = count["number"]
     return found
 
 
@@ -59,8 +65,43 @@ def lone_scales(above: Sequence[Sequence[str]], names: Sequence[str]) -> list[st
     return notes
 
 
-def _named(text: str, names: Sequence[str]) -> Sequence[str]:
-    """The columns that a text names; all but the first where it names none."""
-    bare = {name: split_unit(name)[0].strip() for name in names if name}
-    own = [n for n, b in bare.items() if b and re.search(rf"(?<!\w){re.escape(b)}(?!\w)", text)]
-    return own or [n for n in names[1:] if n]
+def _count_in(text: str) -> re.Match[str] | None:
+    """Where a line says what one count is; what is counted by a number alone needs a unit that is one."""
+    for pattern in _COUNTS:
+        count = pattern.search(text)
+        if count is not None and (pattern is _COUNTS[0] or _measures(count["unit"])):
+            return count
+    return None
+
+
+def _measures(unit: str) -> bool:
+    return is_unit(unit) and not converts(unit, "s")
+
+
+def _one(key: str) -> str:
+    """'counts' -> 'count', '1digit' -> 'digit', 'increments' -> 'inkrement'."""
+    return re.sub(r"(?i)^1 ?|(?<=[a-z])e?s?$", "", key).replace("ncrement", "nkrement")
+
+
+def _named(text: str, names: Sequence[str], unit: str | None) -> Sequence[str]:
+    """The columns that a text names; where it names none, those in such a unit, or else those in none; all but the
+    first, of the time, where no unit is said."""
+    folded = text.casefold()
+    own = [n for n in names if n and any(_holds(folded, said) for said in spellings(n))]
+    if own:
+        return own
+    told = {n: _unit_of(n) for n in names[1:] if n}
+    if unit is None or not is_unit(unit):
+        return list(told)
+    return [n for n, u in told.items() if u and converts(unit, u)] or [n for n, u in told.items() if u is None]
+
+
+def _holds(text: str, said: str) -> bool:
+    return bool(said) and re.search(rf"(?<!\w){re.escape(said)}(?!\w)", text) is not None
+
+
+def _unit_of(name: str) -> str | None:
+    """The unit of a column by its name: 'dZ [um]', 'dZ_um'."""
+    bare, unit = split_unit(name)
+    end = bare.rpartition("_")[2]
+    return unit or (end if "_" in bare and looks_like_unit(end) and is_unit(end) else None)

@@ -1,8 +1,9 @@
-"""Temperatures that stand in kelvins in some tests and in degrees in others: one channel, and no unit in the files."""
+"""Temperatures that stand in kelvins or degrees Fahrenheit in some tests and in degrees in others: one channel, and no
+unit in the files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,12 +13,25 @@ from thermodata.store.ingest.told.losses import Losses, loss_row
 
 ZERO_K = 273.15
 APART_K = 60.0  # two tests of one place differ by less, but for that
+NO_HALL_C, _ICE_C = 45.0, 0.0  # no hall is warmer, in which a machine stood before its test, or colder
+_ALIKE_F = 12.0  # so far apart are the coldest moments of two tests [degF]
+_FEWEST = 2  # one alone may have been warm before its test
 NOT_HERE_C = (-150.0, 200.0)  # beyond these no part of a machine is all through a test
+
+
+def fahrenheit_among(coldest: Mapping[str, float]) -> list[str]:
+    """The tests or files in which the coldest reading of one channel is that of the others in Fahrenheit. coldest: of
+    each, as it stands there."""
+    in_degc = [x for x in coldest.values() if _ICE_C <= x < NO_HALL_C]
+    if not in_degc:
+        return []
+    wanted = 1.8 * float(np.median(in_degc)) + 32.0
+    return [name for name, x in coldest.items() if x >= NO_HALL_C and abs(x - wanted) <= _ALIKE_F]
 
 
 def other_units(tests: Sequence[Levels]) -> Losses:
     """A loss for each test in which temperatures stand as far from where they stand in others as kelvins do from
-    degrees. tests: in the order of the campaign file."""
+    degrees, or where Fahrenheit's do. tests: in the order of the campaign file."""
     medians: dict[str, dict[str, float]] = {}
     for levels in tests:
         for name, course in levels.series.items():
@@ -31,7 +45,33 @@ def other_units(tests: Sequence[Levels]) -> Losses:
             shift = median - float(np.median(usual)) if usual and median not in usual else 0.0
             if abs(abs(shift) - ZERO_K) < APART_K:
                 shifted.setdefault(test, {})[name] = shift
-    return [loss_row(_said(test, shifts), test=test) for test, shifts in shifted.items()]
+    losses = [loss_row(_said(test, shifts), test=test) for test, shifts in shifted.items()]
+    return losses + [loss_row(_in_fahrenheit(test, names), test=test) for test, names in _warmer_throughout(tests)]
+
+
+def _warmer_throughout(tests: Sequence[Levels]) -> list[tuple[str, list[str]]]:
+    """(test, its temperatures) where all of them stand as Fahrenheit's do to degrees in other tests: a part that was
+    warm before leaves the air around it as it is."""
+    coldest: dict[str, dict[str, float]] = {}
+    for levels in tests:
+        for name, course in levels.series.items():
+            if course.quantity == "temperature" and np.isfinite(course.sound).any() and not levels.warm:
+                coldest.setdefault(name, {})[levels.test] = float(np.nanmin(course.sound))
+    found = {name: set(fahrenheit_among(of)) for name, of in coldest.items() if len(of) > 1}
+    told = []
+    for levels in tests:
+        own = [name for name in found if levels.test in coldest[name]]
+        if len(own) >= _FEWEST and all(levels.test in found[name] for name in own):
+            told.append((levels.test, own))
+    return told
+
+
+def _in_fahrenheit(test: str, names: Sequence[str]) -> str:
+    shown = with_count(names, 6)
+    return (
+        f"{shown}: in {test} the coldest readings are to those of the other tests as degF are to degC. If that file is "
+        f"in degF, write its unit into the file, or under the test: channels: {{{names[0]}: {{unit: degF}}}}"
+    )
 
 
 def _said(test: str, shifts: dict[str, float]) -> str:

@@ -15,7 +15,7 @@ from thermodata.plugin import Array, Float1D, Signal
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.stated_scale import Stated, line_that_applies, stated_scales
 from thermodata.schema.files.campaign import Campaign, Channel, JumpCalibration, LinearCalibration, ScaleCalibration
-from thermodata.schema.units.quantity import linear_conversion, split_value
+from thermodata.schema.units.quantity import declared_conversion, split_value
 from thermodata.schema.units.scale import scaled_unit
 from thermodata.store.raw.columns import read_column
 from thermodata.store.raw.raw_stream import RawStream
@@ -109,7 +109,7 @@ def _derives(channel: Channel, name: str, number: float) -> bool:
 def _factor(channel: Channel, unit: str | None) -> float:
     """How many of the file's units one of the channel's is; of a file without a unit what scales the channel's."""
     try:
-        return linear_conversion(channel.unit or "", unit)[0] if unit else scaled_unit(channel.unit or "")[0]
+        return declared_conversion(channel.unit or "", unit)[0] if unit else scaled_unit(channel.unit or "")[0]
     except UsageError:
         return scaled_unit(channel.unit or "")[0]
 
