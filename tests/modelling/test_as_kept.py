@@ -23,11 +23,13 @@ from thermodata.report.text.fit import history_text
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
+from thermodata.store.catalogue.came_after import came_after_line
 from thermodata.store.catalogue.looks import open_in
 from thermodata.store.catalogue.models import find_model, load_diagnosis, save_diagnosis
 from thermodata.store.catalogue.stale import stale_line
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.lifecycle import forget
+from thermodata.store.trace.lineage import trace
 from thermodata.view.dataset import Dataset
 from thermodata.view.events import about_test
 
@@ -313,3 +315,29 @@ def test_what_changed_is_said_by_its_name(
     store, model, edit = edited
     assert edit(old, new) == [model]
     assert told in str(stale_line(store, model))
+
+
+def test_a_calibration_test_that_came_after_a_fit_is_told(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, _ = edited
+    forget(store, "c", "t0")
+    without = fit_named(store, model).model
+    assert without != model
+    assert f"{without} is it" in str(stale_line(store, model)), "of all that is there"
+    assert came_after_line(store, find_model(store, without)) is None
+    ingest(store, tmp_path / "campaign.yaml")
+    line = str(stale_line(store, model))
+    assert f"thermodata fit {model}" in line, "no fit is of the data as they are now"
+    assert without not in line
+    told = f"t0 is a calibration test that base {without} was not fitted to; thermodata fit {without} takes it in"
+    assert came_after_line(store, find_model(store, without)) == told
+    assert trace(store, without)["not_fitted_to"] == ["c/t0"]
+    said = CliRunner().invoke(cli, ["--store", str(store.path), "compare", without])
+    assert told in said.stderr
+    now = fit_named(store, without).model
+    assert now == model, "of the same data as at first"
+    assert stale_line(store, model) is None
+    assert f"{now} is fitted to it too" in str(came_after_line(store, find_model(store, without)))
+    assert came_after_line(store, find_model(store, now)) is None
+    assert trace(store, now)["not_fitted_to"] == []

@@ -238,11 +238,13 @@ def test_a_store_that_is_named_goes_before_that_of_the_environment(
     talk = say("workbench", own, "--no-browser").err
     assert f"of {own}, and not of THERMODATA_STORE ({other})" in talk
     refused = say("workbench", own, "--store", other, "--no-browser")
-    assert refused.code == 2 and "two stores are named" in refused.err
+    assert refused.code == 2
+    assert "two stores are named" in refused.err
 
 
 def test_two_stores_in_one_call_are_refused(made_lab: Path, tmp_path: Path, say: Callable[..., Said]) -> None:
     own = made_lab / "thermodata.store"
     refused = say("--store", tmp_path, "tests", "--store", own)
-    assert refused.code == 2 and "two stores are named" in refused.err
+    assert refused.code == 2
+    assert "two stores are named" in refused.err
     assert say("--store", own, "tests", "--store", own).code == 0

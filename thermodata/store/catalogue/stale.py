@@ -7,6 +7,7 @@ import json
 from thermodata.schema.files.model import Model
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
 from thermodata.store.catalogue.store import Store
 
@@ -62,7 +63,8 @@ def fitted_again(store: Store, stored: StoredModel) -> str | None:
         fresh = fetch(con, "select model from model where name = ? and not stale order by rowid desc", [stored.name])
     for row in fresh:
         other = find_model(store, row["model"])
-        if _chosen(other) == _chosen(stored):
+        # one that was fitted while a test was away is not of the data as they are now
+        if _chosen(other) == _chosen(stored) and not came_after(store, other):
             return other.model
     return None
 
