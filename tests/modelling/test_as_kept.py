@@ -341,3 +341,28 @@ def test_a_calibration_test_that_came_after_a_fit_is_told(
     assert f"{now} is fitted to it too" in str(came_after_line(store, find_model(store, without)))
     assert came_after_line(store, find_model(store, now)) is None
     assert trace(store, now)["not_fitted_to"] == []
+
+
+def test_a_channel_that_is_called_otherwise_now_is_the_same_signal(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec
+) -> None:
+    store, by_place, edit = edited
+    of_file = spec({"effect": "spindle_bearing", "drivers": {"temperature": "T_bearing"}}, *EFFECTS[1:])
+    model = run.fit(store, of_file).model
+    was = run.load(store, model).fitted.parameters()
+    assert edit("\n  T_bearing:", "\n  T_sp_vorn:") == [by_place, model]
+    line = str(stale_line(store, model))
+    assert "channel names of" in line
+    assert "T_bearing is called T_sp_vorn now" in line
+    assert "calibration of" not in line
+    assert "units" not in line
+    kept = run.load(store, model)
+    assert kept.fitted.parameters()["spindle_bearing.gain"].value == was["spindle_bearing.gain"].value
+    again = find_model(store, fit_named(store, model).model)
+    assert "T_bearing is called T_sp_vorn now" in again.result.notes
+    assert again.result.parameters["spindle_bearing.gain"].value == pytest.approx(was["spindle_bearing.gain"].value)
+    assert f"{again.model} is it" in str(stale_line(store, model))
+    with pytest.raises(UsageError, match="try: 'T_sp_vorn': the same signal is called that now"):
+        run.fit(store, of_file)
+    edit("\n  T_sp_vorn:", "\n  T_bearing:")
+    assert stale_line(store, model) is None

@@ -38,10 +38,13 @@ def fit_named(store: Store, ref: str) -> FitResult:
 
     if is_file(ref):
         return fit_file(store, Path(ref))
+    from thermodata.store.catalogue.renamed import told
+
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
     spec = as_chosen(stored, data)
-    return fit(store, spec, parent=stored.parent, notes=came_since(spec, data))
+    notes = [told(stored.renamed)] if stored.renamed else []
+    return fit(store, spec, parent=stored.parent, notes=[*notes, *came_since(spec, data)])
 
 
 def model_named(store: Store, ref: str) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.effect.binding import Described, bindings, unnamed
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.files.model import EffectSpec, Model
 
@@ -68,7 +68,7 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
     given = [c.strip() for c in rest.split(",") if c.strip()]
     for channel in given:
         if channel not in channels:
-            raise unknown_name("channel", channel, list(channels), where=f"candidate '{candidate}'")
+            raise unknown_channel(channel, list(channels), where=f"candidate '{candidate}'")
     choices = bindings(effect, channels)
     fitting = [c for c in choices if list(c.values()) == given] if given else unnamed(effect, channels)
     if len(fitting) == 1:

@@ -9,6 +9,7 @@ from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
+from thermodata.store.catalogue.renamed import told as told_names
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change
@@ -33,10 +34,11 @@ def stale_line(store: Store, model: str) -> str | None:
         f"{what}: {', '.join(tests)}" if what in (GONE, BACK) else f"{what} of {with_count(tests, _NAMED)}"
         for what, tests in by_what.items()
     )
+    names = f"; {told_names(stored.renamed)}" if stored.renamed else ""
     again = fitted_again(store, stored)
     do = f"{again} is it, fitted" if again else f"thermodata fit {stored.model} fits it"
     return (
-        f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}); "
+        f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}{names}); "
         f"{do} to them as they are now"
     )
 

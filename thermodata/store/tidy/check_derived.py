@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel
 from thermodata.schema.files.campaign import Campaign, Channel
 from thermodata.store.tidy import derive
 from thermodata.store.tidy.plan import effective
@@ -32,7 +32,7 @@ def _told(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
 def _check(campaign: Campaign, channels: Mapping[str, Channel], name: str, where: str) -> None:
     for used in names_in(channels[name].derive or "", where):
         if used not in campaign.channels:
-            raise unknown_name("channel", used, list(campaign.channels), where=where)
+            raise unknown_channel(used, list(campaign.channels), where=where)
     circle = _circle(channels, (name,), where, set())
     if circle:
         raise UsageError(

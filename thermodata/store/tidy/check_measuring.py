@@ -8,7 +8,7 @@ import numpy as np
 
 from thermodata.calibration.expression.parser import parse
 from thermodata.calibration.measuring import long_form
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel
 from thermodata.schema.files.campaign import Campaign, Channel, Test
 from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.check_derived import names_in
@@ -38,7 +38,7 @@ def _check(campaign: Campaign, channels: Mapping[str, Channel], test: Test, wher
 
 def _known(name: str, campaign: Campaign, where: str) -> None:
     if name not in campaign.channels:
-        raise unknown_name("channel", name, list(campaign.channels), where=where)
+        raise unknown_channel(name, list(campaign.channels), where=where)
 
 
 def _compares(text: str, channels: Mapping[str, Channel], where: str) -> None:

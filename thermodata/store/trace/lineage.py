@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import unknown_name
+from thermodata.errors import unknown_channel, unknown_name
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import find_model
@@ -49,7 +49,7 @@ def trace(
         if channel is None:
             return tracer.test()
         if channel not in tracer.channels:
-            raise unknown_name("channel", channel, list(tracer.channels))
+            raise unknown_channel(channel, list(tracer.channels))
         return tracer.head() | tracer.channel(channel, t_s)
 
 
