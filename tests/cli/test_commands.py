@@ -106,6 +106,8 @@ def test_an_unknown_command_names_the_nearest(say: Say) -> None:
     assert (said.code, said.out) == (2, "")
     assert said.err.startswith("error: no command 'diagnos'")
     assert "did you mean 'diagnose'?" in said.err
+    for word, meant in (("new-plugin", "plugins new"), ("export-model", "model export"), ("ingets", "ingest")):
+        assert f"did you mean '{meant}'?" in say(word).err
 
 
 @pytest.mark.parametrize("words", [["fit"], ["fit", "a", "b", "c"], ["tests", "--nope"], ["report", "--nope"]])
