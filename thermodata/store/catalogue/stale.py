@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 from thermodata.schema.files.model import Model
 from thermodata.schema.words.sentences import with_count
@@ -61,14 +62,18 @@ def results_gone(store: Store, stored: StoredModel) -> list[str]:
 
 def fitted_again(store: Store, stored: StoredModel) -> str | None:
     """The id of the same model fitted to the data as they are now; None where nobody did."""
+    return next(iter(all_fitted_again(store, stored)), None)
+
+
+def all_fitted_again(store: Store, stored: StoredModel) -> Iterator[str]:
+    """The ids of the same model fitted to the data as they are now, the last one first."""
     with store.reader() as con:
         fresh = fetch(con, "select model from model where name = ? and not stale order by rowid desc", [stored.name])
     for row in fresh:
         other = find_model(store, row["model"])
         # one that was fitted while a test was away is not of the data as they are now
         if _chosen(other) == _chosen(stored) and not came_after(store, other):
-            return other.model
-    return None
+            yield other.model
 
 
 def _chosen(stored: StoredModel) -> Model:
