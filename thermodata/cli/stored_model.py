@@ -17,9 +17,8 @@ def resolve(store: Store, ref: str | None, session: Session | None = None) -> st
     on stderr where models of several campaigns have the name, or versions alike in number, where the data of the model
     changed since its fit, and where calibration tests came after it: every command that uses one comes by here."""
     from thermodata.modelling.named import model_named, newest_model, of_which_campaign, of_which_version
-    from thermodata.store.catalogue.came_after import came_after_line
     from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.stale import came_after_line, stale_line
 
     found = newest_model(store) if ref is None else model_named(store, ref)
     stored = find_model(store, found)

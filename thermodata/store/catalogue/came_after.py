@@ -3,12 +3,10 @@ and a fit takes them in."""
 
 from __future__ import annotations
 
-from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.models import StoredModel
 from thermodata.store.catalogue.store import Store
 
-_NAMED = 4  # tests in one line
 # of tests that the fit knew and has no errors of
 _KNOWN = ("skipped:", "not_predicted:", "not_scored:")
 
@@ -35,20 +33,3 @@ def came_after(store: Store, stored: StoredModel) -> list[str]:
 
     of = {f"{r['campaign']}/{r['test']}": r for r in rows}
     return [full for full, r in of.items() if full not in known and calibrates(r["test"], full, r["role"])]
-
-
-def came_after_line(store: Store, stored: StoredModel) -> str | None:
-    """One line on them, of a model that is not stale; else None."""
-    from thermodata.store.catalogue.stale import fitted_again
-
-    new = [] if stored.stale else came_after(store, stored)
-    if not new:
-        return None
-    names = new if len(stored.spec.campaign_ids) > 1 else [name.partition("/")[2] for name in new]
-    one = len(new) == 1
-    again = fitted_again(store, stored)
-    do = f"{again} is fitted to {'it' if one else 'them'} too" if again else f"thermodata fit {stored.model} takes "
-    return (
-        f"{with_count(names, _NAMED)} {'is a calibration test' if one else 'are calibration tests'} that {stored.name} "
-        f"{stored.model} was not fitted to; {do}" + ("" if again else f"{'it' if one else 'them'} in")
-    )

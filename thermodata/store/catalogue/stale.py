@@ -44,6 +44,21 @@ def stale_line(store: Store, model: str) -> str | None:
     )
 
 
+def came_after_line(store: Store, stored: StoredModel) -> str | None:
+    """One line on calibration tests that came after the fit of a model that is not stale; else None."""
+    new = [] if stored.stale else came_after(store, stored)
+    if not new:
+        return None
+    names = new if len(stored.spec.campaign_ids) > 1 else [name.partition("/")[2] for name in new]
+    one = len(new) == 1
+    again = fitted_again(store, stored)
+    do = f"{again} is fitted to {'it' if one else 'them'} too" if again else f"thermodata fit {stored.model} takes "
+    return (
+        f"{with_count(names, _NAMED)} {'is a calibration test' if one else 'are calibration tests'} that {stored.name} "
+        f"{stored.model} was not fitted to; {do}" + ("" if again else f"{'it' if one else 'them'} in")
+    )
+
+
 def results_gone(store: Store, stored: StoredModel) -> list[str]:
     """The campaign/test that a model was fitted to or checked on and has no results of any more: they were forgotten,
     whether the test came back or not."""
