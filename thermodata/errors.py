@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from difflib import get_close_matches
 from typing import Any, Self
+
+Near = Callable[[str, Sequence[str]], str | None]
+_WORD = re.compile(r"\d+|[^\W\d_]+")
 
 INTERRUPTED = 130
 """Exit code of what Ctrl-C ended, as shells have it: 128 and the number of the signal."""
@@ -134,9 +138,30 @@ def nearest(word: str, choices: Sequence[str]) -> str | None:
     return next((c for c in choices if c.lower() == found[0]), None) if found else None
 
 
-def unknown_name(kind: str, word: str, choices: Sequence[str], **more: str) -> UsageError:
+def nearest_of_same_words(word: str, choices: Sequence[str]) -> str | None:
+    """The choice most like `word` whose words and numbers are those of `word`, but for slips in spelling and for words
+    that one of the two has more: T_front is no slip of T_rear, and T04 none of T05."""
+    return nearest(word, [c for c in choices if _same_words(word, c)])
+
+
+def _same_words(one: str, other: str) -> bool:
+    few, many = sorted((_WORD.findall(one.lower()), _WORD.findall(other.lower())), key=len)
+    left = iter(many)
+    return all(any(_is_slip(word, of) for of in left) for word in few)
+
+
+def _is_slip(one: str, other: str) -> bool:
+    return one == other or (not one.isdecimal() and bool(get_close_matches(one, [other], cutoff=0.7)))
+
+
+def unknown_channel(word: str, choices: Sequence[str], **more: str) -> UsageError:
+    """The refusal of a channel's name: `unknown_name` that offers no other sensor for a likeness of its letters."""
+    return unknown_name("channel", word, choices, near=nearest_of_same_words, **more)
+
+
+def unknown_name(kind: str, word: str, choices: Sequence[str], *, near: Near = nearest, **more: str) -> UsageError:
     """The refusal of a name, with the nearest right one and all the choices."""
-    close = nearest(word, choices)
+    close = near(word, choices)
     return UsageError(
         f"no {kind} '{word}'",
         expected=", ".join(sorted(choices)) or "nothing: there is none",

@@ -106,6 +106,8 @@ def test_an_unknown_command_names_the_nearest(say: Say) -> None:
     assert (said.code, said.out) == (2, "")
     assert said.err.startswith("error: no command 'diagnos'")
     assert "did you mean 'diagnose'?" in said.err
+    for word, meant in (("new-plugin", "plugins new"), ("export-model", "model export"), ("ingets", "ingest")):
+        assert f"did you mean '{meant}'?" in say(word).err
 
 
 @pytest.mark.parametrize("words", [["fit"], ["fit", "a", "b", "c"], ["tests", "--nope"], ["report", "--nope"]])
@@ -189,3 +191,21 @@ def test_quality_counts_what_ingest_did_not_measure(say: Callable[..., Said], tm
         assert (row["test"], row["n"], row["from_s"]) == ("day1", flags["not_measuring"], None)
     said = " ".join(say("--store", store, "quality").out.split())
     assert f"not_measuring {flags['not_measuring']}" in said
+
+
+def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp_path: Path) -> None:
+    words = ("--store", campaign / "thermodata.store", "export", "small")
+    out = tmp_path / "new" / "{test}.csv"
+    made = json.loads(say(*words, "heat1", "day1", out, "--json").out)
+    assert [one["path"] for one in made] == [str(tmp_path / "new" / f"{test}.csv") for test in ("heat1", "day1")]
+    assert all(Path(one["path"]).read_text().count("\n") == one["rows"] + 1 for one in made)
+    assert "--force replaces it" in say(*words, "heat2", "day1", out).err
+    assert not (tmp_path / "new" / "heat2.csv").exists(), "none where one is refused"
+    every = json.loads(say(*words, out, "--force", "--json").out)
+    assert [Path(one["path"]).stem for one in every] == ["heat1", "heat2", "day1", "day2"]
+    one = json.loads(say(*words, "heat1", tmp_path / "one.csv", "--json").out)
+    assert one["path"] == str(tmp_path / "one.csv")
+    said = say(*words, "heat1", "heat2", tmp_path / "both.csv")
+    assert said.code == 2
+    assert f"name it '{tmp_path / 'both_{test}.csv'}'" in said.err
+    assert "no test 'heat9'" in say(*words, "heat1", "heat9", out, "--force").err

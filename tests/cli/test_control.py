@@ -16,6 +16,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from thermodata.cli import main
+from thermodata.modelling.run import load
+from thermodata.store import Store
 
 from .conftest import Said, write_campaign
 
@@ -249,13 +251,45 @@ def test_what_can_not_run_in_a_control_is_refused_with_reason_and_way_out(
     assert "warm_start: " in said.err
     assert "goes on from its last state" in said.err
     assert "nut: its gain differs by day (" in said.err
-    assert "--without warm_start" in said.err
+    assert "--group nut=warm chooses its gain; --without warm_start leaves it out" in said.err
+    assert "--without warm_start,nut" not in said.err
     assert run(*words, "--without", "warm_start", "--group", "nut=cold").code == 0
     written = (tmp_path / "with_start_dZ.st").read_text()
     assert "nut: cold" in written
     assert "left out" in written
+    # the largest correction is that of the tests whose gain it has
+    limits = {}
+    for group in ("cold", "warm"):
+        written = ("model", "export", "with_start", "--to", "json", "-o", tmp_path, "--force", "--json")
+        only = ("--without", "warm_start,spindle_bearing", "--group", f"nut={group}")
+        limits[group] = json.loads(run(*written, *only).out)["limit"]
+    loaded = load(Store(lab / "thermodata.store"), "with_start")
+    nut = next(t for t in loaded.fitted.responses[0].terms if t.id == "nut")
+    for group in ("cold", "warm"):
+        own = [np.nanmax(np.abs(nut.contribution(t))) for t in loaded.data.tests if nut.bound.group(t) == group]
+        assert 1.5 * max(own) <= limits[group] <= 1.7 * max(own)
     assert "no effect 'nu'" in run(*words, "--without", "nu").err
     assert "no group of nut 'hot'" in run(*words, "--without", "warm_start", "--group", "nut=hot").err
+
+
+def test_the_model_file_of_a_version_is_the_same_model_again(say: Say, campaign: Path, tmp_path: Path) -> None:
+    lab = shutil.copytree(campaign, tmp_path / "lab")
+
+    def ask(*words: object) -> Said:
+        said = say("--store", lab / "thermodata.store", *words)
+        assert said.code == 0, said.err
+        return said
+
+    made = json.loads(ask("add", "baseline", "feed_screw:T_nut_Z", "--json").out)
+    words = ("model", "export", made["model"], "--to", "yaml", "-o", tmp_path)
+    told = json.loads(ask(*words, "--json").out)
+    assert (told["to"], told["files"], told["cycle_s"]) == ("yaml", [str(tmp_path / "baseline.yaml")], None)
+    assert "--force replaces it" in say("--store", lab / "thermodata.store", *words).err
+    again = json.loads(ask("fit", tmp_path / "baseline.yaml", "--json").out)
+    assert again["model"] == made["model"]
+    assert again["parameters"] == made["parameters"]
+    program = json.loads(ask("model", "export", "baseline", "--to", "json", "-o", tmp_path, "--json").out)
+    assert told.keys() == program.keys()
 
 
 # ---- show

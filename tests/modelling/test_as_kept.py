@@ -25,9 +25,10 @@ from thermodata.schema.files.model import Model
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import open_in
 from thermodata.store.catalogue.models import find_model, load_diagnosis, save_diagnosis
-from thermodata.store.catalogue.stale import stale_line
+from thermodata.store.catalogue.stale import came_after_line, stale_line
 from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.lifecycle import forget
+from thermodata.store.trace.lineage import trace
 from thermodata.view.grid.dataset import Dataset
 from thermodata.view.lists.events import about_test
 
@@ -313,3 +314,54 @@ def test_what_changed_is_said_by_its_name(
     store, model, edit = edited
     assert edit(old, new) == [model]
     assert told in str(stale_line(store, model))
+
+
+def test_a_calibration_test_that_came_after_a_fit_is_told(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path
+) -> None:
+    store, model, _ = edited
+    forget(store, "c", "t0")
+    without = fit_named(store, model).model
+    assert without != model
+    assert f"{without} is it" in str(stale_line(store, model)), "of all that is there"
+    assert came_after_line(store, find_model(store, without)) is None
+    ingest(store, tmp_path / "campaign.yaml")
+    line = str(stale_line(store, model))
+    assert f"thermodata fit {model}" in line, "no fit is of the data as they are now"
+    assert without not in line
+    told = f"t0 is a calibration test that base {without} was not fitted to; thermodata fit {without} takes it in"
+    assert came_after_line(store, find_model(store, without)) == told
+    assert trace(store, without)["not_fitted_to"] == ["c/t0"]
+    said = CliRunner().invoke(cli, ["--store", str(store.path), "compare", without])
+    assert told in said.stderr
+    now = fit_named(store, without).model
+    assert now == model, "of the same data as at first"
+    assert stale_line(store, model) is None
+    assert f"{now} is fitted to it too" in str(came_after_line(store, find_model(store, without)))
+    assert came_after_line(store, find_model(store, now)) is None
+    assert trace(store, now)["not_fitted_to"] == []
+
+
+def test_a_channel_that_is_called_otherwise_now_is_the_same_signal(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], spec: Spec
+) -> None:
+    store, by_place, edit = edited
+    of_file = spec({"effect": "spindle_bearing", "drivers": {"temperature": "T_bearing"}}, *EFFECTS[1:])
+    model = run.fit(store, of_file).model
+    was = run.load(store, model).fitted.parameters()
+    assert edit("\n  T_bearing:", "\n  T_sp_vorn:") == [by_place, model]
+    line = str(stale_line(store, model))
+    assert "channel names of" in line
+    assert "T_bearing is called T_sp_vorn now" in line
+    assert "calibration of" not in line
+    assert "units" not in line
+    kept = run.load(store, model)
+    assert kept.fitted.parameters()["spindle_bearing.gain"].value == was["spindle_bearing.gain"].value
+    again = find_model(store, fit_named(store, model).model)
+    assert "T_bearing is called T_sp_vorn now" in again.result.notes
+    assert again.result.parameters["spindle_bearing.gain"].value == pytest.approx(was["spindle_bearing.gain"].value)
+    assert f"{again.model} is it" in str(stale_line(store, model))
+    with pytest.raises(UsageError, match="try: 'T_sp_vorn': the same signal is called that now"):
+        run.fit(store, of_file)
+    edit("\n  T_sp_vorn:", "\n  T_bearing:")
+    assert stale_line(store, model) is None

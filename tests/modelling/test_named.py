@@ -8,7 +8,8 @@ from click.testing import CliRunner
 
 from thermodata.cli.app import cli
 from thermodata.modelling import run
-from thermodata.modelling.named import fit_named, newest_model, of_which_campaign
+from thermodata.modelling.add import add
+from thermodata.modelling.named import fit_named, newest_model, of_which_campaign, of_which_version
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
@@ -27,6 +28,17 @@ def test_where_none_is_named_it_is_the_one_fitted_last(world: Dataset, spec: Spe
     assert set(ingest(store, path).stale) == {first, other}
     assert newest_model(store) == first, "what changed is no fit"
     assert of_which_campaign(store, "first") is None
+
+
+def test_a_name_of_two_versions_alike_in_number_is_said_with_both(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    store = stored(world, tmp_path)
+    base = run.fit(store, spec("ambient_frame")).model
+    one, other = (add(store, base, name, plain=True).model for name in ("spindle_bearing", "feed_screw"))
+    line = f"'base': {other}, the newest of that name; {one} is version 2 too, with other effects"
+    assert of_which_version(store, "base") == line
+    assert of_which_version(store, other) is None
+    assert of_which_version(store, other[:6]) is None
+    assert line in CliRunner().invoke(cli, ["--store", str(store.path), "history", "base"]).stderr
 
 
 def test_a_name_of_several_campaigns_is_said_with_the_campaign(world: Dataset, spec: Spec, tmp_path: Path) -> None:

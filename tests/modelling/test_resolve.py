@@ -178,3 +178,13 @@ def test_a_displacement_or_tilt_as_a_driver_is_told_to_be_no_cause() -> None:
     told = note_of_response(["ch4", "T"], channels) or ""
     assert told.startswith("ch4 is itself a displacement or tilt: a response")
     assert note_of_response(["T", "gone"], channels) is None
+
+
+def test_an_effect_that_no_channel_fits_says_what_it_needs() -> None:
+    infos = {"T_hall": ChannelInfo("T_hall", "temperature", "degC", "hall.bottom")}
+    with pytest.raises(UsageError) as refused:
+        candidate_spec("sun", infos)
+    said = str(refused.value)
+    assert "no channel fits what 'sun' needs" in said
+    assert "irradiance: irradiance at hall" in said
+    assert "sun:CHANNEL" in said

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 import thermodata
 from thermodata.cli import main
@@ -19,6 +20,7 @@ from thermodata.errors import UsageError
 from thermodata.notebook.fitted import Fit
 from thermodata.notebook.opened import OpenStore
 from thermodata.notebook.stale import StaleModelWarning
+from thermodata.schema.files.model import Model
 from thermodata.view.query.store_view import FlaggedValuesWarning
 
 from ..cli.conftest import write_campaign
@@ -132,6 +134,21 @@ def test_predictions_of_a_campaign(better: Fit) -> None:
     assert "RMSE" in made.summary()
     with pytest.raises(UsageError, match="no folder, campaign file or campaign"):
         better.predict("nothing")
+
+
+def test_conditions_of_logs_are_said_in_python_too(better: Fit, made: Path, tmp_path: Path) -> None:
+    store = thermodata.open(shutil.copytree(made / "thermodata.store", tmp_path / "store"))
+    spec = yaml.safe_load((made / "baseline.yaml").read_text())
+    spec["effects"][0]["gain_by"] = "conditions.speed"
+    fitted = store.fit(Model.model_validate(spec))
+    logs = tmp_path / "logs"
+    logs.mkdir()
+    shutil.copy(made / "raw" / "heat1.csv", logs / "run_1.csv")
+    plain = fitted.predict(logs)
+    assert len(plain) == 0
+    assert "conditions={'speed': '9000'} in Python" in plain.left_out[0]
+    for given in ({"speed": 9000}, {"speed": "9000"}, {"conditions.speed": 9000.0}):
+        assert len(store.predict(logs, conditions=given)) == 1
 
 
 def test_what_can_not_be_predicted_is_left_out_with_a_word(better: Fit, made: Path, tmp_path: Path) -> None:

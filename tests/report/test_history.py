@@ -17,6 +17,7 @@ from thermodata.report.collected.history import how_it_went
         ((1.0, 1.01), "rose"),
         ((2.0, 1.0, 1.5), "changed"),
         ((1.0, 1.001), "stayed"),
+        ((1.0, 229.0), "rose"),
         ((1.0,), "stayed"),
     ],
 )

@@ -11,7 +11,7 @@ import pytest
 
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.store import Store
-from thermodata.view import load_dataset
+from thermodata.view import StoreView, load_dataset
 
 Build = Callable[..., Any]
 
@@ -175,3 +175,32 @@ def test_a_schedule_has_no_log_whose_clock_could_be_off(mixed: Store) -> None:
     channels = load_dataset(mixed, "c", 60.0).channels
     assert channels["n_table"].source is None
     assert {c.source for n, c in channels.items() if n != "n_table"} != {None}
+
+
+@pytest.mark.parametrize("macro", ["binned", "aligned"])
+def test_several_tests_stand_in_one_table(build: Build, macro: str) -> None:
+    b = build()
+    for i, name in enumerate(["b", "a", "it's, [c]"]):
+        b.test("c", name)
+        b.tidy("c", name, np.arange(0.0, 90.0 + 30.0 * i), {"dZ": np.full(90 + 30 * i, float(i))})
+    b.test("c", "without_files")
+    store = b.store()
+
+    def rows(test: str) -> list[tuple[Any, ...]]:
+        with store.reader() as con:
+            return con.execute(f"select test, t_s, dZ from {macro}('c', {test}, '30 s')").fetchall()
+
+    each = [rows(test) for test in ("'b'", "'a'", "'it''s, [c]'")]
+    assert [len(r) for r in each] == [3, 4, 5]
+    assert rows("null") == [*each[1], *each[0], *each[2]], "in the order of their names"
+    assert rows("['a', 'b']") == [*each[1], *each[0]]
+    assert rows("['it''s, [c]']") == each[2]
+    assert rows("['without_files']") == []
+    with pytest.raises(duckdb.Error, match="no test is named"):
+        rows("[]")
+    with pytest.raises(duckdb.Error, match="no test 'x' in campaign 'c'; there is: a, b"):
+        rows("['a', 'x']")
+    view = StoreView(store.path)
+    made = getattr(view, macro)
+    assert made("c", step=30).fetchall() == made("c", None).fetchall()
+    assert len(made("c", ["a", "b"]).fetchall()) == 7

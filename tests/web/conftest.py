@@ -12,6 +12,7 @@ from thermodata.cli import main
 from thermodata.web.app import application
 from thermodata.web.desk import Desk, desk_of
 
+from ..cli.conftest import say as say
 from ..cli.conftest import write_campaign
 from .client import Client, Header
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ from thermodata.web.app import application
 from thermodata.web.desk import Desk, Keys, desk_of
 from thermodata.web.serve import listen, ticket_address
 
+from ..cli.conftest import Said
 from .client import Client, Header
 from .conftest import PORT, client_of, headers_of, write_headers
 
@@ -214,3 +217,34 @@ def test_a_store_of_its_own_and_the_folder_around_it_are_chosen(made_lab: Path, 
     assert made_lab.resolve() in by_store.folders
     with pytest.raises(UsageError, match="no such folder"):
         desk_of(tmp_path / "nowhere", None, write=False, port=PORT)
+
+
+def test_a_store_that_is_named_goes_before_that_of_the_environment(
+    made_lab: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, say: Callable[..., Said]
+) -> None:
+    monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)  # it opens its port, and ends
+    own, other = made_lab / "thermodata.store", tmp_path / "other.store"
+    other.mkdir()
+    monkeypatch.setenv("THERMODATA_STORE", str(other))
+
+    def opened(*words: object) -> str:
+        said = say("workbench", *words, "--no-browser", "--json")
+        assert said.code == 0, said.err
+        return str(json.loads(said.out)["store"])
+
+    assert opened(own) == opened(made_lab) == str(own)
+    assert opened() == opened(tmp_path) == str(other)
+    assert opened(made_lab, "--store", other) == str(other)  # logs here, their store there
+    talk = say("workbench", own, "--no-browser").err
+    assert f"of {own}, and not of THERMODATA_STORE ({other})" in talk
+    refused = say("workbench", own, "--store", other, "--no-browser")
+    assert refused.code == 2
+    assert "two stores are named" in refused.err
+
+
+def test_two_stores_in_one_call_are_refused(made_lab: Path, tmp_path: Path, say: Callable[..., Said]) -> None:
+    own = made_lab / "thermodata.store"
+    refused = say("--store", tmp_path, "tests", "--store", own)
+    assert refused.code == 2
+    assert "two stores are named" in refused.err
+    assert say("--store", own, "tests", "--store", own).code == 0

@@ -15,7 +15,8 @@ from thermodata.report.words.numbers import typeset
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
 from thermodata.store.catalogue.looks import count_locked_look
-from thermodata.store.catalogue.models import load_diagnosis, save_diagnosis
+from thermodata.store.catalogue.models import find_model, load_diagnosis, save_diagnosis
+from thermodata.store.catalogue.stale import fitted_again
 from thermodata.web.pages.drawn import among, pair
 from thermodata.web.pages.missing import RUNG_TARGET, STUMBLES
 
@@ -55,6 +56,20 @@ def test_an_answer_that_is_older_than_the_data_says_so(lab: Path) -> None:
     found = load_diagnosis(store, model)
     save_diagnosis(store, model, found.model_copy(update={"data_version": "another"}))
     assert said in client.get("/missing").text
+    assert f"diagnose {model}" in client.get("/missing").text
+    # the same model, fitted to the data as they are now and diagnosed
+    path = lab / "campaign.yaml"
+    path.write_text(path.read_text().replace("role: verification", "role: calibration"))
+    words = ("--store", str(lab / "thermodata.store"))
+    for more in (["ingest", str(path)], ["fit", model]):
+        assert main([*words, *more, "--json"]) == 0
+    again = fitted_again(Store(lab / "thermodata.store"), find_model(store, model))
+    assert again is not None
+    client = client_of(lab, write=True)[0]
+    page = f"/missing?model={model}"
+    assert "the same model fitted to them" not in client.get(page).text, "nobody asked that fit"
+    save_diagnosis(store, again, found.model_copy(update={"model": again, "data_version": None}))
+    assert f'<a href="/missing?model={again}">' in client.get(page).text
 
 
 def test_each_look_at_a_locked_test_is_told_with_what_it_was_for(lab: Path) -> None:

@@ -13,7 +13,7 @@ import click
 
 from thermodata.cli.terminal.common import known_failure
 from thermodata.cli.terminal.interrupting import noticing_interrupts
-from thermodata.errors import INTERRUPTED, ThermodataError, unknown_name
+from thermodata.errors import INTERRUPTED, ThermodataError, nearest, unknown_name
 from thermodata.version import __version__
 
 # Section of the help -> command -> module in its room. The order is the order of the work.
@@ -66,6 +66,17 @@ SECTIONS: dict[str, dict[str, str]] = {
 COMMANDS: dict[str, str] = {name: module for part in SECTIONS.values() for name, module in part.items()}
 
 
+TWO_WORDS = ("plugins new", "plugins show", "model export")
+"""What commands with an action are called, for who looks for these."""
+
+
+def _nearest_command(word: str, choices: Sequence[str]) -> str | None:
+    """The command most like a word, whatever the order of its parts: new-plugin is 'plugins new'."""
+    by_parts = {" ".join(sorted(c.replace("-", " ").split())): c for c in choices}
+    found = nearest(" ".join(sorted(word.replace("-", " ").replace("_", " ").split())), list(by_parts))
+    return nearest(word, choices) if found is None else by_parts[found]
+
+
 class Commands(click.Group):
     """Finds a command by name in its module; the attribute is the name with '_' for '-'."""
 
@@ -83,7 +94,7 @@ class Commands(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and not args[0].startswith("-") and args[0] not in COMMANDS:
-            raise unknown_name("command", args[0], list(COMMANDS))
+            raise unknown_name("command", args[0], [*COMMANDS, *TWO_WORDS], near=_nearest_command)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

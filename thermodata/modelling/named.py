@@ -12,6 +12,7 @@ from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import model_id
 from thermodata.schema.files.load import load_model
 from thermodata.schema.files.locate import located
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult
@@ -38,10 +39,13 @@ def fit_named(store: Store, ref: str) -> FitResult:
 
     if is_file(ref):
         return fit_file(store, Path(ref))
+    from thermodata.store.catalogue.renamed import told
+
     stored = find_model(store, ref)
     data = load_data(store, stored.spec)
     spec = as_chosen(stored, data)
-    return fit(store, spec, parent=stored.parent, notes=came_since(spec, data))
+    notes = [told(stored.renamed)] if stored.renamed else []
+    return fit(store, spec, parent=stored.parent, notes=[*notes, *came_since(spec, data)])
 
 
 def model_named(store: Store, ref: str) -> str:
@@ -67,6 +71,28 @@ def newest_model(store: Store) -> str:
     if row is None:
         raise UsageError("no model was fitted yet", where=str(store.path), hint="thermodata fit MODEL.yaml")
     return str(row[0])
+
+
+def of_which_version(store: Store, ref: str) -> str | None:
+    """Where a name leads to one of several versions that differ and are as far from the first: which it is, and the
+    others; else None."""
+    from thermodata.store.catalogue.models import find_model
+    from thermodata.view.lists.models import model_rows
+
+    rows = model_rows(store)
+    if ref in {m.model for m in rows} or ref not in {m.name for m in rows}:
+        return None
+    own = find_model(store, ref)
+    row = next(m for m in rows if m.model == own.model)
+    beside = [
+        m.model
+        for m in rows
+        if (m.name, m.version, m.campaigns) == (row.name, row.version, row.campaigns) and m.effects != row.effects
+    ]
+    if not beside:
+        return None
+    are = f"{listed(beside)} {'is' if len(beside) == 1 else 'are'} version {row.version} too"
+    return f"'{ref}': {own.model}, the newest of that name; {are}, with other effects"
 
 
 def of_which_campaign(store: Store, ref: str) -> str | None:

@@ -24,6 +24,7 @@ from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.as_kept import as_kept
+from thermodata.modelling.versions.called_now import advised_by_names_now
 from thermodata.modelling.versions.came_since import as_chosen
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.schema.answers.result import FitResult, Score
@@ -93,7 +94,8 @@ def fit(
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
-    fitted = fit_alone(spec, data)
+    with advised_by_names_now(store, spec.campaign_ids):
+        fitted = fit_alone(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     terms = [term.bound for response in fitted.responses for term in response.terms]
     read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
@@ -234,7 +236,8 @@ def orders(store: Store, spec: Model, *, method: str | None = None, base: Path |
     is saved. method: in place of the file's. UsageError where the model has no function to identify."""
     effects = [_with_open_orders(e, method) for e in spec.effects]
     spec = self_contained(store, spec.model_copy(update={"effects": effects}), base)
-    fitted = fit_alone(spec, load_data(store, spec), uncertainty=False)
+    with advised_by_names_now(store, spec.campaign_ids):
+        fitted = fit_alone(spec, load_data(store, spec), uncertainty=False)
     found = [row for response in fitted.responses for row in response.tried]
     if not found:
         raise UsageError(

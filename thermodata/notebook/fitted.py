@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -126,17 +126,21 @@ class Fit(Shown):
         """This model and others on the data as they are now."""
         return compared(self.store, [self.id, *(o.id if isinstance(o, Fit) else o for o in others)])
 
-    def predict(self, target: Path | str) -> Predictions:
+    def predict(self, target: Path | str, *, conditions: Mapping[str, str | float] | None = None) -> Predictions:
         """On a campaign of the store, a campaign file, or a folder of logs like the model's own, without displacement.
         'campaign:ID' is the campaign where a path is called so too. What can't be predicted is left out, with the
-        reason in `left_out`. UsageError where there is no test."""
+        reason in `left_out`. conditions: of all tests, as logs without a campaign file say none: {"tool": "A"}.
+        UsageError where there is no test."""
         from thermodata.draft.known.to_predict import predictions_of
+        from thermodata.modelling.predictions.conditions import under
         from thermodata.modelling.run import load
 
         heed(self.store, [self.id])
         lost = list[str]()
         fitted = load(self.store, self.id).fitted
-        made, left_out = predictions_of(self.store, fitted, os.fspath(target), lost.append)
+        made, left_out = predictions_of(
+            self.store, fitted, os.fspath(target), lost.append, under=lambda data: under(data, conditions or {})
+        )
         return Predictions(self.id, made, [*left_out, *lost])
 
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:

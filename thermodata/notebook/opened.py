@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -90,9 +91,11 @@ class OpenStore(StoreView):
         named = [m.id if isinstance(m, Fit) else m for m in models] or [self.model().id]
         return compared(self.store, named)
 
-    def predict(self, target: Path | str, model: str | None = None) -> Predictions:
-        """A model on a campaign of the store, a campaign file or a folder of logs."""
-        return self.model(model).predict(target)
+    def predict(
+        self, target: Path | str, model: str | None = None, *, conditions: Mapping[str, str | float] | None = None
+    ) -> Predictions:
+        """A model on a campaign of the store, a campaign file or a folder of logs. conditions: of all of its tests."""
+        return self.model(model).predict(target, conditions=conditions)
 
     def contributions(
         self, test: str | None = None, model: str | None = None, response: str | None = None

@@ -90,18 +90,31 @@ class Desk:
         return real
 
 
-def desk_of(given: Path | None, store: Path | None, *, write: bool, port: int) -> Desk:
+def desk_of(given: Path | None, store: Path | None, *, write: bool, port: int, otherwise: Path | None = None) -> Desk:
     """given: a store, or a folder of raw logs with or without a store in it; None is the working folder.
-    store: named beside it. UsageError where the folder is none."""
+    store: named beside it. otherwise: the store where neither leads to one. UsageError where the folder is none, and
+    where it is a store and another one is named."""
     folder = Path.cwd() if given is None else given.absolute()
     if given is not None and not folder.is_dir():
         raise UsageError(
             "no such folder", where=str(folder), expected="a store or a folder of raw logs", hint="thermodata demo DIR"
         )
-    if store is None and (folder / CATALOGUE).exists():
+    is_store = (folder / CATALOGUE).exists()
+    if given is not None and is_store and store is not None and store.resolve() != folder.resolve():
+        raise UsageError(
+            "two stores are named",
+            where="workbench",
+            expected=f"one of {given} and --store {store}",
+            got="both",
+            hint=f"thermodata workbench {given}",
+        )
+    if store is None and is_store and (given is not None or otherwise is None):
         # a campaign and its raw files stand beside their store
         return Desk(folder, _resolved(folder.parent, folder), write, port)
-    path = (folder / DEFAULT_STORE if store is None else store).absolute()
+    inside = folder / DEFAULT_STORE
+    if store is None and otherwise is not None and not (given is not None and (inside / CATALOGUE).exists()):
+        store = otherwise
+    path = (inside if store is None else store).absolute()
     return Desk(path, _resolved(folder, path), write, port)
 
 

@@ -35,14 +35,22 @@ def ticket_address(desk: Desk) -> str:
     return f"{desk.address}{TICKET_PATH}?ticket={desk.keys.ticket}"
 
 
-def serve(given: Path | None, store: Path | None, *, write: bool, port: int, opened: Callable[[Desk], None]) -> None:
-    """Runs until it is interrupted. given, store: see `desk_of`. opened: is told once the port listens."""
+def serve(
+    given: Path | None,
+    store: Path | None,
+    *,
+    write: bool,
+    port: int,
+    opened: Callable[[Desk], None],
+    otherwise: Path | None = None,
+) -> None:
+    """Runs until it is interrupted. given, store, otherwise: see `desk_of`. opened: is told once the port listens."""
     import uvicorn
 
     from thermodata.web.app import application
 
     with listen(port) as bound:
-        desk = desk_of(given, store, write=write, port=bound.getsockname()[1])
+        desk = desk_of(given, store, write=write, port=bound.getsockname()[1], otherwise=otherwise)
         # no access log: an address may hold the ticket
         config = uvicorn.Config(
             application(desk),

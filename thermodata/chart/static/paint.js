@@ -39,6 +39,15 @@
     ctx.restore();
   };
 
+  // a text that can be read on curves that go up and down right behind it
+  T.boxed = function (ctx, text, x, y, colour, ratio, size) {
+    ctx.save();
+    ctx.font = (size * ratio) + "px " + T.FONT; ctx.fillStyle = T.colour("paper"); ctx.globalAlpha = 0.85;
+    ctx.fillRect(x - 2 * ratio, y - 0.62 * size * ratio, ctx.measureText(text).width + 4 * ratio, 1.24 * size * ratio);
+    ctx.restore();
+    T.text(ctx, text, x, y, colour, ratio, size, "left");
+  };
+
   // shaded stretches of one panel, below the curves
   T.spans = function (u, spans, number) {
     const ctx = u.ctx, r = uPlot.pxRatio, top = u.bbox.top, height = u.bbox.height;
@@ -90,7 +99,7 @@
       ctx.save();
       ctx.strokeStyle = T.colour(line.colour); ctx.lineWidth = r; ctx.setLineDash([2 * r, 3 * r]);
       ctx.beginPath(); ctx.moveTo(u.bbox.left, y); ctx.lineTo(u.bbox.left + u.bbox.width, y); ctx.stroke(); ctx.restore();
-      if (line.label) T.text(ctx, line.label, u.bbox.left + 4 * r, y - 7 * r, T.colour(line.colour), r, 10.5, "left", true);
+      if (line.label) T.boxed(ctx, line.label, u.bbox.left + 4 * r, y - 7 * r, T.colour(line.colour), r, 10.5);
     });
   };
 

@@ -37,6 +37,7 @@ def sql_command(session: Session, query: str | None, as_csv: bool, rows: int) ->
       thermodata sql "from score where role like 'verification%'"
       thermodata sql "select channel, avg(value) from temperature where valid(flag) group by 1"
       thermodata sql "from binned('gantry', 'day1', '60 s')" --csv > day1.csv
+      thermodata sql "from binned('gantry', ['day1', 'day2'])"; null for all tests of gantry
     """
     if as_csv and session.as_json:
         raise UsageError("--csv and --json exclude each other")

@@ -30,7 +30,7 @@ def snapshot_command(session: Session, out: Path) -> None:
 
 @command("export")
 @click.argument("campaign", shell_complete=completing.campaigns)
-@click.argument("test", shell_complete=completing.tests)
+@click.argument("tests", metavar="[TEST]...", nargs=-1, shell_complete=completing.tests)
 @click.argument("out", type=click.Path(path_type=Path, dir_okay=False))
 @click.option(
     "--step",
@@ -46,17 +46,28 @@ def snapshot_command(session: Session, out: Path) -> None:
 )
 @click.option("--force", is_flag=True, help="Replace OUT where it exists.")
 def export_command(
-    session: Session, campaign: str, test: str, out: Path, step: str, kind: str | None, force: bool
+    session: Session, campaign: str, tests: tuple[str, ...], out: Path, step: str, kind: str | None, force: bool
 ) -> None:
-    """Write one TEST as Parquet, CSV, Excel, MAT or MDF4.
+    """Write tests as Parquet, CSV, Excel, MAT or MDF4.
 
     All sources together on a uniform grid, or as logged; the name of OUT says the format. Times are in UTC. CSV has
     decimal points; Excel (.xlsx) has numbers in any language, units in the second row.
+
+    Several tests are a file each, where OUT says their names: export gantry day1 day2 'out/{test}.csv'; without a
+    TEST all of the campaign.
     """
     from thermodata.export import export_test
+    from thermodata.export.several import paths_of
 
-    if out.exists() and not force:
-        raise UsageError("the file exists", where=str(out), hint="--force replaces it")
-    result = plain(export_test(session.view(), campaign, test, out, step=step, kind=kind))
-    shown = {**result, "rows": result["streams"] or result["rows"]}
-    session.answer(result, lambda: fields([(k, v) for k, v in shown.items() if k != "streams"]))
+    view = session.view()
+    paths = paths_of(view, campaign, tests, out)
+    there = [str(path) for path in paths.values() if path.exists()]
+    if there and not force:
+        raise UsageError("the file exists", where=", ".join(there), hint="--force replaces it")
+    found = [plain(export_test(view, campaign, test, path, step=step, kind=kind)) for test, path in paths.items()]
+
+    def text() -> str:
+        shown = [{**one, "rows": one["streams"] or one["rows"]} for one in found]
+        return "\n\n".join(fields([(k, v) for k, v in one.items() if k != "streams"]) for one in shown)
+
+    session.answer(found[0] if len(tests) == 1 else found, text)

@@ -13,7 +13,12 @@ Found = dict[str, Any]
 def trace_text(found: Found) -> str:
     """A test, a channel, one sample or a model, and the way back to the files."""
     if "model" in found:
-        head = [(k, found[k]) for k in ("model", "name", "parent", "stale", "data_version", "created_at")]
+        head = [(k, found[k]) for k in ("model", "name", "parent", "stale")]
+        if found["not_fitted_to"]:
+            head.append(
+                ("not fitted to", ", ".join(found["not_fitted_to"]) + " (thermodata fit takes in what came after)")
+            )
+        head += [(k, found[k]) for k in ("data_version", "created_at")]
         return "\n\n".join(
             [
                 fields(head),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -12,7 +14,10 @@ from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
 from thermodata.report.text.table import fields
 
-_TARGETS = ("st", "scl", "c", "python", "json", "mat")
+if TYPE_CHECKING:
+    from thermodata.store import Store
+
+_TARGETS = ("st", "scl", "c", "python", "json", "mat", "yaml")
 
 
 def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
@@ -26,7 +31,11 @@ def _seconds(ctx: click.Context, param: click.Parameter, value: str) -> float:
 @click.argument("action", type=click.Choice(["export"]))
 @click.argument("model", shell_complete=completing.models)
 @click.option(
-    "--to", "target", type=click.Choice(_TARGETS), required=True, help="Structured text, Siemens SCL, C99, and so on."
+    "--to",
+    "target",
+    type=click.Choice(_TARGETS),
+    required=True,
+    help="Structured text, Siemens SCL, C99, and so on; yaml: its model file.",
 )
 @click.option("--cycle", callback=_seconds, default="1s", show_default=True, help="The control calls it this often.")
 @click.option(
@@ -63,6 +72,8 @@ def model_command(
     Frozen and self-contained, for a fixed cycle: it starts (temperatures count from their mean of the next minutes,
     while they stand still; speeds, powers and switches as at rest before) or goes on from its last state, holds bad
     readings, and limits the correction and its rate. What can't run there is refused with the reason.
+
+    With --to yaml it is the model file of a version that 'add' made: edit it, and 'fit' it.
     """
     from thermodata.export.control import write
     from thermodata.export.control.of_model import Asked, program_of
@@ -71,6 +82,9 @@ def model_command(
     from thermodata.store.catalogue.stale import stale_line
 
     store = session.store()
+    if target == "yaml":
+        _model_file(session, store, resolve(store, model), out or Path(), force)
+        return
     loaded = load(store, resolve(store, model))
     asked = Asked(
         cycle,
@@ -84,11 +98,7 @@ def model_command(
     )
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
-    there = [str(folder / n) for n in files_of(program, target) if (folder / n).exists()]
-    if there and not force:
-        raise UsageError(
-            "the file exists", where=", ".join(there), hint="--force replaces it, --out DIR writes elsewhere"
-        )
+    _refuse_to_replace([folder / n for n in files_of(program, target)], force)
     written = write(program, target, folder, real)
     payload = {
         "model": loaded.identity,
@@ -121,6 +131,36 @@ def model_command(
             ]
         ),
     )
+
+
+def _model_file(session: Session, store: Store, model: str, folder: Path, force: bool) -> None:
+    """Writes a model's file, and answers."""
+    from thermodata.export.model_file import model_path, write_model
+    from thermodata.store.catalogue.models import find_model
+    from thermodata.store.catalogue.stale import stale_line
+
+    stored = find_model(store, model)
+    _refuse_to_replace([model_path(stored.spec, folder)], force)
+    written = str(write_model(stored.spec, folder))
+    no_program = dict.fromkeys(("response", "cycle_s", "real", "inputs", "effects", "states", "limit"))
+    no_program |= dict.fromkeys(("rate_per_min", "hold_s", "left_out"))
+    payload = {
+        **no_program,
+        "model": stored.model,
+        "to": "yaml",
+        "files": [written],
+        "effects": [e.effect for e in stored.spec.effects],
+        "stale": stale_line(store, stored.model),
+    }
+    session.answer(payload, lambda: fields([("model", f"{stored.name} {stored.model}"), ("files", [written])]))
+
+
+def _refuse_to_replace(paths: Sequence[Path], force: bool) -> None:
+    there = [str(path) for path in paths if path.exists()]
+    if there and not force:
+        raise UsageError(
+            "the file exists", where=", ".join(there), hint="--force replaces it, --out DIR writes elsewhere"
+        )
 
 
 def _pair(text: str) -> tuple[str, str]:

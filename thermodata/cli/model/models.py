@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def models_command(session: Session, campaign: str | None) -> None:
     """List the models: versions, effects, errors and verdicts.
 
-    The newest version first; "last fit" marks the one that is taken where a command or page is told none.
+    The newest version first; "fitted last" marks the one that is taken where a command or page is told none.
     """
     from thermodata.view.lists.models import fitted_last, model_rows
 
@@ -47,12 +47,12 @@ def _text(rows: list[dict[str, Any]]) -> str:
             "campaigns": ", ".join(row["campaigns"]),
             "responses": ", ".join(row["responses"]),
             "made": f"{row['created_at']:%Y-%m-%d %H:%M}",
-            "stale": "stale" if row["stale"] else "",
-            "last": "last fit" if row["fitted_last"] else "",
+            "stale": "yes" if row["stale"] else "",
+            "fitted": "last" if row["fitted_last"] else "",
         }
         for row in rows
     ]
     heads = ("name", "version", "model", "campaigns", "responses", "effects", "calibration_um", "verification_um")
     named = {"calibration_um": "calibration", "verification_um": "verification"}
-    columns = [(key, named.get(key, key)) for key in (*heads, "unit", "verdict", "made", "stale", "last")]
+    columns = [(key, named.get(key, key)) for key in (*heads, "unit", "verdict", "made", "stale", "fitted")]
     return table(shown, columns)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +19,6 @@ from thermodata.report.words.numbers import duration, number
 if TYPE_CHECKING:
     from thermodata.modelling.predictions.beyond import Beyond
     from thermodata.modelling.predictions.predict import Predicted
-    from thermodata.view.grid.dataset import Dataset
 
 
 @command("predict")
@@ -66,6 +63,7 @@ def predict_command(
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.predictions.beyond import beyond
+    from thermodata.modelling.predictions.conditions import under
     from thermodata.modelling.run import load
     from thermodata.store.catalogue.stale import stale_line
 
@@ -75,7 +73,7 @@ def predict_command(
     given = dict(_pair(c) for c in conditions)
     with progress_line() as line:
         made, left_out = predictions_of(
-            store, loaded.fitted, target, session.say, line, tests, lambda data: _under(data, given)
+            store, loaded.fitted, target, session.say, line, tests, lambda data: under(data, given)
         )
     for reason in left_out:
         session.say(f"left out: {reason}")
@@ -158,17 +156,6 @@ def _pair(text: str) -> tuple[str, str | float]:
     if not found or not name.strip():
         raise UsageError("a condition", expected="NAME=VALUE, for example spindle=SP2", got=text)
     try:
-        return name.strip().removeprefix("conditions."), float(value)
+        return name.strip(), float(value)
     except ValueError:
-        return name.strip().removeprefix("conditions."), value.strip()
-
-
-def _under(data: Dataset, conditions: Mapping[str, str | float]) -> Dataset:
-    """The tests with these conditions beside their own, or in place of them; 'machine' is the machine's."""
-    more = {name: value for name, value in conditions.items() if name != "machine"}
-    machine = conditions.get("machine")
-    tests = (
-        replace(t, conditions={**t.conditions, **more}, machine=t.machine if machine is None else str(machine))
-        for t in data.tests
-    )
-    return replace(data, tests=tuple(tests))
+        return name.strip(), value.strip()

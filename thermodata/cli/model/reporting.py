@@ -54,16 +54,19 @@ def workbench_command(session: Session, folder: Path | None, write: bool, port: 
     """
     from thermodata.web.serve import serve, ticket_address
 
-    # the default store is the one of FOLDER, where a folder is named
-    named = None if folder is not None and session.store_path == Path("thermodata.store") else session.store_path
+    # what is named in the call is meant; the environment says only which store it is where nothing else does
+    named = session.store_path if session.store_named else None
+    otherwise = None if session.store_named or session.store_by_default else session.store_path
 
     def opened(desk: Desk) -> None:
         address = ticket_address(desk)
         payload = {"address": address, "port": desk.port, "store": str(desk.store_path), "write": desk.write}
         session.answer(payload, lambda: address)
+        if otherwise is not None and desk.store_path != otherwise.absolute():
+            session.say(f"of {desk.store_path}, and not of THERMODATA_STORE ({otherwise})")
         session.say("it runs until Ctrl+C; the address works once")
         sys.stdout.flush()
         if not no_browser:
             webbrowser.open(address)
 
-    serve(folder, named, write=write, port=port, opened=opened)
+    serve(folder, named, write=write, port=port, opened=opened, otherwise=otherwise)

@@ -25,11 +25,12 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, slots=True)
 class Session:
     """One call of the program: where the store is and how the answer is written. store_named: by an option, and not by
-    default or by the environment."""
+    default or by the environment; store_by_default: nobody named one."""
 
     store_path: Path
     as_json: bool
     store_named: bool = False
+    store_by_default: bool = False
 
     def store(self, *, create: bool = False) -> Store:
         """The store; a UsageError names `ingest` where there is none yet."""
@@ -104,9 +105,16 @@ def command(name: str, **more: Any) -> Callable[[Callable[..., Any]], click.Comm
         @functools.wraps(function)
         def call(ctx: click.Context, /, *args: Any, **options: Any) -> Any:
             after, root = options.pop("store_after"), ctx.find_root()
-            named = bool(after) or root.get_parameter_source("store") is click.core.ParameterSource.COMMANDLINE
+            source, of = root.get_parameter_source("store"), click.core.ParameterSource
+            before = root.obj if source is of.COMMANDLINE else None
+            if before and after and Path(before).resolve() != Path(after).resolve():
+                raise UsageError(
+                    "two stores are named", where="--store", expected=f"one of {before} and {after}", got="both"
+                )
             store = Path(after or root.obj or "thermodata.store")
-            return function(Session(store, options.pop("as_json"), named), *args, **options)
+            by_default = not after and source in (of.DEFAULT, None)
+            session = Session(store, options.pop("as_json"), bool(after or before), by_default)
+            return function(session, *args, **options)
 
         made: Any = click.pass_context(call)
         made = click.option("--json", "as_json", is_flag=True, help="Print JSON.")(made)

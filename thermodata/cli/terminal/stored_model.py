@@ -14,17 +14,18 @@ if TYPE_CHECKING:
 
 def resolve(store: Store, ref: str | None, session: Session | None = None) -> str:
     """MODEL as the store knows it; where none is named, the one fitted last, and the session says which that is. Says
-    on stderr where models of several campaigns have the name, and where the data of the model changed since its fit:
-    every command that uses one comes by here."""
-    from thermodata.modelling.named import model_named, newest_model, of_which_campaign
+    on stderr where models of several campaigns have the name, or versions alike in number, where the data of the model
+    changed since its fit, and where calibration tests came after it: every command that uses one comes by here."""
+    from thermodata.modelling.named import model_named, newest_model, of_which_campaign, of_which_version
     from thermodata.store.catalogue.models import find_model
-    from thermodata.store.catalogue.stale import stale_line
+    from thermodata.store.catalogue.stale import came_after_line, stale_line
 
     found = newest_model(store) if ref is None else model_named(store, ref)
     stored = find_model(store, found)
     if ref is None and session is not None:
         session.say(f"of the model fitted last: {found} ({stored.name}, {', '.join(stored.spec.campaign_ids)})")
-    for said in (of_which_campaign(store, found), stale_line(store, stored.model)):
+    which = of_which_campaign(store, found) or of_which_version(store, found)
+    for said in (which, stale_line(store, stored.model), came_after_line(store, stored)):
         if said is not None:
             click.echo(said, err=True)
     return found

@@ -14,7 +14,7 @@ import numpy as np
 
 from thermodata.effect.binding import ANY
 from thermodata.effect.guard import read_only
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel
 from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
 from thermodata.view.grid.dataset import TestData
 
@@ -107,7 +107,7 @@ def evaluate(test: TestData, text: str) -> tuple[Float1D, Bool1D, bool]:
         raise UsageError(f"the driver '{text}' reads no channel", expected="a channel or an expression of channels")
     for name in names:
         if name not in test.values:
-            raise unknown_name("channel", name, list(test.values), where=f"test {test.campaign}/{test.test}")
+            raise unknown_channel(name, list(test.values), where=f"test {test.campaign}/{test.test}")
     good = np.asarray(np.logical_and.reduce([_good(test, name) for name in names]))
     relative = not all(_quantity(test, name) in ZERO_AT_REST for name in names)
     if text.isidentifier():

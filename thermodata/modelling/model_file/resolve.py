@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 
 from thermodata.effect.binding import ANY, family_of, unnamed
 from thermodata.effect.places import holds, shown
-from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_name
+from thermodata.errors import SpecError, ThermodataError, UsageError, unknown_channel, unknown_name
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.inputs.roles import Roles, find_tests, resolve_roles
 from thermodata.modelling.model_file import nested, prediction, shaped, transfer
@@ -276,8 +276,8 @@ def _driver(driver: Driver, quantity: str, channels: Mapping[str, ChannelInfo], 
 
 
 def _no_channel(name: str, channels: Mapping[str, ChannelInfo], where: str) -> MissingChannelError:
-    said = unknown_name("channel", name, list(channels), where=where)
-    return MissingChannelError(said.what, where=said.where, expected=said.expected, got=said.got, hint=said.hint)
+    said = unknown_channel(name, list(channels), where=where)
+    return MissingChannelError(said.what, where=said.where, expected=said.expected, got=name, hint=said.hint)
 
 
 def _fitter(given: nested.FitInside | None) -> nested.FitInside:

@@ -114,7 +114,9 @@ def _say_it(term: FittedTerm) -> str:
     by = term.bound.spec.gains_by
     if len(by) != 1 or by[0] in ("test", "campaign", "place"):
         return ""
-    return f"; predict --set {by[0]}={next(iter(term.groups))} says it of all tests"
+    one = next(iter(term.groups))
+    in_python = f"conditions={{'{by[0]}': '{one}'}} in Python"
+    return f"; predict --set {by[0]}={one} says it of all tests ({in_python})"
 
 
 def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predicted:

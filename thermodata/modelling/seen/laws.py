@@ -45,7 +45,8 @@ class GainLaw:
 
 @dataclass(frozen=True)
 class TermLaw:
-    """One effect of the model. why_not: why there is no law, else None. parameters: name -> (value, unit)."""
+    """One effect of the model. why_not: why there is no law, else None. parameters: name -> (value, unit). choices: of
+    which group it is asked, where that is all that is missing."""
 
     id: str
     effect: str
@@ -55,6 +56,7 @@ class TermLaw:
     parameters: Mapping[str, tuple[float, str]]
     gains: tuple[GainLaw, ...]
     why_not: str | None = None
+    choices: tuple[str, ...] = ()
 
 
 def laws(
@@ -85,6 +87,7 @@ def _law(
     effect, binding = term.effect, term.bound.bindings.get(campaign or "", term.binding)
     group, why = _group(term, wanted)
     values = term.groups.get(group) or next(iter(term.groups.values()))
+    choices = tuple(term.groups) if why is not None and _why_not(term) is None else ()
     why = _why_not(term) or why
     drives: dict[str, Drive] = {}
     gains: tuple[GainLaw, ...] = ()
@@ -105,6 +108,7 @@ def _law(
         {p.name: (values.params[p.name], p.unit) for p in effect.params if p.name not in values.silent},
         gains,
         why,
+        choices,
     )
 
 
@@ -226,11 +230,14 @@ def refuse_unlawful(terms: Sequence[TermLaw], where: str) -> None:
     """UsageError that names every term without a law, why, and what to do about it."""
     bad = [t for t in terms if t.why_not is not None]
     if bad:
+        asked = " ".join(f"--group {t.id}={t.choices[0]}" for t in bad if t.choices)
+        out = ",".join(t.id for t in bad if not t.choices)
+        leave = f"--without {out} leaves {'it' if ',' not in out else 'them'} out" if out else ""
         raise UsageError(
             "not all of the model can run in a control",
             where=where,
             got="; ".join(f"{t.id}: {t.why_not}" for t in bad),
-            hint="--without " + ",".join(t.id for t in bad) + " leaves them out"
-            if len(bad) < len(terms)
+            hint=" ".join(filter(None, [asked and f"{asked} chooses its gain;" if leave else asked, leave]))
+            if asked or len(bad) < len(terms)
             else "add an effect that has drivers, and leave these out",
         )

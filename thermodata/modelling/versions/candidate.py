@@ -11,7 +11,8 @@ from collections.abc import Mapping, Sequence
 from thermodata.effect import effect as find_effect
 from thermodata.effect import effects
 from thermodata.effect.binding import Described, bindings, unnamed
-from thermodata.errors import UsageError, unknown_name
+from thermodata.effect.places import shown
+from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.modelling.model_file.resolve import term_ids
 from thermodata.schema.files.model import EffectSpec, Model
 
@@ -68,16 +69,27 @@ def candidate_spec(candidate: str, channels: Mapping[str, Described]) -> EffectS
     given = [c.strip() for c in rest.split(",") if c.strip()]
     for channel in given:
         if channel not in channels:
-            raise unknown_name("channel", channel, list(channels), where=f"candidate '{candidate}'")
+            raise unknown_channel(channel, list(channels), where=f"candidate '{candidate}'")
     choices = bindings(effect, channels)
     fitting = [c for c in choices if list(c.values()) == given] if given else unnamed(effect, channels)
     if len(fitting) == 1:
         return EffectSpec(effect=name, drivers=dict(fitting[0]))
     if len(given) == len(effect.needs):  # a channel without a place, named on purpose
         return EffectSpec(effect=name, drivers={n.role: c for n, c in zip(effect.needs, given, strict=True)})
+    if not choices:
+        raise UsageError(
+            f"candidate '{candidate}': no channel fits what '{name}' needs",
+            expected="; ".join(
+                f"{n.role}: {n.quantity} at {' or '.join(map(shown, n.places)) or 'any place'}" for n in effect.needs
+            ),
+            got="no such channel with data",
+            hint="a channel of that quantity and place in the campaign file (thermodata channels lists those there are)"
+            f", or name one: {name}:CHANNEL",
+        )
     raise UsageError(
         f"candidate '{candidate}' fits {len(fitting) or 'no'} sets of channels",
-        expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices) or "an effect that fits",
+        expected=", ".join(f"{name}:{','.join(c.values())}" for c in choices),
+        hint="one of these",
     )
 
 

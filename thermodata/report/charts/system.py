@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.chart import Axis, Band, Chart, Limit, Panel, Series
+from thermodata.chart.colour import DASHES
 from thermodata.modelling.seen.as_system import Seen
 from thermodata.modelling.seen.residual_tests import Against
 from thermodata.schema.agreed.certainty import Z95
@@ -16,11 +17,24 @@ from thermodata.schema.agreed.certainty import Z95
 def system_charts(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, Chart]:
     """'step', 'bode', 'memory', and 'state0', ... . styles: effect -> (colour, dash)."""
     made: dict[str, Chart] = {}
+    styles = path_styles(seen, styles)
     if seen.paths:
         made["step"] = _step(seen, styles)
         made["bode"] = _bode(seen, styles)
     made["memory"] = _memory(seen)
     return made | {f"state{i}": _against(state, seen.unit) for i, state in enumerate(seen.states)}
+
+
+def path_styles(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> dict[str, tuple[str, str]]:
+    """Path -> (colour, dash): the colour of its effect, and of several gains of one effect a dash each."""
+    taken, found = set(styles.values()), dict[str, tuple[str, str]]()
+    for p in seen.paths:
+        own = styles[p.effect]
+        if own in found.values():
+            own = next(((own[0], dash) for dash in DASHES if (own[0], dash) not in taken), own)
+            taken.add(own)
+        found[p.name] = own
+    return found
 
 
 def _step(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
@@ -30,9 +44,9 @@ def _step(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
             p.name,
             p.unit,
             np.append(p.step[1], p.step[1][-1]),
-            styles[p.effect][0],
+            styles[p.name][0],
             x=np.append(p.step[0], longest) / 3600.0,
-            dash=styles[p.effect][1],
+            dash=styles[p.name][1],
         )
         for p in seen.paths
     ]
@@ -47,8 +61,8 @@ def _bode(seen: Seen, styles: Mapping[str, tuple[str, str]]) -> Chart:
                 p.name,
                 "deg" if of == 2 else p.unit,
                 p.bode[of][::-1],
-                styles[p.effect][0],
-                dash=styles[p.effect][1],
+                styles[p.name][0],
+                dash=styles[p.name][1],
                 label="",
             )
             for p in seen.paths

@@ -17,6 +17,7 @@ from thermodata.schema.agreed.certainty import Z95
 from thermodata.store.base.files import whole_file
 
 DPI = 110
+LEGEND_BESIDE = 1.6  # of the curves' length: where the axis ends
 ROW_IN, WIDE_IN = 3.1, 13.0  # [inch]
 PERIODS_MIN = {"1 min": 1.0, "10 min": 10.0, "1 h": 60.0, "6 h": 360.0, "1 d": 1440.0, "1 week": 10080.0}
 
@@ -72,7 +73,9 @@ def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
         ylabel=f"[{seen.unit} a unit]",
     )
     if seen.paths:
-        axes.legend(fontsize="small", loc="best")
+        # beside the ends of the curves, which it would cover anywhere else
+        axes.set_xlim(right=LEGEND_BESIDE * longest / 3600.0)
+        axes.legend(fontsize="small", loc="center right")
 
 
 def _bode(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]], phase: bool) -> None:
@@ -95,11 +98,15 @@ def _correlation(axes: Any, seen: Seen) -> None:
     band = Z95 / math.sqrt(max(seen.count, 1))
     axes.axhspan(-band, band, color="#f0b429", alpha=0.35, linewidth=0)
     axes.axhline(0.0, color="0.3", linewidth=0.6)
-    told = "; ".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)
+    told = "\n".join(f"{one.lags} lags {probability_text(one.p_value)}" for one in seen.ljung_box)
     axes.set(
-        title=f"Autocorrelation of the residual (Ljung-Box: {told or 'too short'})",
+        title="Autocorrelation of the residual",
         xlabel="lag [h]",
         ylim=(-1.05, 1.05),
+    )
+    # three probabilities are wider than the axes as a part of the title
+    axes.text(
+        0.99, 0.97, f"Ljung-Box: {told or 'too short'}", transform=axes.transAxes, ha="right", va="top", size="small"
     )
 
 

@@ -79,7 +79,7 @@ def versions(
 
 def how_it_went(errors: Sequence[float]) -> str:
     """'fell', 'rose' or 'changed', of the errors of versions, the first one first; 'stayed' where no one is another."""
-    ways = {told[0] for a, b in pairwise(errors) if a and (told := change(a, b))[0] in "+-"}
+    ways = {"-" if b < a else "+" for a, b in pairwise(errors) if a and change(a, b) != "0 %"}
     return {"": "stayed", "-": "fell", "+": "rose"}.get("".join(ways), "changed")
 
 

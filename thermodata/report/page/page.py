@@ -14,7 +14,7 @@ from thermodata.chart.decimate import block_mean
 from thermodata.report.charts.bars import waterfall
 from thermodata.report.charts.figures import in_one_unit, overview_map, part_chart, points_for, residual_scale
 from thermodata.report.charts.heat import heat_charts
-from thermodata.report.charts.system import system_charts
+from thermodata.report.charts.system import path_styles, system_charts
 from thermodata.report.collected.data import ReportData, TestPart
 from thermodata.report.collected.lost import lost_of_versions
 from thermodata.report.page.error_rows import error_rows, headline_error
@@ -80,6 +80,7 @@ def render(data: ReportData) -> str:
         data=data,
         unit=typeset(data.unit),
         styles=styles,
+        path_styles=path_styles,
         **page_values(_figures(data, styles, spots)),
         waterfall=waterfall(data.versions),
         lost=typeset(capital(lost_of_versions(data.versions, lambda v: v.model[:6]))),

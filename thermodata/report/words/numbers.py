@@ -81,15 +81,18 @@ def duration(seconds: float | None) -> str:
 
 def change(before: float | None, after: float | None) -> str:
     """'-62 %', '0 %' for less than half of one; '-' where either is missing. A fall to under 1 % has two digits of what
-    is left: '-99.54 %'."""
+    is left: '-99.54 %'; a rise to MANY_TIMES and more is told as times: 'x 229'."""
     if not before or after is None:
         return "-"
     left = after / before
+    if left >= MANY_TIMES:
+        return f"x {number(left)}"
     digits = 1 - math.floor(math.log10(100 * left)) if 0 < left < ALL_BUT else 0
     changed = round(100 * (left - 1), digits)
     return f"{changed:+.{digits}f} %" if changed else "0 %"
 
 
+MANY_TIMES = 10.0
 ALL_BUT = 0.01  # of an error: a fall to less is not told as one by all of it
 MOST_NAMED = 6  # tests; more are counted
 LITTLE = 0.05  # of a squared error: what makes less is not named

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.encoder import COMPRESSION
 from thermodata.store.base.files import publish, safe_name, temporary, write_error
+from thermodata.store.catalogue.renamed import renamed, with_names
 from thermodata.store.catalogue.store import Store
 
 if TYPE_CHECKING:
@@ -29,7 +30,8 @@ GONE, BACK = "gone", "gone for a while"  # BACK: there again, without the result
 
 @dataclass(frozen=True, slots=True)
 class StoredModel:
-    """A version of a model. stale: its data changed since it was fitted; data_version: of what it was fitted to."""
+    """A version of a model. stale: its data changed since it was fitted; data_version: of what it was fitted to;
+    renamed: name of a channel in the fit -> name now, which the spec has."""
 
     model: str
     name: str
@@ -38,6 +40,7 @@ class StoredModel:
     result: FitResult
     stale: bool
     data_version: str = ""
+    renamed: Mapping[str, str] = field(default_factory=dict)
 
 
 def save_fit(
@@ -253,14 +256,17 @@ def kept_answer(store: Store, model: str, question: str, key: str | None = None)
 
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
     row = fetch(con, "select * from model where model = ?", [model])[0]
+    spec = Model.model_validate_json(row["spec"])
+    names = renamed(con, spec.campaign_ids, model) if row["stale"] else {}
     return StoredModel(
         row["model"],
         row["name"],
         row["parent"],
-        Model.model_validate_json(row["spec"]),
+        with_names(spec, names) if names else spec,
         FitResult.model_validate_json(row["result"]),
         bool(row["stale"]),
         row["data_version"],
+        names,
     )
 
 

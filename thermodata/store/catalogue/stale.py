@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 from thermodata.schema.files.model import Model
 from thermodata.schema.words.sentences import with_count
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import BACK, GONE, STALE, StoredModel, find_model
+from thermodata.store.catalogue.renamed import told as told_names
 from thermodata.store.catalogue.store import Store
 
 _NAMED = 4  # tests of one change
@@ -32,11 +35,27 @@ def stale_line(store: Store, model: str) -> str | None:
         f"{what}: {', '.join(tests)}" if what in (GONE, BACK) else f"{what} of {with_count(tests, _NAMED)}"
         for what, tests in by_what.items()
     )
+    names = f"; {told_names(stored.renamed)}" if stored.renamed else ""
     again = fitted_again(store, stored)
     do = f"{again} is it, fitted" if again else f"thermodata fit {stored.model} fits it"
     return (
-        f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}); "
+        f"stale: the data of {stored.name} {stored.model} changed since it was fitted ({told or 'its tests'}{names}); "
         f"{do} to them as they are now"
+    )
+
+
+def came_after_line(store: Store, stored: StoredModel) -> str | None:
+    """One line on calibration tests that came after the fit of a model that is not stale; else None."""
+    new = [] if stored.stale else came_after(store, stored)
+    if not new:
+        return None
+    names = new if len(stored.spec.campaign_ids) > 1 else [name.partition("/")[2] for name in new]
+    one = len(new) == 1
+    again = fitted_again(store, stored)
+    do = f"{again} is fitted to {'it' if one else 'them'} too" if again else f"thermodata fit {stored.model} takes "
+    return (
+        f"{with_count(names, _NAMED)} {'is a calibration test' if one else 'are calibration tests'} that {stored.name} "
+        f"{stored.model} was not fitted to; {do}" + ("" if again else f"{'it' if one else 'them'} in")
     )
 
 
@@ -58,13 +77,18 @@ def results_gone(store: Store, stored: StoredModel) -> list[str]:
 
 def fitted_again(store: Store, stored: StoredModel) -> str | None:
     """The id of the same model fitted to the data as they are now; None where nobody did."""
+    return next(iter(all_fitted_again(store, stored)), None)
+
+
+def all_fitted_again(store: Store, stored: StoredModel) -> Iterator[str]:
+    """The ids of the same model fitted to the data as they are now, the last one first."""
     with store.reader() as con:
         fresh = fetch(con, "select model from model where name = ? and not stale order by rowid desc", [stored.name])
     for row in fresh:
         other = find_model(store, row["model"])
-        if _chosen(other) == _chosen(stored):
-            return other.model
-    return None
+        # one that was fitted while a test was away is not of the data as they are now
+        if _chosen(other) == _chosen(stored) and not came_after(store, other):
+            yield other.model
 
 
 def _chosen(stored: StoredModel) -> Model:

@@ -6,8 +6,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from thermodata.errors import unknown_name
+from thermodata.errors import unknown_channel, unknown_name
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.came_after import came_after
 from thermodata.store.catalogue.models import find_model
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.known.file_versions import SUPERSEDED
@@ -48,7 +49,7 @@ def trace(
         if channel is None:
             return tracer.test()
         if channel not in tracer.channels:
-            raise unknown_name("channel", channel, list(tracer.channels))
+            raise unknown_channel(channel, list(tracer.channels))
         return tracer.head() | tracer.channel(channel, t_s)
 
 
@@ -184,6 +185,7 @@ def _model(store: Store, ref: str) -> Answer:
         "name": model.name,
         "parent": model.parent,
         "stale": model.stale,
+        "not_fitted_to": came_after(store, model),
         "data_version": row["data_version"],
         "created_at": str(row["created_at"]),
         "campaigns": now,

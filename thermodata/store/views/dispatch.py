@@ -17,7 +17,8 @@ _SHOWN = 30
 
 
 def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> Iterator[str]:
-    """Scalar macros: `sql_text` quotes, `files_<group>` and `known_<campaign>` give arguments as SQL text."""
+    """Scalar macros: `sql_text` quotes, `files_<group>` and `known_<campaign>` give arguments as SQL text,
+    `named_<campaign>` the tests that one name, a list of them, or null means."""
     yield ("create macro sql_text(x) as coalesce('''' || replace(cast(x as varchar), '''', '''''') || '''', 'null')")
     for group in catalogue.groups:
         entries = ", ".join(
@@ -36,6 +37,13 @@ def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> I
             f"create macro {quoted('known_' + suffix)}(test) as case when list_contains("
             f"{file_list(names)}::varchar[], cast(test as varchar)) then sql_text(test) else {refusal} end"
         )
+        # a list reaches the text as its text
+        every = file_list(names)
+        yield (
+            f"create macro {quoted('named_' + suffix)}(test) as case when test is null then {every}::varchar[] "
+            f"when list_contains({every}::varchar[], cast(test as varchar)) then [cast(test as varchar)] "
+            "else cast(cast(test as varchar) as varchar[]) end"
+        )
 
 
 def files_call(group: Group) -> str:
@@ -48,18 +56,33 @@ def from_files(files: str, own: str) -> str:
     return f"(select * from read_parquet({files}, hive_partitioning = false) where {own}) r"
 
 
+def of_each_test(catalogue: Catalogue, campaign: str, text: str) -> str:
+    """The text of a query over every test that the macro parameter `test` names. text: SQL over `test` that gives the
+    text of one."""
+    suffix = catalogue.campaigns[campaign]
+    each = f"list_transform({quoted('named_' + suffix)}(test), lambda test: {text})"
+    none = literal("no test is named: one, a list of them, or null for all")
+    return f"coalesce(nullif(array_to_string({each}, ' union all '), ''), error({none}))"
+
+
 def known_call(catalogue: Catalogue, campaign: str) -> str:
     """The text of the macro parameter `test` as a literal, or an error that names the campaign's tests."""
     return f"{quoted('known_' + catalogue.campaigns[campaign])}(test)"
 
 
 def dispatcher(
-    catalogue: Catalogue, name: str, parameters: Mapping[str, str | None], texts: Mapping[str, str | None], empty: str
+    catalogue: Catalogue,
+    name: str,
+    parameters: Mapping[str, str | None],
+    texts: Mapping[str, str | None],
+    empty: str,
+    several: Mapping[str, str] | None = None,
 ) -> Iterator[str]:
     """The table macro `name(campaign, parameters...)`: it runs the text that the campaign's expression gives.
 
     parameters: name -> default, or None. texts: campaign -> SQL over the parameters that gives the text of a
-    query, or None for the `empty` query. Two steps, so that only one campaign's maps are ever expanded.
+    query, or None for the `empty` query. several: campaign -> the same where `test` is a list or null. Two steps, so
+    that only one campaign's maps are ever expanded, and once.
     """
     inner = ", ".join(parameters)
     outer = ", ".join(p if default is None else f"{p} := {default}" for p, default in parameters.items())
@@ -68,7 +91,12 @@ def dispatcher(
     for campaign, text in texts.items():
         own = quoted(f"{name}_in_{catalogue.campaigns[campaign]}")
         yield f"create macro {own}({inner}) as table select * from query({text or literal(empty)})"
-        cases.append(f"when {literal(campaign)} then {literal(f'select * from {own}(')} || {passed} || ')'")
+        called = literal(own)
+        if several is not None and campaign in several:
+            of_each = quoted(f"{name}_each_{catalogue.campaigns[campaign]}")
+            yield f"create macro {of_each}({inner}) as table select * from query({several[campaign]})"
+            called = f"case when cast(test as varchar) not like '[%]' then {called} else {literal(of_each)} end"
+        cases.append(f"when {literal(campaign)} then 'select * from ' || {called} || '(' || {passed} || ')'")
     choice = (
         f"case cast(campaign as varchar) {' '.join(cases)} else {refuse('no campaign ', 'campaign', '', texts)} end"
         if cases

@@ -1,4 +1,4 @@
-"""`aligned` and `binned`: all sources of a test on one grid.
+"""`aligned` and `binned`: all sources of a test, of several, or of a campaign on one grid.
 
 The grid is taken from the sources' own extent: point k stands at k * step from the test's start.
 
@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 from thermodata.schema.flag import INVALID
 from thermodata.store.base.connection import literal, quoted
 from thermodata.store.views.catalogue import Catalogue, Column, Group
-from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call
+from thermodata.store.views.dispatch import dispatcher, files_call, from_files, known_call, of_each_test
 
 INTERPOLATED_PERIODS = 3.5
 AGED_PERIODS = 3.5
@@ -40,6 +40,7 @@ def grid_macros(catalogue: Catalogue) -> Iterator[str]:
     yield STEP
     for kind, body in (("binned", _binned), ("aligned", _aligned)):
         texts: dict[str, str | None] = {}
+        several: dict[str, str] = {}
         for campaign, suffix in catalogue.campaigns.items():
             groups = [g for g in catalogue.of(campaign) if g.columns]
             texts[campaign] = None
@@ -56,7 +57,8 @@ def grid_macros(catalogue: Catalogue) -> Iterator[str]:
                 f"{literal(f'select * from {name}(')} || {known_call(catalogue, campaign)} || ', ' || "
                 f"cast(step_seconds(step) as varchar) || '::double, ' || {arguments} || ')'"
             )
-        yield from dispatcher(catalogue, kind, {"test": None, "step": "'30 s'"}, texts, _EMPTY)
+            several[campaign] = of_each_test(catalogue, campaign, str(texts[campaign]))
+        yield from dispatcher(catalogue, kind, {"test": None, "step": "'30 s'"}, texts, _EMPTY, several)
 
 
 def _source(i: int) -> str:

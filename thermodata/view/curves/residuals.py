@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.errors import unknown_name
+from thermodata.errors import unknown_channel
 from thermodata.plugin import Float1D
 from thermodata.store.base.connection import quoted
 from thermodata.view.curves.predictions import Prediction, predictions
@@ -76,7 +76,7 @@ def against(store: Store, parts: Sequence[Prediction], channel: str, bins: int =
             residual.append(p.residual[counts])
         if not value:
             known = con.execute("select distinct channel from channel order by 1").fetchall()
-            raise unknown_name("channel", channel, [name for (name,) in known])
+            raise unknown_channel(channel, [name for (name,) in known])
     x, y = np.concatenate(value), np.concatenate(residual)
     order = np.argsort(x, kind="stable")
     parts_of = np.array_split(order, min(bins, len(order)))

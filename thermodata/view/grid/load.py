@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.units.quantity import MEASURED
 from thermodata.view.grid.bins import Binned, Series, bin_tests
@@ -101,7 +101,7 @@ def _check_channels(channels: Collection[str] | None, infos: Mapping[tuple[str, 
     known = {name for table in infos.values() for name in table}
     for name in channels or ():
         if name not in known:
-            raise unknown_name("channel", name, sorted(known))
+            raise unknown_channel(name, sorted(known))
 
 
 def _version(versions: Iterable[tuple[str, str]]) -> str:

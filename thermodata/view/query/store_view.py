@@ -114,12 +114,13 @@ class StoreView:
         """One channel of one test: campaign, test, source, channel, t, t_s, value, flag."""
         return self._macro("signal", campaign, test, channel)
 
-    def binned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a bin: means of the valid samples, states held. step: '30 s', '1 min', or seconds (60, '60')."""
+    def binned(self, campaign: str, test: str | Sequence[str] | None = None, step: str | float = "30 s") -> Rows:
+        """One row a bin: means of the valid samples, states held. test: one, several, or None for all of the campaign.
+        step: '30 s', '1 min', or seconds (60, '60')."""
         return self._macro("binned", campaign, test, str(step))
 
-    def aligned(self, campaign: str, test: str, step: str | float = "30 s") -> Rows:
-        """One row a point: each channel's last sample and its flag. step: as of `binned`."""
+    def aligned(self, campaign: str, test: str | Sequence[str] | None = None, step: str | float = "30 s") -> Rows:
+        """One row a point: each channel's last sample and its flag. test, step: as of `binned`."""
         return self._macro("aligned", campaign, test, str(step))
 
     def residual(
@@ -173,8 +174,14 @@ class StoreView:
 
         return load_dataset(self.store, campaigns, step_s, channels)
 
-    def _macro(self, name: str, *arguments: str) -> Rows:
-        return self.sql(f"select * from {name}({', '.join(map(literal, arguments))})")
+    def _macro(self, name: str, *arguments: str | Sequence[str] | None) -> Rows:
+        return self.sql(f"select * from {name}({', '.join(map(_argument, arguments))})")
+
+
+def _argument(value: str | Sequence[str] | None) -> str:
+    if value is None or isinstance(value, str):
+        return "null" if value is None else literal(value)
+    return f"[{', '.join(map(literal, value))}]::varchar[]"
 
 
 def _where(campaign: str | None) -> str:

@@ -25,7 +25,8 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.looks import looks_of
-from thermodata.store.catalogue.models import find_model, load_diagnosis
+from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
+from thermodata.store.catalogue.stale import all_fitted_again
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.grid.load import data_version
 from thermodata.view.lists.models import ModelRow, model_rows
@@ -76,6 +77,7 @@ def show(request: Request) -> Response:
     shown = told(found) if found else []
     heat = found.unknown.heat if found and found.unknown else None
     drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
+    older = found is not None and is_of_other_data(found, stored.data_version, data_version(store, campaigns))
     together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
     nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
     claims = claims_of(found) if found else []
@@ -91,7 +93,8 @@ def show(request: Request) -> Response:
         error_of=worst_of(together, model.responses),
         headline=in_unit(_headline(found), unit) if found else "What does it miss?",
         about=_about(found, model, unit) if found else "",
-        older=found is not None and is_of_other_data(found, stored.data_version, data_version(store, campaigns)),
+        older=older,
+        answered=_answered_now(store, models, stored) if older else None,
         of_response=capital(of_response(found)) if found else "",
         told=shown,
         hides=in_unit(capital(could_hide(found)), unit) if found else "",
@@ -117,6 +120,16 @@ def show(request: Request) -> Response:
         add_command=lambda *some: command(desk.store_path, "add", model.model, *(c.id for c in some)),
         together=claims if len(claims) > 1 else [],
     )
+
+
+def _answered_now(store: Store, models: list[ModelRow], stored: StoredModel) -> ModelRow | None:
+    """The same model fitted to the data as they are now, where that was diagnosed."""
+    now = data_version(store, list(dict.fromkeys(stored.spec.campaign_ids)))
+    for identity in all_fitted_again(store, stored):
+        found = load_diagnosis(store, identity)
+        if found is not None and not is_of_other_data(found, find_model(store, identity).data_version, now):
+            return next(m for m in models if m.model == identity)
+    return None
 
 
 def _stumbles(candidate: Candidate, rung: Rung) -> str:

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from thermodata.store.base.files import key_of
 from thermodata.store.catalogue.models import GONE
+from thermodata.store.catalogue.renamed import CHANNELS, origins
 from thermodata.store.ingest.known.inventory import Row, comparable
 
 Rows = Mapping[str, Mapping[str, Sequence[Row]]]
@@ -19,13 +20,15 @@ _ELSE = "how it is read"
 # what a fit reads: words about a test or a channel don't make it stale
 _DESCRIBING = ("test", "machine", "channel")
 _WORDS = ("notes", "repeat_of", "added_at", "start", "sensor", "raw_unit")
-# in words -> the table, its columns, and of files the layer; None: all that a fit reads
+# in words -> the table, its columns, and of files the layer; None: all that a fit reads. A channel is the signal that
+# it comes from: its name differs by itself
 _NAMED = {
     "role": ("test", ("role",), None),
-    "calibration": ("channel", ("channel", "calibration"), None),
+    "calibration": ("channel", ("source", "signal", "calibration"), None),
     "data": ("file", ("key",), "raw"),
-    "units or signals": ("channel", ("channel", "signal", "quantity", "unit", "raw_unit"), None),
+    "units or signals": ("channel", ("source", "signal", "quantity", "unit", "raw_unit"), None),
 }
+_NAMES = "channel names"
 _DESCRIPTION = "description"  # said where none of these differs
 
 
@@ -66,14 +69,22 @@ def states(rows: Rows, calibrations: list[Row], tests: Collection[str]) -> dict[
             for word, (table, columns, layer) in _NAMED.items()
         }
         named["calibration"] += calibrated
-        return {VERSION: version_of(rows, test), **named, _DESCRIPTION: key_of(*_read_by_fits(rows, test))}
+        channels = origins(rows["channel"].get(test, []))
+        return {
+            VERSION: version_of(rows, test),
+            **named,
+            CHANNELS: channels,
+            _DESCRIPTION: key_of(*_read_by_fits(rows, test)),
+        }
 
     return {test: of(test) for test in tests}
 
 
 def what_differs(then: State, now: State | None) -> list[str]:
-    """In words: gone, role, calibration, data, units or signals, description, or else how it is read."""
+    """In words: gone, role, calibration, data, units or signals, channel names, description, or else how it is read."""
     if now is None:
         return [GONE]
     found = [word for word in _NAMED if then.get(word) != now.get(word)]
+    if CHANNELS in then and then[CHANNELS] != now.get(CHANNELS) and "units or signals" not in found:
+        found.append(_NAMES)
     return found or [_DESCRIPTION if then.get(_DESCRIPTION) != now.get(_DESCRIPTION) else _ELSE]

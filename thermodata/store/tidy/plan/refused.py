@@ -9,7 +9,7 @@ import numpy as np
 
 from thermodata.calibration.expression.parser import parse
 from thermodata.calibration.measuring import long_form
-from thermodata.errors import UsageError, unknown_name
+from thermodata.errors import UsageError, unknown_channel
 from thermodata.schema.files.campaign import Campaign, Channel, Test
 from thermodata.schema.units.quantity import canonical
 from thermodata.store.tidy.plan import derive
@@ -46,7 +46,7 @@ def _told(campaign: Campaign) -> Iterator[tuple[str, Mapping[str, Channel]]]:
 def _check_derive(campaign: Campaign, channels: Mapping[str, Channel], name: str, where: str) -> None:
     for used in _names_in(channels[name].derive or "", where):
         if used not in campaign.channels:
-            raise unknown_name("channel", used, list(campaign.channels), where=where)
+            raise unknown_channel(used, list(campaign.channels), where=where)
     circle = _circle(channels, (name,), where, set())
     if circle:
         raise UsageError(
@@ -94,7 +94,7 @@ def _check_rule(campaign: Campaign, channels: Mapping[str, Channel], test: Test,
 
 def _known(name: str, campaign: Campaign, where: str) -> None:
     if name not in campaign.channels:
-        raise unknown_name("channel", name, list(campaign.channels), where=where)
+        raise unknown_channel(name, list(campaign.channels), where=where)
 
 
 def _compares(text: str, channels: Mapping[str, Channel], where: str) -> None:
