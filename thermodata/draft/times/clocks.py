@@ -15,10 +15,10 @@ from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import named_zone, zone_in
 from thermodata.errors import ThermodataError
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
-from thermodata.reader.times.step_back import likely_cause, said
+from thermodata.reader.times.step_back import in_words, likely_cause, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
-from thermodata.store.tidy.times_of_day import NEAR_NS, began, first_of
+from thermodata.store.tidy.times_of_day import NEAR_NS, began, begun_together, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
@@ -116,11 +116,21 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
             if (asked := _by_its_clock(test, files, other)) is not None:
                 return asked
             here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
-            if here is not None and there is not None and abs(there - here) > NEAR_NS:
+            if there is None or here is None:
+                continue
+            open_period = any(a.begins_s is not None for f in files for a in f.asked)
+            begins = _counts_from(group)
+            late = max(map(abs, begins.values()), default=0) > NEAR_NS
+            if late or (abs(there - here) > NEAR_NS and not open_period):
+                own = (
+                    "" if open_period else f", and lasts {_hours(there)} h in {test} beside {_hours(here)} h of its own"
+                )
+                from_ = f"; its times begin at {in_words(begins[test])} in {test}" if late and test in begins else ""
+                also = " beside that clock" if late else ""
                 return (
-                    f"when did it begin? it has no dates; '{other.source}' has, and lasts {_hours(there)} h in {test} "
-                    f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "
-                    "clock: {offset: 0 s} if they begin together"
+                    f"when did it begin? it has no dates; '{other.source}' has{own}{from_}; "
+                    f"{begun_together(group.source, begins)} if they begin together, or give each test its "
+                    f"start{also}: 2026-03-04 08:15"
                 )
     return None
 
@@ -195,6 +205,14 @@ def mended_clocks(groups: Sequence[Group]) -> list[str]:
 
 def _undated(file: RawFile) -> bool:
     return file.recording.clock == "relative" and file.recording.start_ns is None
+
+
+def _counts_from(group: Group) -> dict[str, int]:
+    """Test -> the first time of its logs without dates [ns]; 0 where none tells it."""
+    return {
+        test: min((ns for f in files if (ns := f.counts_from_ns) is not None), default=0)
+        for test, files in group.tests.items()
+    }
 
 
 def _lasts_ns(files: Sequence[RawFile]) -> int | None:

@@ -21,7 +21,8 @@ from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.second_pass import choose_passes
 from thermodata.store.tidy.series import TestSeries
 from thermodata.store.tidy.set_late import tell_clocks_set_late
-from thermodata.store.tidy.source_clock import Clock, Span, bases, first_ns, is_relative
+from thermodata.store.tidy.source_clock import Clock, Span, first_ns, is_relative
+from thermodata.store.tidy.undated import bases, tell_apart
 
 if TYPE_CHECKING:
     from thermodata.calibration.clock.estimate import ClockEstimate
@@ -55,6 +56,7 @@ def clocks_of(
             continue
         key = _key(plan, source, there, clocks[there.name], declared, calibrations)
         clocks[name] = known.get(key) or _estimate(store, plan, source, there, clocks, calibrations, key)
+    tell_apart(plan, clocks)
     return clocks
 
 

@@ -11,7 +11,8 @@ from thermodata.store.raw.raw_stream import RawStream
 from thermodata.store.tidy.clock_offsets import clock_from_json
 from thermodata.store.tidy.plan import SourcePlan, TestPlan, bind
 from thermodata.store.tidy.series import Member, TestSeries
-from thermodata.store.tidy.source_clock import Clock, bases, span
+from thermodata.store.tidy.source_clock import Clock, span
+from thermodata.store.tidy.undated import bases
 
 if TYPE_CHECKING:
     import duckdb
