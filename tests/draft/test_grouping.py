@@ -101,6 +101,27 @@ def test_names_with_other_times_are_joined_by_time(tmp_path: Path) -> None:
     assert [t.conditions for t in made.tests] == [{"speed": "4000 rpm"}] * 3
 
 
+@pytest.mark.parametrize("backup", [False, True])
+def test_local_times_before_and_after_summer_time_began_join_the_same_recordings(tmp_path: Path, backup: bool) -> None:
+    """By folder, and by time where names tell nothing. Copies in a folder of their own are no tests of theirs, and no
+    template finds them."""
+    n = 300
+    for k in range(4):
+        (tmp_path / f"T{k}").mkdir()
+        log(tmp_path / f"T{k}" / f"T{k}.tdms", 24 + k)
+        at = START + timedelta(days=24 + k)
+        columns = [local(n, 10, at, "Europe/Berlin", "%d.%m.%Y %H:%M:%S"), numbers(speeds(n, [3000]), 0)]
+        text(tmp_path / f"T{k}" / f"NC_T{k}.csv", ["Zeit", "Drehzahl [1/min]"], columns)
+        if backup:
+            (tmp_path / "backup").mkdir(exist_ok=True)
+            (tmp_path / "backup" / f"T{k}.tdms").write_bytes((tmp_path / f"T{k}" / f"T{k}.tdms").read_bytes())
+    found, made = drafted(tmp_path)
+    assert [t.id for t in made.tests] == ["T0", "T1", "T2", "T3"]
+    assert len([x for x in found.not_used if "a copy of" in x[1]]) == 4 * backup
+    daq = made.sources["daq"].files
+    assert daq == "*/{test}.tdms" if not backup else daq is None
+
+
 def test_a_jump_test_is_found_in_the_data_alone(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     for k in range(3):

@@ -31,7 +31,7 @@ def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ..
     """The logs, those that leave the order open with the one that is settled: declared, and told instead of asked."""
     if not any(_is_open(f) for f in logs):
         return tuple(logs)
-    groups = tests_of(sources_of(logs, []))
+    groups = tests_of(sources_of(logs, []), ())
     made: dict[int, RawFile] = {}
     for group in groups:
         files = [f for f in (*group.files, *group.calibrations) if _is_open(f)]
