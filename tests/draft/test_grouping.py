@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import timedelta
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from zoneinfo import ZoneInfo
 
 import numpy as np
 import pytest
@@ -120,6 +121,31 @@ def test_local_times_before_and_after_summer_time_began_join_the_same_recordings
     assert len([x for x in found.not_used if "a copy of" in x[1]]) == 4 * backup
     daq = made.sources["daq"].files
     assert daq == "*/{test}.tdms" if not backup else daq is None
+
+
+@pytest.mark.parametrize(
+    ("night", "parts"),
+    [
+        (datetime(2026, 10, 24, 23, 20, tzinfo=UTC), True),  # summer time ends within a part
+        (datetime(2026, 10, 24, 23, 0, tzinfo=UTC), True),  # and between two
+        (datetime(2026, 3, 28, 23, 0, tzinfo=UTC), True),  # it begins between two
+        (datetime(2026, 10, 17, 23, 0, tzinfo=UTC), True),
+        (datetime(2026, 10, 17, 23, 0, tzinfo=UTC), False),  # an hour of pause on another night
+    ],
+)
+def test_local_parts_of_a_night_in_which_the_clock_changes_are_one_test(
+    tmp_path: Path, night: datetime, parts: bool
+) -> None:
+    for k in range(2):
+        (tmp_path / f"N{k}").mkdir()
+        for part in range(6):
+            n, gap = 240, timedelta(hours=1 if part > 2 and not parts else 0)
+            rows = [night + gap + timedelta(days=k, minutes=40 * part, seconds=10 * i) for i in range(n)]
+            stamps = [f"{t.astimezone(ZoneInfo('Europe/Berlin')):%d.%m.%Y %H:%M:%S}" for t in rows]
+            columns = [stamps, numbers(warm(n, 20, 1, 1, part), 2)]
+            text(tmp_path / f"N{k}" / f"teil{part}.csv", ["Zeit", "T_Lager [degC]"], columns)
+    _, made = drafted(tmp_path)
+    assert len(made.tests) == (2 if parts else 12)
 
 
 def test_a_jump_test_is_found_in_the_data_alone(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.in_repeated_hour import on_one_clock
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
 from thermodata.schema.words.sentences import counted
 
@@ -93,7 +94,7 @@ def one_recording(group: Group, way: Naming) -> bool | None:
         if len(files) < 2:
             continue
         if all(f.start_ns is not None for f in files):
-            verdicts += _follow([(f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files])
+            verdicts += _follow(on_one_clock(files))
         elif (goes_on := _counts_on(files)) is not None:
             going_on.append(goes_on)
     if all(going_on):  # else each counts from its own start, and says nothing of the others
