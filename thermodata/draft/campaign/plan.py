@@ -33,6 +33,7 @@ from thermodata.draft.folder.table import TestTable, closed_workbooks, find_tabl
 from thermodata.draft.probes.jumps import JumpTest, jump_of
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
+from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import (
     Alignment,
     Named,
@@ -257,7 +258,7 @@ def _test(
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     window = next((f.block.window for f in files if f.block is not None), None)
     if window is not None and len(files) > 1:
-        doubts.append("window: it is counted in one log, and meant since the start of the first of several")
+        doubts.append(window_question(files))
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 

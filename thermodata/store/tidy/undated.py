@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from thermodata.reader.times.step_back import in_words
+from thermodata.reader.times.zone import utc_offset_ns
 from thermodata.store.tidy.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.source_clock import Clock, first_ns, is_relative, last_ns, start_ns
 from thermodata.store.tidy.times_of_day import NEAR_NS, began, begun_together, first_of
@@ -85,7 +86,7 @@ def _in_doubt(plan: TestPlan, dated: list[SourcePlan], undated: list[SourcePlan]
         return by_clock
     names = ", ".join(s.name for s in odd)
     probes = any(s in plan.reference for s in odd)
-    say = "give the test its start: 2026-03-04 08:15" if probes else "declare the source's clock: {align_to: ...}"
+    say = _start_of(plan, min(dated, key=first_ns)) if probes else "declare the source's clock: {align_to: ...}"
     late = [s for s in odd if abs(first_ns(s)) > NEAR_NS]
     taken = f"is taken to count from there, so that it begins {in_words(first_ns(late[0]))} later" if late else ""
     return [
@@ -96,6 +97,22 @@ def _in_doubt(plan: TestPlan, dated: list[SourcePlan], undated: list[SourcePlan]
         f"{_from_first(late) if probes else ''}, or, where they did begin together, "
         f"{begun_together(odd[0].name, {plan.test.id: first_ns((late or odd)[0])})}",
     ]
+
+
+def _start_of(plan: TestPlan, there: SourcePlan) -> str:
+    """What gives a test of probes without dates its start; with a window, which counts from there then, where that
+    begins on the clock of what has dates."""
+    if plan.test.window is None:
+        return "give the test its start: 2026-03-04 08:15"
+    a, b = plan.test.window
+    at_ns = first_ns(there) + round(a * 1e9)
+    zone = there.spec.timezone
+    local_ns = at_ns + (utc_offset_ns(zone, at_ns // 10**9) if zone is not None else 0)
+    moment = np.datetime64(local_ns // 10**9, "s")
+    return (
+        f"give the test its start: {str(moment).replace('T', ' ')} where its window begins in '{there.name}', and with "
+        f"it window: [0 s, {b - a:.15g} s], which counts from there then"
+    )
 
 
 def _is_late(source: SourcePlan, lasts_ns: int) -> bool:
