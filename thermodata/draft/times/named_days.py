@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
+from itertools import pairwise
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
@@ -52,6 +53,14 @@ def over_midnight(groups: Sequence[Group]) -> tuple[list[Group], list[str]]:
             later.setdefault(home, []).extend(paths)
     made = [g if all(home_of[t] == t for t in g.tests) else _joined(g, home_of) for g in groups]
     return made, [_note(home, paths) for home, paths in later.items()]
+
+
+def follow_by_names(files: Sequence[RawFile]) -> bool:
+    """Whether the days in the names of files and the times of day in them say when each began, and each as soon after
+    the one before as its time of day can: so an ingest joins them."""
+    spans = [_span_ns(f) for f in files if _began_ns(f) is not None]
+    known = [span for span in spans if span is not None]
+    return len(known) == len(files) and all(0 <= b[0] - a[1] < _DAY_NS for a, b in pairwise(known))
 
 
 def _joined(group: Group, home_of: Mapping[str, str]) -> Group:
