@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from thermodata.draft.files.on_one_clock import on_one_clock
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.times.in_repeated_hour import on_one_clock
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
 from thermodata.schema.words.sentences import counted
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from thermodata.draft.files.blocks import is_called_test, is_test_number
+from thermodata.draft.files.day_in_name import follow_by_names
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.times.named_days import follow_by_names
 from thermodata.draft.words.filenames import without_part
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.reader.files.rotated import age, unrotated
