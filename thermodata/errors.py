@@ -84,7 +84,8 @@ class QuestionError(FormatError):
 
     ask: the question, in one line. declare: the part of `sources.*.table` that answers it, with 'unknown' where the
     answer goes; meanwhile: the same with an answer by which the file can be looked at, and never stored; times: the
-    columns that are the time once it is answered, and signals until then.
+    columns that are the time once it is answered, and signals until then; begins_s: where the times of the column begin
+    that the question proposes.
     """
 
     def __init__(
@@ -95,10 +96,12 @@ class QuestionError(FormatError):
         declare: Mapping[str, Any],
         meanwhile: Mapping[str, Any],
         times: Sequence[str] = (),
+        begins_s: float | None = None,
         **more: Any,
     ):
         super().__init__(what, **more)
         self.ask, self.declare, self.meanwhile, self.times = ask, declare, meanwhile, tuple(times)
+        self.begins_s = begins_s
 
 
 class CalibrationError(UsageError):

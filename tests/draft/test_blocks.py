@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -161,3 +162,33 @@ def test_a_file_for_which_no_time_is_left_is_asked(tmp_path: Path, say: Say, mon
     table(tmp_path / "all.csv", "test", ("A", "B"))
     assert [t.window for t in drafted(tmp_path, say).tests] == [None]
     assert "may name tests" in (tmp_path / "campaign.yaml").read_text(encoding="utf-8")
+
+
+def test_the_start_of_probes_beside_rows_of_a_log_is_said_with_the_window_that_counts_from_it(
+    tmp_path: Path, say: Say
+) -> None:
+    """The window counts from the start of the probes once they have one: given alone, it would cut them off."""
+    table(tmp_path / "registro.csv", "test", ("A", "B", "C"))
+    for test in "ABC":
+        rows = "\n".join(f"{60 * i},{i / 7:.3f}" for i in range(ROWS))
+        (tmp_path / f"{test}.csv").write_text(f"t [s],Z [um]\n{rows}\n")
+    drafted(tmp_path, say)
+    path = tmp_path / "campaign.yaml"
+    (asked,) = [x for x in path.read_text().splitlines() if "id: B" in x]
+    assert "start: 2026-03-03 08:00:00 in the test, and window: [0 s, 3600 s] in its place" in asked
+    as_drafted = say("--store", tmp_path / "t", "ingest", path)
+    assert "', and with it window: [0 s, 3600 s]" in as_drafted.out
+    text = path.read_text()
+    for k, test in enumerate("ABC"):
+        text = text.replace(f"id: {test}, ", f'id: {test}, start: "2026-03-0{2 + k} 08:00:00", ')
+    path.write_text(re.sub(r"window: \[\d+ s, \d+ s\]", "window: [0 s, 3600 s]", text))
+    assert [row["n"] for row in counted(tmp_path, say)] == [ROWS, ROWS, ROWS]
+
+
+def test_beside_a_log_with_dates_only_the_window_is_asked(tmp_path: Path, say: Say) -> None:
+    table(tmp_path / "registro.csv", "test", ("A", "B", "C"))
+    for k, test in enumerate("ABC"):
+        rows = "\n".join(f"{BEGAN + timedelta(days=k, minutes=i)},{i / 7:.3f}" for i in range(ROWS))
+        (tmp_path / f"{test}.csv").write_text(f"time,Z [um]\n{rows}\n")
+    drafted(tmp_path, say)
+    assert "start:" not in (tmp_path / "campaign.yaml").read_text().partition("tests:")[2]

@@ -45,7 +45,8 @@ def test_files_that_can_only_be_one_and_only_the_other_leave_the_rest_open(tmp_p
     log(tmp_path / "c.csv", datetime(2025, 11, 19, 8), ORDERS["mdy"])
     (source,) = drafted(tmp_path).values()
     assert source.table == {"time": {"format": "unknown"}}
-    assert any("dmy or mdy" in q for q in source.questions)
+    (asked,) = [q for q in source.questions if "dmy or mdy" in q]
+    assert asked.endswith("b.csv only dmy, c.csv only mdy: its files are of two sources, each with its format")
 
 
 def test_where_nothing_tells_it_is_asked(tmp_path: Path) -> None:

@@ -33,12 +33,22 @@ LOG = "time [s];T_front [degC]\n" + "".join(f"{i};{20 + i / 10:.1f}\n" for i in 
         ("run1.csv", "backup/run1.csv", True),
         ("run1.csv", "run1.csv.bak", True),
         ("run1.csv", "day2/run1.csv", False),
+        ("T1/T1.tdms", "backup/T1.tdms", True),
+        ("a1/log.csv", "old/a1/log.csv", True),
+        ("data/a1/log.csv", "Sicherung 2026-05-01/a1/log.csv", True),
+        ("a1/log.csv", "a1 - Copy/log.csv", True),
+        ("a1/log.csv", "Kopie von a1/log.csv", True),
+        ("a1/log.csv", "a1 (2)/log.csv", True),
+        ("a1/hall.csv", "a2/hall.csv", False),
+        ("a1/hall.csv", "a1 warm/hall.csv", False),
+        ("a1/hall.csv", "a12/hall.csv", False),
+        ("old/a1/hall.csv", "old/a2/hall.csv", False),
     ],
 )
 def test_a_copy_is_told_by_its_name_and_its_bytes(tmp_path: Path, original: str, copy: str, is_one: bool) -> None:
     paths = [PurePosixPath(p) for p in (copy, original)]
     for path in paths:
-        (tmp_path / path).parent.mkdir(exist_ok=True)
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(LOG)
     assert copies_in(tmp_path, paths) == ({paths[0]: paths[1]} if is_one else {})
     (tmp_path / copy).write_text(LOG.replace("20.0", "20.1"))

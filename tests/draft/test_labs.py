@@ -87,9 +87,9 @@ def test_clocks_are_aligned_by_what_both_logged(tmp_path: Path) -> None:
     _, made = drafted("recorder", tmp_path)
     found = next(s.align for s in made.sources if s.align)
     assert found is not None
-    assert found.offset_s == pytest.approx(40, abs=5)
+    assert found.offset_s == pytest.approx(-40, abs=5)
     loaded = load_campaign(tmp_path / "campaign.yaml")
-    assert loaded.sources["rec"].clock.align_to == "daq"
+    assert loaded.sources["daq"].clock.align_to == "rec"  # which has UTC
 
 
 def test_parts_of_one_test_become_one(tmp_path: Path) -> None:

@@ -127,3 +127,19 @@ def test_two_recordings_one_after_the_other_are_two_tests(tmp_path: Path, say: S
     neu = {"neu_20260408.csv": (8, 4.0, 24.0), "neu_20260409.csv": (9, 0.0, 4.0)}
     tests, _ = _daily(tmp_path, say, {**alt, **neu})
     assert sorted(sorted(t) for t in tests) == [sorted(alt), sorted(neu)]
+
+
+@pytest.mark.parametrize(("second_day", "tests"), [("13", 2), ("15", 3)])
+def test_parts_that_a_folder_joins_are_not_asked_for_a_pause_that_their_names_tell(
+    tmp_path: Path, say: Say, second_day: str, tests: int
+) -> None:
+    """As an ingest joins them: at the next of their times of day. Days more between them, and they are no one test."""
+    for k in range(2):
+        (tmp_path / f"a{k}").mkdir()
+        days = ("12", second_day) if k == 0 else ("20", "21")
+        for day, first in zip(days, (22, 0), strict=True):
+            rows = [f"{first + i // 60:02d}:{i % 60:02d}:00;{20 + k + i / 99:.2f}" for i in range(120)]
+            (tmp_path / f"a{k}" / f"log_202605{day}.csv").write_text("\n".join(["Uhrzeit;T_Lager [degC]", *rows, ""]))
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert (text.count("  - {id:"), "nothing dates them" in text) == (tests, False)

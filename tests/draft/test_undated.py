@@ -14,11 +14,12 @@ from thermodata.plugin import Block, Head, Loss, Recording, Signal, Source
 from thermodata.reader.text.preamble.begin import EITHER
 
 
-def asked(folder: Path, earlier_s: int, *, dated: bool = True) -> list[str]:
-    """What a draft asks of 2 h of probes without dates, beside a log that began so much earlier and ended with them."""
+def asked(folder: Path, earlier_s: int, *, dated: bool = True, time: str = "t [s]", first: int = 0) -> list[str]:
+    """What a draft asks of 2 h of probes without dates, whose times begin at `first`, beside a log that began so much
+    earlier and ended with them."""
     (folder / "raw").mkdir(parents=True)
     t = np.arange(0, 7200, 10)
-    rows = "\n".join(["t [s],Disp Z [um]", *(f"{x},{np.sin(x / 999):.3f}" for x in t), ""])
+    rows = "\n".join([f"{time},Disp Z [um]", *(f"{first + x},{np.sin(x / 999):.3f}" for x in t), ""])
     (folder / "raw" / "daq_one.csv").write_text(rows)
     at = np.datetime64("2026-06-01T13:00:00") + (np.arange(-earlier_s, 7200, 10)).astype("timedelta64[s]")
     air = "\n".join(["time,Hall air [degC]", *(f"{x}Z,{20 + i / 400:.2f}" for i, x in enumerate(at)), ""])
@@ -35,6 +36,15 @@ def test_when_a_log_without_dates_began_is_asked_where_it_is_not_as_long_as_the_
     found = asked(tmp_path, earlier_s)
     assert len(found) == questions
     assert all("clock: {offset: 0 s} if they begin together" in q for q in found)
+
+
+@pytest.mark.parametrize("time", ["t [s]", "uptime_s"])
+def test_a_log_that_counts_from_elsewhere_began_with_the_others_by_an_offset(tmp_path: Path, time: str) -> None:
+    """As a logger counts from when it was switched on: without it, its times lie that much late."""
+    (found,) = asked(tmp_path, 0, time=time, first=7200)
+    assert "its times begin at 2 h in one" in found
+    assert "clock: {offset: -7200 s} if they begin together" in found
+    assert "beside" not in found.partition("; clock")[0]  # no length of a period that nobody has said
 
 
 def test_of_a_log_beside_none_with_dates_nothing_is_asked(tmp_path: Path) -> None:

@@ -56,3 +56,34 @@ def test_one_that_is_set_back_where_summer_time_ends_still_has_its_zones(tmp_pat
 @pytest.mark.parametrize("hours", [-9, 13])
 def test_hours_of_rare_zones_may_be_of_a_clock(tmp_path: Path, hours: int) -> None:
     assert "of what zone, or is the clock wrong by whole hours?" in asked(tmp_path, hours)
+
+
+@pytest.mark.parametrize(
+    ("declared", "kept"),
+    [("Europe/Helsinki", True), ("Europe/Berlin", False), ("nowhere", False), ("", False)],
+)
+def test_a_draft_made_anew_keeps_the_zone_that_was_declared_and_fits(tmp_path: Path, declared: str, kept: bool) -> None:
+    asked(tmp_path, 2)
+    path = tmp_path / "campaign.yaml"
+    path.write_text(path.read_text().replace("reader: cnc", f"reader: cnc, timezone: {declared}" if declared else ""))
+    draft = draft_files(tmp_path, force=True).draft
+    assert [s.timezone for s in draft.sources if s.timezone] == (["Europe/Helsinki"] if kept else [])
+    assert any(q.startswith("timezone?") for s in draft.sources for q in s.questions) is not kept
+    assert ("timezone: Europe/Helsinki}" in path.read_text()) is kept
+
+
+@pytest.mark.parametrize(("hours", "local"), [(0, False), (2, True)])
+def test_local_times_are_aligned_to_what_has_utc_whichever_has_the_probes(
+    tmp_path: Path, hours: int, local: bool
+) -> None:
+    rows = [BEGAN + timedelta(seconds=20 * k) for k in range(400)]
+    speeds = [3000 * (k // 60 % 2) + k // 90 * 500 for k in range(400)]
+    ends = "" if local else "Z"
+    probe = [
+        f"{t + timedelta(hours=hours):%Y-%m-%d %H:%M:%S}{ends},{s},{s / 9}" for t, s in zip(rows, speeds, strict=True)
+    ]
+    other = [f"{t:%Y-%m-%d %H:%M:%S}Z,{s},{20 + s / 900}" for t, s in zip(rows, speeds, strict=True)]
+    (tmp_path / "a_probe.csv").write_text("\n".join(["time,speed [rpm],disp_z [um]", *probe, ""]))
+    (tmp_path / "a_ctrl.csv").write_text("\n".join(["time,n [rpm],T_front [degC]", *other, ""]))
+    (aligned,) = [str(s.files) for s in draft_files(tmp_path).draft.sources if s.align]
+    assert aligned == ("a_probe.csv" if local else "a_ctrl.csv").replace("a_", "{test}_")

@@ -37,6 +37,14 @@ def test_a_clock_that_is_off_in_one_test_is_told() -> None:
     assert "source 'daq' begins and ends 50 min later beside 'nc'" in str(odd_clocks(days(-50 * MINUTE))[0])
 
 
+def test_a_log_that_runs_through_all_tests_tells_no_clock() -> None:
+    tests = {f"d{day}": [row("daq", 1.76e9 + day * DAY, 18000.0), row("hall", 1.76e9, 60 * DAY)] for day in range(4)}
+    late = {
+        f"e{day}": [row("daq", 1.76e9 + (50 + day) * DAY, 18000.0), row("hall", 1.76e9, 60 * DAY)] for day in (0, 1)
+    }
+    assert odd_clocks({**tests, **late}) == []
+
+
 def test_what_a_declared_clock_did_is_not_advised_to_be_undone() -> None:
     """The samples of a log came late within it: its ends agree as logged, and no longer with the clock declared."""
     [told] = odd_clocks(days(-30 * MINUTE))

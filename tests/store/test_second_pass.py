@@ -103,6 +103,31 @@ def test_a_file_that_goes_on_tells_it(tmp_path: Path, hour: int) -> None:
     assert first_of(tmp_path, "T_m") == (datetime(2026, 10, 25, 1, 5) if hour else datetime(2026, 10, 24, 23, 0))
 
 
+@pytest.mark.parametrize("resets", [False, True])
+def test_the_order_of_the_parts_tells_the_pass_of_each(tmp_path: Path, resets: bool) -> None:
+    """Parts of 40 min: one is of the first pass, one turns within, and one is of the second."""
+    for part in range(6):
+        rows = [datetime(2026, 10, 24, 23, 20) + timedelta(minutes=40 * part + i) for i in range(40)]
+        local = [t + timedelta(hours=2 if t < datetime(2026, 10, 25, 1) else 1) for t in rows]
+        lines = [f"{t:%Y-%m-%d %H:%M:%S};{20 + part + i / 100}" for i, t in enumerate(local)]
+        (tmp_path / f"nc_a{part + 7}.csv").write_text("\n".join(["time;T_m", *lines, ""]))
+    summary = made(tmp_path, more=", clock: {resets: allow}" if resets else "")
+    assert not summary.losses
+    with Store(tmp_path / "s.store").reader() as con:
+        found = con.execute("select value, t_s from sample where channel = 'T_m' order by t_s").fetchall()
+    assert [round(t) for _, t in found] == [60 * i for i in range(240)]
+    assert [v for v, _ in found] == sorted(v for v, _ in found)
+
+
+def test_two_parts_of_nothing_but_that_hour_turn_between_them(tmp_path: Path) -> None:
+    written(tmp_path / "nc_a1.csv", datetime(2026, 10, 25, 2, 10), 50, "T_m")
+    written(tmp_path / "nc_a2.csv", datetime(2026, 10, 25, 2, 0), 30, "T_m")
+    summary = made(tmp_path)
+    assert not summary.losses
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, 0, 10)
+    assert any("second pass, 2026-10-25T02:00:00+01:00" in n for n in summary.notes)
+
+
 def test_a_source_whose_clock_is_declared_asks_nothing(tmp_path: Path) -> None:
     written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
     assert not made(tmp_path, more=", clock: {offset: 1 h}").losses

@@ -66,3 +66,10 @@ def test_a_footer_below_a_sheet_and_the_empty_row_above_it_are_no_losses(
     data = load(Reader(), path, Source(timezone="UTC", table={"time": {"unit": "excel"}}))
     assert data.t_ns["table"].size == 40
     assert [loss.reason for loss in data.losses] == ["1 row without a time"]
+
+
+def test_a_line_that_says_what_happened_is_no_loss_and_told(tmp_path: Path) -> None:
+    data = read(tmp_path, f"{ROWS}20.0;EVENT: spindle on M3\n20.0;25.0;3000\n")
+    assert not data.losses
+    assert any("not read: 'EVENT: spindle on M3'" in note for note in data.recording.notes)
+    assert read(tmp_path, f"{ROWS}20.0;Overflow\n20.0;25.0;3000\n").losses

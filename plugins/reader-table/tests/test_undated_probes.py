@@ -29,14 +29,21 @@ BEGAN = np.datetime64("2026-06-01T13:00:00")  # 08:00 in Chicago
 
 
 def ingested(
-    folder: Path, start: str, hall_from_s: float, hours: float = 2.2, sources: tuple[str, str] = (DAQ, HALL)
+    folder: Path,
+    start: str,
+    hall_from_s: float,
+    hours: float = 2.2,
+    sources: tuple[str, str] = (DAQ, HALL),
+    counts_from_s: int = 0,
 ) -> tuple[float, np.ndarray, list[str]]:
     """(start of the test [s after BEGAN], the hall's air at t_s = 0, what was lost) of 2 h of probes. The hall is
     warmer by 1 K an hour, from 20 degC when they began."""
     (folder / "raw").mkdir(parents=True)
     (folder / "campaign.yaml").write_text(CAMPAIGN % (*sources, f", start: {start}" if start else ""))
     t = np.arange(0, 7200, 10)
-    (folder / "raw" / "one.csv").write_text("\n".join(["t [s],dZ [um]", *(f"{x},{x % 70 / 70}" for x in t), ""]))
+    (folder / "raw" / "one.csv").write_text(
+        "\n".join(["t [s],dZ [um]", *(f"{x + counts_from_s},{x % 70 / 70}" for x in t), ""])
+    )
     air = np.arange(hall_from_s, hall_from_s + 3600 * hours, 60)
     rows = [f"{BEGAN + np.timedelta64(round(x), 's')}Z,{20 + x / 3600:.3f}" for x in air]
     (folder / "raw" / "hall.csv").write_text("\n".join(["time,T", *rows, ""]))
@@ -84,3 +91,30 @@ def test_that_they_began_together_can_be_said(tmp_path: Path) -> None:
     together = DAQ.replace("Chicago}", "Chicago, clock: {offset: 0 s}}")
     began, _, losses = ingested(tmp_path, "", -15.0, 2.5, (together, HALL))
     assert (began, losses) == (-15.0, [])
+
+
+@pytest.mark.parametrize("counts_from_s", [600, 7200, 4_294_000])
+def test_probes_that_count_from_elsewhere_are_not_taken_to_begin_so_much_later(
+    tmp_path: Path, counts_from_s: int
+) -> None:
+    """As long as the hall's log, and placed behind its beginning, or wholly behind its end."""
+    *_, losses = ingested(tmp_path, "", 0.0, 2.0, counts_from_s=counts_from_s)
+    (loss,) = (x for x in losses if "nothing says when 'daq' began" in x)
+    assert f"clock: {{offset: -{counts_from_s} s}}" in loss
+    together = DAQ.replace("Chicago}", f"Chicago, clock: {{offset: -{counts_from_s} s}}}}")
+    began, _, losses = ingested(tmp_path / "told", "", 0.0, 2.0, (together, HALL), counts_from_s)
+    assert (began, losses) == (0.0, [])
+
+
+def test_a_declared_offset_by_which_nothing_ran_beside_the_probes_is_said(tmp_path: Path) -> None:
+    together = DAQ.replace("Chicago}", "Chicago, clock: {offset: 0 s}}")
+    *_, losses = ingested(tmp_path, "", 0.0, 2.0, (together, HALL), 9000)
+    (loss,) = (x for x in losses if "'daq' runs 31 min" in x and "later than all that has dates" in x)
+    assert "clock: {offset: -9000 s} where they begin together" in loss
+
+
+def test_a_first_row_behind_the_beginning_is_no_other_beginning(tmp_path: Path) -> None:
+    """Of a log that ends with the others: its first mean is over the first ten minutes."""
+    assert ingested(tmp_path, "", 0.0, 2.0 + 590 / 3600, counts_from_s=0)[2]
+    began, _, losses = ingested(tmp_path / "short", "", 0.0, 2.0, counts_from_s=60)
+    assert (began, losses) == (60.0, [])

@@ -167,3 +167,13 @@ def test_a_pause_over_midnight_does_not() -> None:
     cells = [f"11/03/2026 08:00:{s}" for s in (30, 40, 50)] + [f"12/03/2026 08:00:{s}" for s in ("00", "10", "20")]
     with pytest.raises(QuestionError):
         find_format(cells, "a file")
+
+
+@pytest.mark.parametrize(("declared", "other", "day"), [("mdy", "dmy", "13/04/2026"), ("dmy", "mdy", "04/13/2026")])
+def test_dates_of_the_other_order_than_the_declared_one_are_said_to_be(declared: str, other: str, day: str) -> None:
+    """Of a computer that writes them the other way round than those of other files."""
+    cells = [f"{day} 08:{m:02d}:00" for m in range(30)]
+    with pytest.raises(FormatError, match=f"declared as {declared} can only be {other}") as error:
+        find_format(cells, "a1.csv", "time", order=declared)
+    assert "a source of its own" in str(error.value.hint)
+    assert f"format: {other}" in str(error.value.hint)

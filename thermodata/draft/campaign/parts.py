@@ -16,7 +16,7 @@ from thermodata.draft.times.clocks import Alignment
 class DraftSource:
     """sources.<name>. files: a glob with {test}, a shared one, or None where each test names its files; table: what has
     to be declared of its layout, with 'unknown' where a question asks for it; encoding: of its texts, where it has
-    to be seen; told: of what of that by which it is known."""
+    to be seen; timezone: where the file before declared it; told: of what of that by which it is known."""
 
     name: str
     reader: str
@@ -26,6 +26,7 @@ class DraftSource:
     align: Alignment | None = None
     encoding: str | None = None
     told: tuple[str, ...] = ()
+    timezone: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

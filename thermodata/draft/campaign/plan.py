@@ -34,6 +34,7 @@ from thermodata.draft.folder.table import TestTable, closed_workbooks, find_tabl
 from thermodata.draft.probes.jumps import JumpTest, jump_of
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
+from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import (
     Alignment,
     Named,
@@ -42,29 +43,31 @@ from thermodata.draft.times.clocks import (
     repeats_question,
     set_back_question,
     start_question,
-    zone_question,
 )
 from thermodata.draft.times.date_order import with_orders_told
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.named_days import over_midnight
+from thermodata.draft.times.zones import zone_as_before, zone_question
 from thermodata.draft.words.roles import said_by_list
 from thermodata.schema.words.sentences import counted
 
 
-def plan(campaign: str, folder: Path, found: Scan) -> Draft:
-    """What the folder holds, as a campaign."""
+def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> Draft:
+    """What the folder holds, as a campaign. zone: of local times, as the campaign file before declared it."""
     found, beside = _table_apart(folder, found)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     found, legends = with_legends(folder, found)
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
-    groups, joined = over_midnight(tests_of(sources_of(found.logs, [j.file for j in jumps])))
+    groups, joined = over_midnight(
+        tests_of(sources_of(found.logs, [j.file for j in jumps]), [p for p, _ in found.ignored])
+    )
     of_probes = with_their_probes(jumps, groups)
     ids = list(dict.fromkeys(t for g in groups for t in g.tests))
     table = find_table(folder, found.others, ids)
     of_groups = _channels(groups, of_probes)
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
-    sources = asked_once(_sources(groups, keyed, table, found), groups)
+    sources = asked_once(_sources(groups, keyed, table, found, zone), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
@@ -144,19 +147,25 @@ def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest
 
 
 def _sources(
-    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan
+    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan, zone: str | None
 ) -> tuple[DraftSource, ...]:
     aligned = {a.source: a for a in alignments(groups, keyed)}
+    zones = {g.source: zone_as_before(g, groups, zone) for g in groups}
+
+    def told(group: Group) -> tuple[str, ...]:
+        return (*group.told, *(["timezone as in the campaign file before"] if zones[group.source] else []))
+
     return tuple(
         DraftSource(
             g.source,
             g.reader,
             g.template,
-            tuple(filter(None, _questions(g, groups, aligned, table, found))),
+            tuple(filter(None, _questions(g, groups, aligned, table, found, known=zones[g.source] is not None))),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
-            g.told,
+            told(g),
+            zones[g.source],
         )
         for g in groups
     )
@@ -200,7 +209,7 @@ def _claimed_table(folder: Path, found: Scan) -> str | None:
     called = [p for p in small if is_called_table(p)]
     jumps = [j.file for f in found.logs if (j := jump_of(f)) is not None and j.named]
     logs = [f for f in found.logs if str(f.path) not in called]
-    holding = [(t, fs) for g in tests_of(sources_of(logs, jumps)) for t, fs in g.tests.items()]
+    holding = [(t, fs) for g in tests_of(sources_of(logs, jumps), ()) for t, fs in g.tests.items()]
     for candidates, by_number in ((called, True), ([p for p in small if p not in called], False)):
         for candidate in candidates[:20]:
             ids = list(dict.fromkeys(t for t, fs in holding if any(str(f.path) != candidate for f in fs)))
@@ -257,7 +266,7 @@ def _test(
     own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
     window = next((f.block.window for f in files if f.block is not None), None)
     if window is not None and len(files) > 1:
-        doubts.append("window: it is counted in one log, and meant since the start of the first of several")
+        doubts.append(window_question(files))
     return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
 
 
@@ -275,10 +284,17 @@ def with_note(kind: Kind, conditions: dict[str, str], note: Note) -> tuple[Kind,
 
 
 def _questions(
-    group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment], table: TestTable | None, found: Scan
+    group: Group,
+    groups: Sequence[Group],
+    aligned: Mapping[str, Alignment],
+    table: TestTable | None,
+    found: Scan,
+    *,
+    known: bool,
 ) -> Iterator[str | None]:
-    """What is asked of a source."""
+    """What is asked of a source. known: whether its zone is."""
     yield from (hinted(a, group, groups) for a in group.asks)
+    yield from [] if known else [zone_question(group, groups)]
     yield from _of_clocks(group, groups, aligned)
     yield from group.questions
     yield from one_or_many(group, groups, table.rows if table else ())
@@ -286,11 +302,10 @@ def _questions(
 
 
 def _of_clocks(group: Group, groups: Sequence[Group], aligned: Mapping[str, Alignment]) -> tuple[str | None, ...]:
-    """Questions about a source's zone, when it began, unless its clock is had from another's, times that repeat
+    """Questions about when a source began, unless its clock is had from another's, times that repeat
     and a clock that was set."""
     known = group.source in aligned or any(a.there == group.source for a in aligned.values())
     return (
-        zone_question(group, groups),
         None if known else start_question(group, groups),
         repeats_question(group),
         set_back_question(group),

@@ -34,12 +34,14 @@ _START: Mapping[str, Any] = {"time": {"start": UNKNOWN}}
 @dataclass(frozen=True, slots=True)
 class Asked:
     """A question that a file leaves. declare: as in `sources.*.table`, 'unknown' where the answer goes; times: columns
-    that are the time once it is answered; told: whether it is answered already, and `ask` says by what."""
+    that are the time once it is answered; told: whether it is answered already, and `ask` says by what; begins_s: where
+    the times of the column begin that it proposes."""
 
     ask: str
     declare: Mapping[str, Any]
     times: tuple[str, ...] = ()
     told: bool = False
+    begins_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +96,14 @@ class RawFile:
         if self.recording.clock != "absolute":
             return None
         return self.sample.first_ns if self.sample.first_ns is not None else self.recording.start_ns
+
+    @property
+    def counts_from_ns(self) -> int | None:
+        """The first time of a file without dates, by the column that a question proposes where one does."""
+        if self.recording.clock != "relative" or self.recording.start_ns is not None or self.block is not None:
+            return None
+        asked = next((a.begins_s for a in self.asked if a.begins_s is not None), None)
+        return self.sample.first_ns if asked is None else round(asked * 1e9)
 
     @property
     def local(self) -> bool:
@@ -171,7 +181,7 @@ def _asking(who: Reader, full: Path, file: RawFile) -> RawFile:
         except QuestionError as question:
             if len(asked) == _MOST_QUESTIONS:
                 raise
-            asked.append(Asked(question.ask, question.declare, question.times))
+            asked.append(Asked(question.ask, question.declare, question.times, begins_s=question.begins_s))
             table = merged(table, question.meanwhile)
     if not any("time" in a.declare for a in asked):  # what a reader takes by custom, MATLAB's seconds, is asked here
         asked += [Asked("unit of the time: s, min or h?", _UNIT) for n in recording.notes if "taken as seconds;" in n]

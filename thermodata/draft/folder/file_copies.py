@@ -14,6 +14,11 @@ _UNFINISHED = (".part", ".partial", ".filepart", ".crdownload", ".download", ".t
 _ASIDE = re.compile(
     r"(?i)[\W_]*(?:bak|backups?|sicherung(?:en)?|kopien?|cop(?:y|ies)|old|alte?|archive?|záloha|sauvegarde)[\W_\d]*"
 )
+# what a program or a person calls the copy of a folder: 'a1 - Copy', 'Kopie von a1', 'a1 (2)'
+_COPY = re.compile(
+    r"(?i)[\W_]*(?:\(\d+\)|(?:cop(?:y|ies)|kopi[ae]?|copi[ae]|cópia|másolata?|kopio|копия|副本|コピー|사본|复件|複製|bak|backup|"
+    r"sicherung|old|alt|záloha|sauvegarde)(?: (?:of|von|de|di|av|z) )?(?:[\W_]*\(?\d+\)?)?)[\W_]*"
+)
 _BAK = (".bak", ".old", ".orig")
 _PART = 1 << 20
 _WHOLE = 64 << 20  # larger ones are compared at both ends
@@ -38,7 +43,41 @@ def copies_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPat
             of = next((p for p in together[:i] if p not in found and _is_named_after(copy, p)), None)
             if of is not None and _equal(folder / copy, folder / of, (folder / of).stat().st_size):
                 found[copy] = of
+    return found | _in_other_folders(folder, alike, found)
+
+
+def _in_other_folders(
+    folder: Path,
+    alike: Mapping[tuple[PurePosixPath, str, int], Sequence[PurePosixPath]],
+    known: Mapping[PurePosixPath, PurePosixPath],
+) -> dict[PurePosixPath, PurePosixPath]:
+    """The same of files in a folder that was put aside, 'backup/T1.csv' of 'T1/T1.csv', or copied as a whole: 'a1 -
+    Copy/log.csv'. They are called as the other is."""
+    named: dict[tuple[str, int], list[PurePosixPath]] = {}
+    for (_, _, size), paths in alike.items():
+        for path in paths:
+            if path not in known:
+                named.setdefault((path.name, size), []).append(path)
+    found: dict[PurePosixPath, PurePosixPath] = {}
+    for (_, size), paths in named.items():
+        apart = [p for p in paths if any(map(_ASIDE.fullmatch, p.parts[:-1]))]
+        kept = [p for p in paths if p not in apart]
+        pairs = [(p, [o for o in kept if _is_folder_of(p, o)]) for p in kept] + [(p, kept) for p in apart]
+        for copy, others in pairs:
+            of = next((o for o in others if o not in found and _equal(folder / copy, folder / o, size)), None)
+            if of is not None:
+                found[copy] = of
     return found
+
+
+def _is_folder_of(copy: PurePosixPath, original: PurePosixPath) -> bool:
+    """Whether one lies where the other does, but for a folder that is called as a copy of the other's."""
+    here, there = copy.parts[:-1], original.parts[:-1]
+    other = [(a, b) for a, b in zip(here, there, strict=True) if a != b] if len(here) == len(there) else []
+    if len(other) != 1 or other[0][1] not in other[0][0]:
+        return False
+    before, _, after = other[0][0].partition(other[0][1])
+    return bool(_COPY.fullmatch(f"{before}{after}"))
 
 
 def beginnings_in(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosixPath, PurePosixPath]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from thermodata.draft.files.on_one_clock import on_one_clock
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
@@ -16,8 +17,9 @@ _NEAR_NS = 15 * 60 * 1_000_000_000
 _HOUR_NS = 3_600_000_000_000
 
 
-def tests_of(groups: Sequence[Group]) -> list[Group]:
-    """The groups with their tests and templates; ids agree between groups wherever the names or the times do."""
+def tests_of(groups: Sequence[Group], besides: Iterable[str]) -> list[Group]:
+    """The groups with their tests and templates; ids agree between groups wherever the names or the times do. besides:
+    other files of the folder, which no template may find."""
     live = [g for g in groups if g.files]
     if not live:
         return list(groups)
@@ -37,6 +39,7 @@ def tests_of(groups: Sequence[Group]) -> list[Group]:
     made = {s: replace(g, tests={legal[t]: f for t, f in g.tests.items()}) for s, g in made.items()}
     ids = list(dict.fromkeys(t for g in made.values() for t in g.tests))
     every = [str(f.path) for g in groups for f in (*g.files, *g.calibrations)]
+    every += sorted(set(besides) - set(every))
     return [
         _with_template(made[g.source], chosen[g.source].template, ids, every) if g.source in made else g for g in groups
     ]
@@ -91,7 +94,7 @@ def one_recording(group: Group, way: Naming) -> bool | None:
         if len(files) < 2:
             continue
         if all(f.start_ns is not None for f in files):
-            verdicts += _follow([(f.start_ns or 0, f.sample.last_ns or f.start_ns or 0, f.sample.whole) for f in files])
+            verdicts += _follow(on_one_clock(files))
         elif (goes_on := _counts_on(files)) is not None:
             going_on.append(goes_on)
     if all(going_on):  # else each counts from its own start, and says nothing of the others
@@ -205,10 +208,12 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
         if shift and not any(f.local for f in (*own, *(x for v in main.tests.values() for x in v))):
             continue
         paired: dict[str, RawFile] = {}
-        for test, begin in begins.items():
-            near = [f for f in own if abs((f.start_ns or 0) - shift * _HOUR_NS - begin) < _NEAR_NS]
-            if len(near) == 1 and near[0] not in paired.values():
-                paired[test] = near[0]
+        # where summer time began or ended between the tests, the others are an hour further
+        for hours in (shift, shift + 1, shift - 1) if shift else (shift,):
+            for test, begin in begins.items():
+                near = [f for f in own if abs((f.start_ns or 0) - hours * _HOUR_NS - begin) < _NEAR_NS]
+                if test not in paired and len(near) == 1 and near[0] not in paired.values():
+                    paired[test] = near[0]
         if len(paired) > len(best):
             best = paired
     if len(best) * 2 < len(own):

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from thermodata.draft.files.blocks import is_called_test, is_test_number
+from thermodata.draft.files.day_in_name import follow_by_names
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import without_part
@@ -92,7 +93,7 @@ def _of_joined(tests: dict[str, tuple[RawFile, ...]]) -> list[str]:
         f"{_shown([f.path.name for f in own])} of {test} each count from 0, and nothing dates them: they are put end "
         "to end in this order; was there a pause between them? then each is a test"
         for test, own in tests.items()
-        if len(own) > 1 and not any(f.part for f in own) and all(map(_begins_at_0, own))
+        if len(own) > 1 and not any(f.part for f in own) and all(map(_begins_at_0, own)) and not follow_by_names(own)
     ][:1]
 
 

@@ -1,42 +1,23 @@
-"""What the clocks of the sources have to do with each other: a zone that a log does not name, and a quantity that two
-of them logged."""
+"""What the clocks of the sources have to do with each other: when one without dates began, and a quantity that
+two of them logged."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
-from zoneinfo import ZoneInfo
 
 from thermodata.calibration.clock.estimate import estimate_offset
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
-from thermodata.draft.times.in_repeated_hour import which_pass
-from thermodata.draft.times.zone_of_names import named_zone, zone_in
+from thermodata.draft.times.zones import begin_of
 from thermodata.errors import ThermodataError
-from thermodata.reader.text.tables.zone_named import OPEN, SAYS
-from thermodata.reader.times.step_back import likely_cause, said
+from thermodata.reader.times.step_back import in_words, likely_cause, said
 from thermodata.schema.words.sentences import counted
 from thermodata.store.ingest.told.repeated_times import MANY
-from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, first_of
+from thermodata.store.tidy.clock.times_of_day import NEAR_NS, began, begun_together, first_of
 
 Named = Mapping[tuple[str, str], tuple[str, str | None, str]]
 _HOUR_NS = 3_600_000_000_000
-_ZONES = (
-    "UTC",
-    "Europe/Prague",
-    "Europe/Berlin",
-    "Europe/London",
-    "Europe/Helsinki",
-    "Europe/Moscow",
-    "Asia/Shanghai",
-    "Asia/Tokyo",
-    "Asia/Kolkata",
-    "America/New_York",
-    "America/Chicago",
-    "America/Los_Angeles",
-    "America/Sao_Paulo",
-)
 _ALIGNABLE = ("rotational_speed", "position", "feed", "power", "temperature", "load")
 
 
@@ -54,56 +35,6 @@ class Alignment:
     why: str | None = None
 
 
-def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
-    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
-    if not any(f.local for f in group.files):
-        return None
-    head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
-    said, likely = "" if head is None else f"; {head}", named_zone(head, [f.path for f in group.files])
-    pairs = [
-        (f.start_ns, begin)
-        for g in groups
-        if g is not group and not any(f.local for f in g.files)
-        for test, files in group.tests.items()
-        if test in g.tests
-        for f in files[:1]
-        if f.start_ns is not None and (begin := _begin(g.tests[test])) is not None
-    ]
-    whole = [(round(h), b) for a, b in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
-    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _ in whole) > 14:
-        asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
-        return asked + which_pass(group.files, likely)
-    asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
-    return f"{asked}{_zones_of(whole, likely, group)}{said}"
-
-
-def _shown(hours: set[int]) -> str:
-    return "/".join(f"{h:+d} h" for h in sorted(hours))
-
-
-def _is_set_otherwise(file: RawFile) -> bool:
-    """Whether a file's clock is set back by more than summer time that ends."""
-    back = file.sample.set_back
-    return back is not None and not back.in_no_order and likely_cause(back.from_ns, back.to_ns, file.local) is None
-
-
-def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> str:
-    """What local times tell of their zone: whether it is the one that the file names, and else which ones are so far
-    ahead, for no offset tells one of them. ahead: (hours, the beginning in UTC [ns]) of each test."""
-    if any(_is_set_otherwise(f) for f in group.files):
-        return " where the file begins, and its clock is set back later, so that they tell no zone"
-    if (named := zone_in(likely)) is not None:
-        own = [_offset(named, begin) for _, begin in ahead]
-        if own == [h for h, _ in ahead]:
-            return f", as those of {named} are: {likely}"
-        hours = _shown({h for h in own if h is not None})
-        return f"; those of {named} were {hours} ahead then: was the clock set otherwise? {likely}"
-    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for h, begin in ahead)]
-    if not fitting:
-        return ": of what zone, or is the clock wrong by whole hours?"
-    return f": so are {', '.join(fitting[:3])} and others, and a clock that was set otherwise"
-
-
 def start_question(group: Group, groups: Sequence[Group]) -> str | None:
     """What to ask about a source without dates beside one that has them; None where none has, or where they last as
     long in every test: then they begin and end together."""
@@ -116,18 +47,27 @@ def start_question(group: Group, groups: Sequence[Group]) -> str | None:
             if (asked := _by_its_clock(test, files, other)) is not None:
                 return asked
             here, there = _lasts_ns(files), _lasts_ns(other.tests.get(test, ()))
-            if here is not None and there is not None and abs(there - here) > NEAR_NS:
+            if there is None or here is None:
+                continue
+            open_period = any(a.begins_s is not None for f in files for a in f.asked)
+            begins = _counts_from(group)
+            late = max(map(abs, begins.values()), default=0) > NEAR_NS
+            if late or (abs(there - here) > NEAR_NS and not open_period):
+                alike = open_period or abs(there - here) <= NEAR_NS
+                own = "" if alike else f", and lasts {_hours(there)} h in {test} beside {_hours(here)} h of its own"
+                from_ = f"; its times begin at {in_words(begins[test])} in {test}" if late and test in begins else ""
+                also = " beside that clock" if late else ""
                 return (
-                    f"when did it begin? it has no dates; '{other.source}' has, and lasts {_hours(there)} h in {test} "
-                    f"beside {_hours(here)} h of its own; give each test its start: 2026-03-04 08:15, or "
-                    "clock: {offset: 0 s} if they begin together"
+                    f"when did it begin? it has no dates; '{other.source}' has{own}{from_}; "
+                    f"{begun_together(group.source, begins)} if they begin together, or give each test its "
+                    f"start{also}: 2026-03-04 08:15"
                 )
     return None
 
 
 def _by_its_clock(test: str, files: Sequence[RawFile], other: Group) -> str | None:
     """What to ask of a log that tells times of day, beside one with dates that begins at another time."""
-    of_day_ns, there = first_of([f.recording.of_day_ns for f in files]), _begin(other.tests.get(test, ()))
+    of_day_ns, there = first_of([f.recording.of_day_ns for f in files]), begin_of(other.tests.get(test, ()))
     # both are local, or the one with dates may be in UTC: by whole hours it may be the zone
     zone = "UTC" if any(f.local for f in other.files) else None
     at = None if of_day_ns is None or there is None else began(of_day_ns, there, zone)
@@ -197,6 +137,14 @@ def _undated(file: RawFile) -> bool:
     return file.recording.clock == "relative" and file.recording.start_ns is None
 
 
+def _counts_from(group: Group) -> dict[str, int]:
+    """Test -> the first time of its logs without dates [ns]; 0 where none tells it."""
+    return {
+        test: min((ns for f in files if (ns := f.counts_from_ns) is not None), default=0)
+        for test, files in group.tests.items()
+    }
+
+
 def _lasts_ns(files: Sequence[RawFile]) -> int | None:
     """From the first to the last row; None where a file's end was not looked at."""
     ends = [(f.sample.first_ns, f.sample.last_ns) for f in files if f.sample.whole]
@@ -210,15 +158,6 @@ def _hours(ns: int) -> str:
     return f"{ns / _HOUR_NS:.3g}"
 
 
-def _begin(files: Sequence[RawFile]) -> int | None:
-    return min((f.start_ns for f in files if f.start_ns is not None), default=None)
-
-
-def _offset(name: str, at_ns: int) -> int | None:
-    shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
-    return None if shift is None else round(shift.total_seconds() / 3600)
-
-
 def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[Alignment]:
     """For each source but the first, the pair of channels by which its clock can be had from another's.
 
@@ -226,8 +165,14 @@ def alignments(groups: Sequence[Group], channels: Mapping[str, Named]) -> list[A
     """
     found: list[Alignment] = []
     aligned: set[str] = set()
+    # what has UTC stays: local times of a zone that nobody says are moved to it
+    utc = any(f.start_ns is not None and not f.local for g in groups for f in g.files)
     order = sorted(
-        (g for g in groups if g.files), key=lambda g: -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals)
+        (g for g in groups if g.files),
+        key=lambda g: (
+            utc and any(f.local for f in g.files),
+            -sum(s.unit in ("V", "um", "µm") for s, _ in g.signals),
+        ),
     )
     for i, there in enumerate(order):
         for here in order[i + 1 :]:

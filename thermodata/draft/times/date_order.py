@@ -3,17 +3,17 @@ the same source whose days leave no choice, or a source with other dates that ru
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from thermodata.draft.files.day_in_name import day_of_name
 from thermodata.draft.files.raw_file import Asked, RawFile, merged, sample_of_file
 from thermodata.draft.folder.group import tests_of
 from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.times.hints import fitting_others, swapped
-from thermodata.draft.times.named_days import day_of_name
 from thermodata.errors import ThermodataError
 from thermodata.reader.contract.guard import described
 from thermodata.reader.finding.registry import reader
@@ -31,11 +31,15 @@ def with_orders_told(folder: Path, logs: Sequence[RawFile]) -> tuple[RawFile, ..
     """The logs, those that leave the order open with the one that is settled: declared, and told instead of asked."""
     if not any(_is_open(f) for f in logs):
         return tuple(logs)
-    groups = tests_of(sources_of(logs, []))
+    groups = tests_of(sources_of(logs, []), ())
     made: dict[int, RawFile] = {}
     for group in groups:
         files = [f for f in (*group.files, *group.calibrations) if _is_open(f)]
-        told = _settled(folder, group, groups) if files else None
+        only = _only(folder, group) if files else {}
+        if len(only) > 1:
+            made |= {id(f): _doubted(f, _of_two(only)) for f in files}
+            continue
+        told = _settled(only, group, groups) if files else None
         if told is not None and _out_of_place(group, told[0]):
             told = None
         against = None if told is None else next((w for f in files if (w := _contradicts(folder, f, told[0]))), None)
@@ -50,10 +54,24 @@ def _is_open(file: RawFile) -> bool:
     return any(a.ask.startswith(_EITHER) for a in file.asked)
 
 
-def _settled(folder: Path, group: Group, groups: Sequence[Group]) -> tuple[str, str] | None:
-    """(order, why); None where nothing tells it, or not all that tell it agree."""
+def _only(folder: Path, group: Group) -> dict[str, RawFile]:
+    """Order -> a file of a source that can only be so."""
     closed = [f for f in (*group.files, *group.calibrations) if not f.asked and not f.like][:_LOOKED_AT]
-    only = {order: f for f in closed if (order := _order_of(folder, f)) is not None}
+    only: dict[str, RawFile] = {}
+    for file in closed:
+        if (order := _order_of(folder, file)) is not None:
+            only.setdefault(order, file)
+    return only
+
+
+def _of_two(only: Mapping[str, RawFile]) -> str:
+    """What the question says of a source whose files come from computers with either order."""
+    said = ", ".join(f"{only[order].path} only {order}" for order in _ORDERS)
+    return f"{said}: its files are of two sources, each with its format"
+
+
+def _settled(only: Mapping[str, RawFile], group: Group, groups: Sequence[Group]) -> tuple[str, str] | None:
+    """(order, why); None where nothing tells it, or not all that tell it agree. only: as of `_only`."""
     near = fitting_others(group, groups, [f for f in group.files if _is_open(f)])
     if len({*only, *near}) != 1:
         return None

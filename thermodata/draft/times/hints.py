@@ -31,7 +31,7 @@ def hinted(ask: str, group: Group, groups: Sequence[Group]) -> str:
     other sources say of the same tests where it is for the order of day and month of a start."""
     if ask.startswith("start: dmy or mdy"):
         return ask + _near_others(group, groups)
-    if ask.startswith("format"):
+    if ask.startswith("format") and "two sources" not in ask:
         return ask + _settled_by_others(group)
     if not ask.startswith(("unit of the time", "period")):
         return ask

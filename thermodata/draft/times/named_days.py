@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
+from thermodata.draft.files.day_in_name import began_ns, day_of_name, span_ns
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.said_by_names import said_by
@@ -21,7 +22,7 @@ _SHOWN = 3
 def named_start(files: Sequence[RawFile]) -> str | None:
     """The moment at which undated files began, '2026-04-07 20:00:00': the day that the name of the first says, and the
     time of day of its first row. None where one of them has a date, or says none."""
-    known = [_began_ns(f) for f in files]
+    known = [began_ns(f) for f in files]
     starts = [ns for ns in known if ns is not None]
     if not starts or len(starts) < len(known):
         return None
@@ -35,7 +36,7 @@ def over_midnight(groups: Sequence[Group]) -> tuple[list[Group], list[str]]:
     named: dict[str, str] = {}  # what its first file is called, but for the day
     for group in groups:
         for test, files in group.tests.items():
-            began = (_span_ns(files[0]) or (0, 0))[0]
+            began = (span_ns(files[0]) or (0, 0))[0]
             begun[test] = min(begun.get(test, began), began)
             named.setdefault(test, repr(_but_day(files[0])))
     home_of: dict[str, str] = {}
@@ -56,7 +57,7 @@ def over_midnight(groups: Sequence[Group]) -> tuple[list[Group], list[str]]:
 
 def _joined(group: Group, home_of: Mapping[str, str]) -> Group:
     tests: dict[str, tuple[RawFile, ...]] = {test: () for test in group.tests if home_of[test] == test}
-    for test in sorted(group.tests, key=lambda t: (_span_ns(group.tests[t][0]) or (0, 0))[0]):
+    for test in sorted(group.tests, key=lambda t: (span_ns(group.tests[t][0]) or (0, 0))[0]):
         tests[home_of[test]] = (*tests[home_of[test]], *group.tests[test])
     return replace(group, tests=tests, template=None)
 
@@ -66,48 +67,17 @@ def _note(home: str, paths: Sequence[str]) -> str:
     return f"{home} goes on without a gap in {shown}, by the dates in their names: one test; a window cuts out a part"
 
 
-def _began_ns(file: RawFile) -> int | None:
-    """Of a log without dates: its first time of day, on the day that its name says."""
-    said = file.recording
-    if said.clock != "relative" or said.start_ns is not None or said.of_day_ns is None:
-        return None
-    day = day_of_name(file)
-    return None if day is None else day + said.of_day_ns
-
-
-def day_of_name(file: RawFile) -> int | None:
-    """The day that a name says, at midnight, since 1970 [ns]; None where it says none."""
-    date = said_by([file.path.stem]).conditions.get("date")
-    try:
-        day = None if date is None else datetime.strptime(date, "%Y-%m-%d").replace(tzinfo=UTC)
-    except ValueError:  # 31 April
-        return None
-    return None if day is None else round(day.timestamp()) * 10**9
-
-
 def _but_day(file: RawFile) -> tuple[object, ...]:
     """What a name says beside its day: 'S4000_20260407' and 'S8000_20260408' are two tests, whenever they ran."""
     said = said_by([file.path.stem])
     return re.sub(r"[\d\W_]+", "", file.path.stem), said.speeds, {**said.conditions, "date": ""}
 
 
-def _span_ns(file: RawFile) -> tuple[int, int] | None:
-    """The first and the last time of a file whose name has its day; None where it has none, or was not read to its
-    end."""
-    seen = file.sample
-    if not seen.whole or seen.first_ns is None or seen.last_ns is None:
-        return None
-    if (began := _began_ns(file)) is not None:
-        return began, began + seen.last_ns - seen.first_ns
-    dated = file.recording.clock == "absolute" and day_of_name(file) is not None
-    return (seen.first_ns, seen.last_ns) if dated else None
-
-
 def _goes_on(before: Sequence[RawFile] | None, after: Sequence[RawFile]) -> bool:
     """Whether files end where others of their name begin, a day later by both names."""
     if not before or _but_day(before[-1]) != _but_day(after[0]):
         return False
-    ended, begins = _span_ns(before[-1]), _span_ns(after[0])
+    ended, begins = span_ns(before[-1]), span_ns(after[0])
     days = day_of_name(before[-1]), day_of_name(after[0])
     if ended is None or begins is None or days[0] is None or days[1] is None or days[1] - days[0] != _DAY_NS:
         return False

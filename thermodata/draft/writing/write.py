@@ -71,6 +71,8 @@ def _source(s: DraftSource) -> str:
         parts["files"] = s.files
     if s.encoding:
         parts["encoding"] = s.encoding
+    if s.timezone:
+        parts["timezone"] = s.timezone
     if s.table:
         parts["table"] = s.table
     body = flow(parts)

@@ -24,6 +24,7 @@ from thermodata.reader.text.names.unit_column import in_one_unit
 from thermodata.reader.text.preamble.scales_said import SCALES_BELOW, lone_scales, scales_said
 from thermodata.reader.text.preamble.units_said import HEAD, units_said
 from thermodata.reader.text.preamble.ways_said import WAY, ways_said
+from thermodata.reader.text.rows.event_line import event_notes
 from thermodata.reader.text.rows.footer import footer_notes
 from thermodata.reader.text.rows.quality_columns import said_of_values
 from thermodata.reader.text.tables.find_table import open_table
@@ -128,6 +129,10 @@ def describe(table: Table, source: Source) -> Recording:
         notes += _of_day_notes(table, source)
     ends = (table.sample.rest or table.sample.head)[-_LAST_LINES:]
     notes += footer_notes([clean(c) for c in fields(line, table.delimiter, table.quoted)] for line in ends)
+    below = [
+        [clean(c) for c in fields(x, table.delimiter, table.quoted)] for x in table.sample.head[table.layout.first :]
+    ]
+    notes += event_notes(below, [kind == "str" for kind in table.kinds])
     if table.cut:
         notes.append(_CUT)
     return Recording(

@@ -18,7 +18,8 @@ from thermodata.schema.units.quantity import value_in
 from thermodata.store.base.files import key_of
 from thermodata.store.tidy.clock.second_pass import choose_passes
 from thermodata.store.tidy.clock.set_late import tell_clocks_set_late
-from thermodata.store.tidy.clock.source_clock import Clock, Span, bases, first_ns, is_relative
+from thermodata.store.tidy.clock.source_clock import Clock, Span, first_ns, is_relative
+from thermodata.store.tidy.clock.undated import bases, tell_apart
 from thermodata.store.tidy.keys import channel_text
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.values.series import TestSeries
@@ -55,6 +56,7 @@ def clocks_of(
             continue
         key = _key(plan, source, there, clocks[there.name], declared, calibrations)
         clocks[name] = known.get(key) or _estimate(store, plan, source, there, clocks, calibrations, key)
+    tell_apart(plan, clocks)
     return clocks
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from thermodata.schema.files.campaign import STORED, Campaign
 from thermodata.store.base.connection import fetch
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.clock.source_clock import Clock, bases, span
+from thermodata.store.tidy.clock.source_clock import Clock, span
+from thermodata.store.tidy.clock.undated import bases
 from thermodata.store.tidy.clock_offsets import clock_from_json
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan, bind
 from thermodata.store.tidy.values.series import Member, TestSeries

@@ -4,6 +4,7 @@ times in the unit that they are said to have."""
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 
@@ -97,7 +98,7 @@ def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: boo
     epoch = counted_by(name, finite) or found_epoch(finite)
     told = f": as {epoch} it is {when(finite[0], epoch)}" if epoch else ""
     what = f"'{name}' can be no time in {unit}"
-    said = {
+    said: dict[str, Any] = {
         "where": where,
         "expected": f"up to {REACH_S / seconds:.3g} {unit} ({REACH_S / SECONDS['d'] / 365.25:.0f} years)",
         "got": f"{finite[0]:.14g}",

@@ -133,6 +133,7 @@ def time_question(names: list[str], data: list[list[Cell]], where: str) -> Quest
         ask=f"period: the time from row to row, e.g. 10 s or 1 min? no column holds a time{other}",
         declare={"time": {"period": UNKNOWN}},
         meanwhile={"time": {"period": 1.0}},
+        begins_s=None if rising is None or unit not in SECONDS else float(rising[0]) * SECONDS[unit],
     )
 
 

@@ -15,6 +15,7 @@ from thermodata.reader.text.file.lines import ODD, Chunk, last_line_is_whole
 from thermodata.reader.text.file.losses import Losses
 from thermodata.reader.text.names.before_values import behind_another, other_word
 from thermodata.reader.text.rows.changed_cells import Standing
+from thermodata.reader.text.rows.event_line import is_event_line
 from thermodata.reader.text.rows.footer import is_footer
 from thermodata.reader.text.rows.grid import Rows
 from thermodata.reader.text.rows.quality_columns import values_of, with_bad_rows
@@ -79,7 +80,7 @@ class RowReader:
         rows, told = self._until_another_header(rows, told, data, line)
         told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not (self.table.repeats_header(bad.text) or self._is_footer(bad.text)):
+            if not (self.table.repeats_header(bad.text) or self._is_no_row(bad.text)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
@@ -88,8 +89,15 @@ class RowReader:
         for number, clock in enumerate(self.clocks):
             yield from self._group(clock, rows, told if number == 0 else [], data, line)
 
+    def _is_no_row(self, text: str) -> bool:
+        texts = [kind == "str" for kind in self.table.kinds]
+        return self._is_footer(text) or is_event_line(self._cells(text), texts)
+
     def _is_footer(self, text: str) -> bool:
-        return is_footer([clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)])
+        return is_footer(self._cells(text))
+
+    def _cells(self, text: str) -> list[str]:
+        return [clean(c) for c in fields(text, self.table.delimiter, self.table.quoted)]
 
     def _torn(self, rows: Rows) -> list[_Complaint]:
         """Rows that end with the columns of a group, as if the others had ended, though longer lines follow."""

@@ -150,6 +150,24 @@ def find_format(
                     _ask_for_year(few, where)
                 return forms[_order(orders, cells, more, forms, where)]
     full = [c for c in cells if c.strip()]
+    other = next(
+        (
+            o
+            for forms in (DATE, DATETIME)
+            for o, f in forms.items()
+            if order and o not in ("", order) and share(few, f) > 0.8
+        ),
+        None,
+    )
+    if other is not None:
+        raise FormatError(
+            f"dates that are declared as {order} can only be {other}",
+            where=f"{where} column '{name}'",
+            expected=f"format: {other} for these",
+            got=full[0],
+            hint=f"where other files are {order}, a source of its own for those that are {other}, with table: {{time: "
+            f"{{format: {other}}}}}",
+        )
     raise FormatError(
         "the time column holds no times",
         where=f"{where} column '{name}'",

@@ -3,8 +3,9 @@ recorded in the test says it, or its declared start."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import NO_ZONE
@@ -25,7 +26,12 @@ def choose_passes(plan: TestPlan) -> None:
         first = [r for r in source.raws if _says(r, ALL)]
         hour = repeated_hour(zone, min(recorded(r)[0] for r in first)) if first else None
         if hour is not None:
-            _choose(plan, source, first, hour)
+            told = _by_parts(source, first, hour)
+            for raw, later in told:
+                _take(plan, source, [raw], hour, later, "the order of its files says")
+            left = [r for r in first if all(r is not raw for raw, _ in told)]
+            if left:
+                _choose(plan, source, left, hour)
         elif not first:
             _compare_ends(plan, source, zone)
 
@@ -41,6 +47,13 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
             f"start: {second} in the test where they are of the second, or start: {first}"
         )
         return
+    _take(plan, source, raws, hour, later, by)
+
+
+def _take(
+    plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour, later: bool, by: str
+) -> None:
+    begin = min(recorded(r)[0] for r in raws)
     if later:
         mine = {id(r) for r in raws}
         source.raws = [replace(r, moved_ns=hour.shift_ns) if id(r) in mine else r for r in source.raws]
@@ -48,6 +61,56 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
         f"test '{plan.test.id}': all local times of '{source.name}' lie in the hour that {source.spec.timezone} "
         f"repeats: taken as of its {'second' if later else 'first'} pass, {hour.written(begin, second=later)}, as {by}"
     )
+
+
+def _by_parts(source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour) -> list[tuple[RawStream, bool]]:
+    """Those of several files of a recording of which their order tells whether they are of the second pass: what comes
+    before by its name ended before, and what comes behind began later."""
+    if len(source.raws) < 2 or len(source.streams) > 1:
+        return []
+    spans = [recorded(r) for r in source.raws]
+    still = [i for i, r in enumerate(source.raws) if any(r is x for x in raws)]
+    known = {i: span for i, span in enumerate(spans) if i not in still}
+    told: dict[int, bool] = {}
+    if not known and (turn := _turn([spans[i] for i in still], hour)) is not None:
+        told = {i: k >= turn for k, i in enumerate(still)}
+    elif all(a[1] <= b[0] for a, b in pairwise(known.values())):
+        while (more := _next_told(spans, known, [i for i in still if i not in told], hour)) is not None:
+            i, told[i] = more
+            known[i] = _in_pass(spans[i], hour, told[i])
+    return [(source.raws[i], later) for i, later in told.items()]
+
+
+def _next_told(
+    spans: Sequence[tuple[int, int]], known: Mapping[int, tuple[int, int]], still: Sequence[int], hour: RepeatedHour
+) -> tuple[int, bool] | None:
+    """The first file for which one pass alone lies between those before and behind it."""
+    for i in still:
+        before = max((span[1] for k, span in known.items() if k < i), default=None)
+        behind = min((span[0] for k, span in known.items() if k > i), default=None)
+        passes = {later: _in_pass(spans[i], hour, later) for later in (False, True)}
+        fits = [
+            later
+            for later, (begin, end) in passes.items()
+            if (before is None or before <= begin) and (behind is None or end <= behind)
+        ]
+        if len(fits) == 1:
+            return i, fits[0]
+    return None
+
+
+def _turn(spans: Sequence[tuple[int, int]], hour: RepeatedHour) -> int | None:
+    """The place of the first file of the second pass, where all are of either: there alone a file begins before the end
+    of the one before, and in the second pass right behind it."""
+    back = [k for k, (a, b) in enumerate(pairwise(spans), 1) if b[0] < a[1]]
+    if len(back) != 1 or not _joins(_in_pass(spans[back[0]], hour, True), spans[back[0] - 1]):
+        return None
+    return back[0]
+
+
+def _in_pass(span: tuple[int, int], hour: RepeatedHour, later: bool) -> tuple[int, int]:
+    moved = hour.shift_ns if later else 0
+    return span[0] + moved, span[1] + moved
 
 
 def _later(

@@ -13,13 +13,9 @@ import numpy as np
 from thermodata.plugin import Int1D
 from thermodata.reader.times.zone import local_to_utc_ns
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.clock.times_of_day import began, first_of
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 from thermodata.store.tidy.rows.make_timeline import make_timeline
 from thermodata.store.tidy.rows.timeline import Timeline
-
-_NEAR_S = 60.0  # a start that a person wrote down is that exact
-_TOGETHER_S = 120.0  # by how much two logs that begin and end together differ in length
 
 _DAY_NS = 86_400 * 10**9
 _OVERLAP_NS = 600 * 10**9  # by which a part begins before the end of the one before, and is none of the next day
@@ -53,100 +49,6 @@ class Span:
     to_ns: int | None
     history: bool
     relative: bool
-
-
-def bases(plan: TestPlan) -> tuple[dict[str, int], list[str]]:
-    """What each source's relative clock counts from, so that a test's sources share one time line, and notes on it.
-
-    A declared start is of the recording without dates; one whose probes have dates begins when they say.
-    """
-    known = [s for s in plan.sources.values() if s.raws]
-    dated, undated = ([s for s in known if is_relative(s) is relative] for relative in (False, True))
-    probes = [s for s in plan.reference if is_relative(s)]
-    start = plan.test.start
-    base_ns, notes = dict.fromkeys(plan.sources, 0), list[str]()
-    if start is not None and dated and not probes:
-        began = start_ns(start, plan)
-        apart_s = (min(map(first_ns, plan.reference)) - began) / 1e9
-        if abs(apart_s) > _NEAR_S:
-            plan.problems.append(
-                f"test '{plan.test.id}': start is {start}, but its recordings have dates of their own, "
-                f"{apart_s:+.0f} s from it: these count; try: take 'start' away, or set clock: {{offset: ...}}"
-            )
-    if start is not None and (probes or not dated):
-        for source in undated:
-            base_ns[source.name] = start_ns(start, plan, source)
-        plan.problems += _beside(plan, base_ns, dated, undated)
-    elif dated:
-        with_dates = [s for s in plan.reference if s in dated] or dated
-        for source in undated:
-            base_ns[source.name] = min(map(first_ns, with_dates))
-            notes.append(
-                f"source '{source.name}' has a relative clock: taken to start with the test; "
-                "set clock: {align_to: ...} or {offset: ...} where it does not"
-            )
-        plan.problems += _in_doubt(plan, with_dates, [s for s in undated if not _is_told(s)])
-    return base_ns, notes
-
-
-def _beside(plan: TestPlan, base_ns: dict[str, int], dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
-    """A start at which nothing that has dates was recorded."""
-    if not dated or not undated:
-        return []
-    begin = min(base_ns[s.name] + first_ns(s) for s in undated)
-    end = max(base_ns[s.name] + last_ns(s) for s in undated)
-    first, last = min(map(first_ns, dated)), max(map(last_ns, dated))
-    if begin <= last and first <= end:
-        return []
-    gap_s = (first - end if first > end else begin - last) / 1e9
-    return [
-        f"test '{plan.test.id}': from its start, {plan.test.start}, to its end nothing was recorded that has dates: "
-        f"{', '.join(s.name for s in dated)} is {gap_s:.0f} s {'later' if first > end else 'earlier'}; try: correct "
-        "'start', its time zone (timezone of the source), or the clock of the other: {offset: ...}"
-    ]
-
-
-def _is_told(source: SourcePlan) -> bool:
-    """Whether the campaign file says what its clock has to do with the others'."""
-    return source.spec.clock.offset is not None or source.spec.clock.align_to is not None
-
-
-def _in_doubt(plan: TestPlan, dated: list[SourcePlan], undated: list[SourcePlan]) -> list[str]:
-    """Logs without a date that last longer than what has dates, or shorter: they did not begin together, or did not end
-    together, and nothing says which."""
-    told = {s.name: _by_its_clock(plan, dated, s) for s in undated}
-    by_clock = [said for said in told.values() if said is not None]
-    undated = [s for s in undated if told[s.name] is None]
-    log_s = (max(map(last_ns, dated)) - min(map(first_ns, dated))) / 1e9
-    lasts_s = {s.name: (last_ns(s) - first_ns(s)) / 1e9 for s in undated}
-    names = [n for n, s in lasts_s.items() if abs(log_s - s) > _TOGETHER_S]
-    if not names:
-        return by_clock
-    probes = any(s.name in names for s in plan.reference)
-    say = "give the test its start: 2026-03-04 08:15" if probes else "declare the source's clock: {align_to: ...}"
-    own_s = lasts_s[names[0]]
-    return [
-        *by_clock,
-        f"test '{plan.test.id}': nothing says when '{', '.join(names)}' began: it lasts {own_s / 3600:.3g} h, "
-        f"what has dates {log_s / 3600:.3g} h, and is taken to begin with that; try: {say}, or, where they did begin "
-        "together, clock: {offset: 0 s}",
-    ]
-
-
-def _by_its_clock(plan: TestPlan, dated: list[SourcePlan], source: SourcePlan) -> str | None:
-    """A log without a date whose times of day say that it began at another time than what has dates."""
-    of_day_ns = first_of([r.of_day_ns for r in source.raws])
-    there = min(dated, key=first_ns)
-    zone = source.spec.timezone or there.spec.timezone
-    at = None if of_day_ns is None else began(of_day_ns, first_ns(there), zone)
-    if at is None:
-        return None
-    way = f"give the test its start: {at}" if source in plan.reference else "declare its clock: {offset: ...}"
-    return (
-        f"test '{plan.test.id}': '{source.name}' tells times of day without a date, and is taken to begin with "
-        f"'{there.name}'; by its first row it began {at}; try: {way}, or, where they did begin together, "
-        "clock: {offset: 0 s}"
-    )
 
 
 def start_ns(start: str, plan: TestPlan, source: SourcePlan | None = None) -> int:

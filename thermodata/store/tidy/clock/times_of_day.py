@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 
 from thermodata.reader.times.zone import utc_offset_ns
+from thermodata.schema.words.sentences import with_dots
 
 DAY_NS, _HOUR_NS = 86_400 * 10**9, 3_600 * 10**9
+_SHOWN = 3
 NEAR_NS = 120 * 10**9  # by how much logs that begin or end together differ
 
 
@@ -27,3 +29,11 @@ def began(of_day_ns: int, first_ns: int, timezone: str | None) -> str | None:
 def first_of(of_days: Sequence[int | None]) -> int | None:
     """The time of day of the first row of a log's first part; None where a part tells none."""
     return of_days[0] if of_days and all(x is not None for x in of_days) else None
+
+
+def begun_together(source: str, first_ns: Mapping[str, int]) -> str:
+    """What says of a log without dates that it began with one that has them. first_ns: test -> its first time."""
+    by = {test: f"{-ns / 1e9 if abs(ns) > NEAR_NS else 0:.15g} s" for test, ns in first_ns.items()}
+    if len(set(by.values())) == 1:
+        return f"clock: {{offset: {next(iter(by.values()))}}}"
+    return with_dots([f"clocks: {{{source}: {offset}}} in {test}" for test, offset in by.items()], _SHOWN)

@@ -1,0 +1,131 @@
+"""The zone of a source that logs local times and names none: what is asked of it, and what is known."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from zoneinfo import ZoneInfo
+
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.sources import Group
+from thermodata.draft.times.in_repeated_hour import which_pass
+from thermodata.draft.times.zone_of_names import named_zone, zone_in
+from thermodata.errors import ThermodataError
+from thermodata.reader.text.tables.zone_named import OPEN, SAYS
+from thermodata.reader.times.step_back import likely_cause
+from thermodata.reader.times.zone import zone as zone_called
+
+_HOUR_NS = 3_600_000_000_000
+_DECLARED = re.compile(r"""^[^#\n]*\btimezone:\s*["']?([\w/+-]+)""", re.MULTILINE)
+_ZONES = (
+    "UTC",
+    "Europe/Prague",
+    "Europe/Berlin",
+    "Europe/London",
+    "Europe/Helsinki",
+    "Europe/Moscow",
+    "Asia/Shanghai",
+    "Asia/Tokyo",
+    "Asia/Kolkata",
+    "America/New_York",
+    "America/Chicago",
+    "America/Los_Angeles",
+    "America/Sao_Paulo",
+)
+
+
+def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
+    """What to ask about the zone of a source that logs local times; None where it names its zone or has no dates."""
+    if not any(f.local for f in group.files):
+        return None
+    head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
+    said, likely = "" if head is None else f"; {head}", named_zone(head, [f.path for f in group.files])
+    whole = _ahead(group, groups)
+    if whole is None:
+        asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
+        return asked + which_pass(group.files, likely)
+    asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
+    return f"{asked}{_zones_of(whole, likely, group)}{said}"
+
+
+def _ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int]] | None:
+    """(by how many hours its local times are ahead of the UTC of another source, when [ns]) of each test; None where no
+    other tells it, or not of most tests."""
+    pairs = [
+        (f.start_ns, begin)
+        for g in groups
+        if g is not group and not any(f.local for f in g.files)
+        for test, files in group.tests.items()
+        if test in g.tests
+        for f in files[:1]
+        if f.start_ns is not None and (begin := begin_of(g.tests[test])) is not None
+    ]
+    whole = [(round(h), b) for a, b in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
+    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _ in whole) > 14:
+        return None
+    return whole
+
+
+def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> str | None:
+    """The zone that the campaign file before declared, for a source that logs local times and that nothing contradicts;
+    else None."""
+    if zone is None or not any(f.local for f in group.files):
+        return None
+    return zone if all(_offset(zone, begin) == h for h, begin in _ahead(group, groups) or ()) else None
+
+
+def zone_declared_before(path: Path) -> str | None:
+    """The one zone that a campaign file declares, which need not be finished; None where it declares none, or
+    several."""
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return None
+    declared = {zone for zone in _DECLARED.findall(text) if _is_zone(zone)}
+    return declared.pop() if len(declared) == 1 else None
+
+
+def _shown(hours: set[int]) -> str:
+    return "/".join(f"{h:+d} h" for h in sorted(hours))
+
+
+def _is_set_otherwise(file: RawFile) -> bool:
+    """Whether a file's clock is set back by more than summer time that ends."""
+    back = file.sample.set_back
+    return back is not None and not back.in_no_order and likely_cause(back.from_ns, back.to_ns, file.local) is None
+
+
+def _zones_of(ahead: Sequence[tuple[int, int]], likely: str, group: Group) -> str:
+    """What local times tell of their zone: whether it is the one that the file names, and else which ones are so far
+    ahead, for no offset tells one of them. ahead: (hours, the beginning in UTC [ns]) of each test."""
+    if any(_is_set_otherwise(f) for f in group.files):
+        return " where the file begins, and its clock is set back later, so that they tell no zone"
+    if (named := zone_in(likely)) is not None:
+        own = [_offset(named, begin) for _, begin in ahead]
+        if own == [h for h, _ in ahead]:
+            return f", as those of {named} are: {likely}"
+        hours = _shown({h for h in own if h is not None})
+        return f"; those of {named} were {hours} ahead then: was the clock set otherwise? {likely}"
+    fitting = [z for z in _ZONES if all(_offset(z, begin) == h for h, begin in ahead)]
+    if not fitting:
+        return ": of what zone, or is the clock wrong by whole hours?"
+    return f": so are {', '.join(fitting[:3])} and others, and a clock that was set otherwise"
+
+
+def begin_of(files: Sequence[RawFile]) -> int | None:
+    return min((f.start_ns for f in files if f.start_ns is not None), default=None)
+
+
+def _offset(name: str, at_ns: int) -> int | None:
+    shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
+    return None if shift is None else round(shift.total_seconds() / 3600)
+
+
+def _is_zone(name: str) -> bool:
+    try:
+        zone_called(name)
+    except ThermodataError:
+        return False
+    return True
