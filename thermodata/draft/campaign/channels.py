@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from thermodata.draft.campaign.orientation import calibration_of, moved_too, reads_a_length, sign_of
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
+from thermodata.draft.campaign.wished_names import wished_name, with_series
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.legend import IN_LEGEND
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
@@ -22,26 +23,21 @@ from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
 from thermodata.draft.signals.quantity import Guess, range_text
 from thermodata.draft.signals.scale_said import as_scaled, with_scale_asked
-from thermodata.draft.signals.units import rate_at_end
 from thermodata.draft.signals.values import Values, in_unit, joined, least_reading
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.naming import channel_name, parts_of, words
 from thermodata.plugin import Signal
-from thermodata.reader.signals.header_words import VALUE_WORDS
 from thermodata.reader.signals.row_units import UNIT_OF
-from thermodata.reader.signals.series import SERIES
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.preamble.units_said import HEAD
 from thermodata.reader.text.preamble.ways_said import WAY
 from thermodata.reader.text.rows.quality_columns import QUALITY_OF, STATE_OF
 from thermodata.schema.agreed.exported import OF_TEST, PLAIN, UNSIGNED, is_own_export, own_sign
-from thermodata.schema.units.quantity import CANONICAL_UNIT, normal_unit
+from thermodata.schema.units.quantity import normal_unit
 from thermodata.schema.words.sentences import counted, listed, with_count
 
 _MOST_SIGNALS, _MOST_LINES = 2000, 2
-_STATISTIC = re.compile(r"(?i)min|max|avg|ave|mean|average|rms|std|med|last|actual")
 _TAG_NUMBER = re.compile(r"(?i)(?:numeric|tag|item|point|node)[ _]?id$")
-_SHORT = {"temperature": "T", "temperature_difference": "dT", "rotational_speed": "speed", "displacement": "d"}
 
 
 def channels_of(
@@ -78,7 +74,7 @@ def channels_of(
             beside.append(one.written)
             continue
         jump, said = _with_jump(one, said, jumps, twin)
-        wished = _wished(_with_series(signal), said)
+        wished = wished_name(with_series(signal), said)
         name = channel_name(wished.removesuffix(PLAIN).replace(UNSIGNED, "") if exported else wished, taken)
         turned = exported and said.axis is not None and _is_signed(one)
         calibration, said = _calibrated(name, one, said, jump, turned, jumps, calibrations)
@@ -273,30 +269,3 @@ def _coldest(file: RawFile) -> float:
     """The lowest reading of all temperatures without a unit in a file; infinite where there is none."""
     seen = [(s, file.sample.values.get((s.stream, s.name))) for s in file.signals if s.unit is None]
     return min((least_reading(v) for s, v in seen if v and guess_of(s, v).quantity == "temperature"), default=math.inf)
-
-
-def _with_series(signal: Signal) -> str:
-    """What a signal is called; the series that its column is of is a part of its own name, and no group."""
-    series, name = signal.properties.get(SERIES), called(signal)
-    return name.replace(f"{series}/", f"{series} ", 1) if series else name
-
-
-def _wished(signal: str, said: Guess) -> str:
-    """A name for a channel: the last part of the signal's, or what is known of it where that is in another script."""
-    bare = rate_at_end(split_unit(signal)[0])[0]
-    parts = [p for p in parts_of(bare.replace("\\", "/")) if p.strip()] or [bare]
-    last = parts[-1]
-    if len(last.strip()) <= 2 and len(parts) > 1:  # Eddy/Z says more than Z
-        last = "_".join(parts[-2:])
-    if len(parts) > 1 and _STATISTIC.fullmatch(last.strip()):  # of which only the name above says what it is of
-        last = f"{split_unit(parts[-2])[0]}_{last.strip()}"
-    if last.strip().casefold() in VALUE_WORDS and len(parts) > 1:  # a head over a time and its values
-        last = split_unit(parts[-2])[0]
-    foreign = sum(ord(c) > 0x2FF for c in bare)
-    if foreign and said.at and said.quantity in CANONICAL_UNIT:
-        where = "_".join(p for p in said.at.split(".") if p not in ("axis",))
-        tail = "".join(c for c in bare if c.isascii() and c.isdigit())
-        return "_".join(
-            filter(None, (_SHORT.get(said.quantity, said.quantity), f"{said.axis}" if said.axis else where, tail))
-        )
-    return last

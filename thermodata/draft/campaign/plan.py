@@ -11,19 +11,18 @@ from thermodata.draft.campaign.asked_once import asked_once
 from thermodata.draft.campaign.by_hand import asked_whether_held
 from thermodata.draft.campaign.channels import channels_of
 from thermodata.draft.campaign.jump_sources import with_their_sources
+from thermodata.draft.campaign.one_test import drafted_test
 from thermodata.draft.campaign.orientation import why_idle
-from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource, DraftTest
+from thermodata.draft.campaign.parts import Draft, DraftChannel, DraftJump, DraftSource
 from thermodata.draft.campaign.siblings import beside_each_other
 from thermodata.draft.campaign.speeds_told import with_told_speeds
-from thermodata.draft.courses.kinds import Kind, kind_of
-from thermodata.draft.courses.measuring import rule_of
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.file_copies import other_versions
-from thermodata.draft.folder.group import counted_on, files_of, tests_of
+from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.legend import with_legends
-from thermodata.draft.folder.notes import Note, notes_of
+from thermodata.draft.folder.notes import notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
 from thermodata.draft.folder.packed_pieces import packed_pieces
@@ -34,7 +33,6 @@ from thermodata.draft.folder.table import TestTable, closed_workbooks, find_tabl
 from thermodata.draft.probes.jumps import JumpTest, jump_of
 from thermodata.draft.probes.same_probe import names_in_tests, with_their_probes
 from thermodata.draft.probes.twin_probes import each_its_own
-from thermodata.draft.times.block_windows import window_question
 from thermodata.draft.times.clocks import (
     Alignment,
     Named,
@@ -48,7 +46,6 @@ from thermodata.draft.times.date_order import with_orders_told
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.named_days import over_midnight
 from thermodata.draft.times.zones import zone_as_before, zone_question
-from thermodata.draft.words.roles import said_by_list
 from thermodata.schema.words.sentences import counted
 
 
@@ -89,7 +86,7 @@ def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> D
         tuple(every_source),
         tuple(of_groups.channels),
         tuple(jumps_drafted),
-        tuple(_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t)) for t in ids),
+        tuple(drafted_test(t, groups, table, named, warm.get(t), versions.get(t), notes.get(t)) for t in ids),
         table,
         left_out,
         found.damaged,
@@ -237,50 +234,6 @@ def _short(jump: JumpTest, files: Sequence[RawFile]) -> bool:
     spans = sorted((f.sample.last_ns or 0) - (f.sample.first_ns or 0) for f in files if f is not jump.file)
     own = (jump.file.sample.last_ns or 0) - (jump.file.sample.first_ns or 0)
     return bool(spans) and own * 3 < spans[len(spans) // 2]
-
-
-def _test(
-    test: str,
-    groups: Sequence[Group],
-    table: TestTable | None,
-    named: Mapping[int, Named],
-    warm: str | None,
-    version: RawFile | None,
-    note: Note | None,
-) -> DraftTest:
-    files = [f for g in groups for f in g.tests.get(test, ())]
-    listed = table.rows.get(test, {}) if table else {}
-    kind = kind_of(test, files, listed)
-    asked = [f"another version of {version.path}? it has the same minutes"] if version is not None else []
-    conditions, doubts = dict(kind.conditions), [*kind.doubts, *([warm] if warm else []), *asked]
-    if (role := said_by_list(listed)) is not None:
-        kind = replace(kind, role_hint=role[0], role_by=f"the table's '{role[1]}'")
-    for key, value in listed.items():
-        if key in conditions and conditions[key].split()[0] != value.split()[0]:
-            doubts.append(f"{key}: the name says {conditions[key]}, the table {value}")
-            continue
-        conditions[key] = value
-    if note is not None:
-        kind, more = with_note(kind, conditions, note)
-        doubts += more
-    own = {g.source: files_of(g, test) for g in groups if g.template is None and test in g.tests}
-    window = next((f.block.window for f in files if f.block is not None), None)
-    if window is not None and len(files) > 1:
-        doubts.append(window_question(files))
-    return DraftTest(test, kind, conditions, own, tuple(doubts), rule_of(files, named), window)
-
-
-def with_note(kind: Kind, conditions: dict[str, str], note: Note) -> tuple[Kind, list[str]]:
-    """(the kind with what a note says of its test in its comment, doubts); the conditions get those that they lack."""
-    told, doubts = list[str](), list[str]()
-    for key, value in note.conditions.items():
-        if key not in conditions:
-            conditions[key] = value
-            told.append(key)
-        elif conditions[key].split()[0].casefold() != value.split()[0].casefold():
-            doubts.append(f"{key}: {note.file} says {value}, and {conditions[key]} is taken")
-    comments = [f"{', '.join(told)} guess: {note.file}" if told else "", note.comment()]
-    return replace(kind, comment="; ".join(filter(None, (kind.comment, *comments)))), doubts
 
 
 def _questions(
