@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -22,7 +23,7 @@ from thermodata.modelling.versions.result import make_result
 from thermodata.report.collected.spots import weak_spots_of
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
-from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.schema.files.model import EffectSpec, Model, Response
 from thermodata.view.grid.dataset import ChannelInfo, Dataset
 
 from .conftest import CHANNELS, STEP_S, base, make_data
@@ -229,16 +230,21 @@ def test_a_slipped_probe_is_an_artefact_and_does_not_hide_the_effect(spec: Model
     assert again.named_rmse_um == pytest.approx(found.named_rmse_um, rel=0.1)
 
 
-def test_what_is_asked_of_has_its_effects_as_they_are_beside_a_slip(spec: Model) -> None:
-    """A probe that is knocked by more than the effects do bends them all in the fit of the model, as `add` makes it."""
+def knocked(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
+    return -40.0 * (t >= 90 * STEP_S)
 
-    def knocked(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
-        return -40.0 * (t >= 90 * STEP_S)
 
-    data = make_data()
+def with_a_knock(add: Callable[[dict[str, Any], np.ndarray], np.ndarray] | None = None) -> Dataset:
+    """A probe that is knocked in one test, by more than the effects do."""
+    data = make_data(add)
     tests = list(data.tests)
-    tests[2] = make_data(knocked).tests[2]
-    broken = replace(data, tests=tuple(tests))
+    tests[2] = make_data(lambda channels, t: knocked(channels, t) + (0.0 if add is None else add(channels, t))).tests[2]
+    return replace(data, tests=tuple(tests))
+
+
+def test_what_is_asked_of_has_its_effects_as_they_are_beside_a_slip(spec: Model) -> None:
+    """A knock bends them all in the fit of the model, as `add` makes it."""
+    data, broken = make_data(), with_a_knock()
     plain, whole = (fit_model(spec, some, uncertainty=False) for some in (broken, data))
     found = sound(plain, 0, broken, broken.tests[:-1], effects())
     asked = beside_slips(found, 0)
@@ -248,9 +254,41 @@ def test_what_is_asked_of_has_its_effects_as_they_are_beside_a_slip(spec: Model)
 
     assert abs(gain(found.fitted) / gain(whole) - 1) > 0.1, "the slip bends the fit"
     assert gain(asked.fitted) == pytest.approx(gain(whole), rel=0.03)
-    assert [t.id for t in asked.fitted.responses[0].terms] == ["spindle_bearing"]
-    level = asked.fitted.responses[0].residual(tests[2])
+    level = asked.fitted.responses[0].residual(broken.tests[2])
     assert np.nanmedian(level[-20:]) - np.nanmedian(level[:20]) == pytest.approx(-40.0, abs=2.0), "the slip is left"
+    assert beside_slips(sound(whole, 0, data, data.tests[:-1], effects()), 0).level is None
+
+
+def test_a_knock_is_in_no_error_that_is_told_and_makes_no_parameter_wrong(spec: Model) -> None:
+    """The error with what is named is that which the next version's own answer tells of it, beside the knock, too."""
+    data = with_a_knock(of_nut)
+    found = diagnosis(data, spec)
+    assert [c.effect for c in found.candidates if c.claimed] == ["feed_screw"]
+    more = [*spec.effects, EffectSpec(effect="feed_screw", drivers={"temperature": "T_nut_X"})]
+    following = diagnosis(data, spec.model_copy(update={"effects": more}))
+    assert found.named_rmse_um == pytest.approx(following.rmse_um, rel=0.05)
+    assert found.named_rmse_um is not None
+    assert found.named_rmse_um < 0.5
+    assert {a.kind for a in [*found.artefacts, *following.artefacts]} == {"step"}
+
+
+def test_a_knock_of_one_of_several_places_is_answered(spec: Model) -> None:
+    """Whose time constants are shared: no effect of one response alone can stand in such a model."""
+    broken, other = with_a_knock(), ChannelInfo("dZ2", "displacement", "um", at="table", axis="Z")
+    channels = {**CHANNELS, "dZ2": other}
+    rng = np.random.default_rng(5)
+    whole = make_data()
+    tests = []
+    for test, sane in zip(broken.tests, whole.tests, strict=True):
+        values = {**test.values, "dZ2": 0.6 * sane.values["dZ"] + rng.normal(0, 0.1, len(test.t_s))}
+        valid = {name: np.ones(len(test.t_s), dtype=np.bool_) for name in values}
+        tests.append(replace(test, values=values, valid=valid, channels=channels))
+    data = Dataset(STEP_S, tuple(tests), channels)
+    places = [Response(axis="Z", at="tcp"), Response(axis="Z", at="table")]
+    shared = [one.model_copy(update={"gain_by": "place"}) for one in spec.effects]
+    model = fit_model(spec.model_copy(update={"response": places, "effects": shared}), data, uncertainty=False)
+    found = answer(model, data, effects(), "m", name="dZ").diagnosis
+    assert (found.verdict, [a.kind for a in found.artefacts]) == ("none", ["step"])
 
 
 def test_where_a_model_fails_is_by_its_own_parameters_as_in_every_other_command(spec: Model) -> None:

@@ -26,8 +26,11 @@ def share(of: float) -> Float1D:
     return np.sqrt(of) * WAVE + np.sqrt(1 - of) * OTHER
 
 
-def said(does: Float1D, rests: tuple[float, ...] = (), families: str = "ambient", **of: Any) -> str | None:
-    """rests: how far the temperature moves in tests in which the axis stands; it moves by 1 in two others."""
+def said(
+    does: Float1D, rests: tuple[float, ...] = (), families: str = "ambient", lacks: int | None = None, **of: Any
+) -> str | None:
+    """rests: how far the temperature moves in tests in which the axis stands; it moves by 1 in two others. lacks: the
+    test in which it is not logged."""
     parts = [
         Parts(
             100.0 * WAVE,
@@ -38,8 +41,12 @@ def said(does: Float1D, rests: tuple[float, ...] = (), families: str = "ambient"
         )
         for far, speed in [(1.0, 5.0), (1.0, 4.0), *((far, 0.0) for far in rests)]
     ]
+    doing = [does] * len(parts)
+    if lacks is not None:
+        parts[lacks] = replace(parts[lacks], values={"v_Z": parts[lacks].values["v_Z"]}, channels={"v_Z": FEED})
+        doing[lacks] = 0.0 * does
     asked = Refinement(model(*families.split()), problem(*parts), NOISE)
-    plain = {"family": "feed_z", "contribution": [does] * len(parts), "after": 0.5, "size": 1.0}
+    plain = {"family": "feed_z", "contribution": doing, "after": 0.5, "size": 1.0}
     return asked(scored(**{**plain, **of}))
 
 
@@ -77,6 +84,12 @@ def test_half_suffices_of_a_part_that_moves_half_as_far_at_rest(
 ) -> None:
     """By the median of tests; where the axis moves in all of them nobody can tell."""
     assert said(share(of), rests) == expected
+
+
+@pytest.mark.parametrize("lacks", [0, 1])
+def test_a_test_that_lacks_its_channel_says_nothing_of_what_it_follows(lacks: int) -> None:
+    assert said(share(0.9), lacks=lacks) == MODE
+    assert said(share(0.7), lacks=lacks) is None
 
 
 def test_what_moves_at_its_part_is_told_by_the_place() -> None:

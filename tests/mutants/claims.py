@@ -755,6 +755,23 @@ MUTANTS = [
         "turned.py", "_foretold(problem, lags)\n", "_foretold(problem, [])\n", "a missing effect hides a turned probe"
     ),
     Mutant(
+        "thermodata/diagnosis/verdict/investigate.py",
+        "if selection is not None and not steps:",
+        "if selection is not None:",
+        "a slip makes parameters wrong",
+        ("tests/diagnosis/test_answer.py",),
+    ),
+    Mutant(
+        "thermodata/diagnosis/answer.py",
+        "as_told = refit if beside.level is None else",
+        "as_told = refit if True else",
+        "a slip is in the error with what is named",
+        ("tests/diagnosis/test_answer.py",),
+    ),
+    diagnosis(
+        "refinement.py", "if not does[rows].any():", "if False:", "a test without the channel hides what it follows"
+    ),
+    Mutant(
         "thermodata/diagnosis/sound.py",
         "    if not steps:\n",
         "    if steps or not steps:\n",

@@ -161,7 +161,9 @@ def _answer(
 
     judgement = told_by_versions(judgement, fits.of, usable)
 
-    version = left_with_named(investigation, judgement, refit, data, usable)
+    # errors on left-out tests are told beside the slips, with what is named and without
+    as_told = refit if beside.level is None else Fits(fitted.spec, index, beside.level, usable, (), beside.fitted).of
+    version = left_with_named(investigation, judgement, as_told, data, usable)
     investigation = told_alike(investigation, judgement, version)
     terms = [t.id for t in refitted.responses[index].terms]
     found = _diagnosis(investigation, judgement, confirmation, data, model_id, terms, on_locked=on_locked)

@@ -24,7 +24,7 @@ from thermodata.diagnosis.question.problem import TARGET_ROWS, Problem
 from thermodata.diagnosis.sensors.turned import turned_probes
 from thermodata.diagnosis.steps import repeating
 from thermodata.diagnosis.steps.artefact import find_steps
-from thermodata.diagnosis.steps.fitted_beside import fitted_beside
+from thermodata.diagnosis.steps.fitted_beside import fitted_beside, levelled
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -37,7 +37,8 @@ from thermodata.view.grid.dataset import Dataset, TestData
 class Sound:
     """spec, fitted: the model, calibrated on `tests`. data: clocks that are off moved. tests: open, and sound. faults:
     as they are told. put_right: what was mended or left out. fine: the response in as many samples as there are, where
-    it was asked so already. means: what candidates do in the tests (`basis.sharing`)."""
+    it was asked so already. means: what candidates do in the tests (`basis.sharing`). level: the data without the slips
+    of the response; None where it has none."""
 
     spec: Model
     fitted: FittedModel
@@ -47,6 +48,7 @@ class Sound:
     put_right: PutRight = field(default_factory=PutRight)
     fine: Problem | None = None
     means: Means = field(default_factory=dict, repr=False)
+    level: Dataset | None = None
 
 
 def beside_slips(found: Sound, index: int) -> Sound:
@@ -59,7 +61,8 @@ def beside_slips(found: Sound, index: int) -> Sound:
     steps = repeating.single(find_steps(fine))
     if not steps:
         return replace(found, fine=fine)
-    return replace(found, fitted=fitted_beside(steps, found.fitted, found.spec, index, found.data), fine=None)
+    level = levelled(steps, response.bound, found.data)
+    return replace(found, fitted=fitted_beside(level, found.fitted, found.spec, index), fine=None, level=level)
 
 
 def told(put_right: PutRight) -> PutRight | None:

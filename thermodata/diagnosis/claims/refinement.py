@@ -187,10 +187,10 @@ class Refinement:
     def _air_that_warms_it(self, scored: Scored) -> str | None:
         """The effect of the air that a single temperature follows. The air warms all that stands in it, each body in
         its own time, so that one of them has just the time that the effect of the air lacks."""
-        channels, test = scored.candidate.channels, self.problem.blocks[0].test
+        channels = scored.candidate.channels
         if sharpness(scored) >= EVIDENT or scored.candidate.family == AIR:
             return None
-        if len(channels) != 1 or not is_warm(test, channels[0]):
+        if len(channels) != 1 or not self._is_warm(channels[0]):
             return None
         for number, term in enumerate(self.fitted.terms):
             if term.family != AIR:
@@ -201,21 +201,29 @@ class Refinement:
                 return term.id
         return None
 
+    def _is_warm(self, name: str) -> bool:
+        """Whether it is a temperature, in whichever tests it is logged."""
+        return any(is_warm(test, name) for test in self.tests)
+
     def _share_by(self, scored: Scored, term: int) -> float:
         """How much of the square of what a candidate does the columns of a known effect make, one gain each."""
         does, own, theirs = scored.columns.does(scored.weighed), [], []
         for block, rows in zip(self.problem.blocks, self.problem.parts, strict=True):
+            if not does[rows].any():  # where its channel is not logged nothing is known of it
+                continue
             known_to_act = [
                 c[:, : len(o)][:, o == term] for c, o in zip((block.base, block.slack), self.owners, strict=True)
             ]
             columns = np.column_stack(known_to_act)
             own.append(does[rows] - does[rows].mean())
             theirs.append(columns - columns.mean(axis=0))
+        if not own:
+            return 0.0
         y, x = np.concatenate(own), np.concatenate(theirs)
         size = np.linalg.norm(x, axis=0)
         x = x[:, size > 0] / size[size > 0]
         left = y - x @ np.linalg.lstsq(x, y, rcond=ALONE)[0]
-        return 1.0 - float(left @ left) / float(y @ y) if y.any() else 0.0
+        return 1.0 - float(left @ left) / float(y @ y)
 
     def _does(self, block: Block, term: int) -> Float1D:
         gains = len(self.fitted.terms[term].effect.gains)
@@ -230,7 +238,7 @@ class Refinement:
         channels = scored.candidate.channels
         if self.fitted.terms[term].family == AIR or not _surrounds(scored.candidate):
             return None
-        if len(channels) != 1 or not is_warm(self.problem.blocks[0].test, channels[0]):
+        if len(channels) != 1 or not self._is_warm(channels[0]):
             return None
         if acting_size(scored) >= SMALL * self._size(term):
             return None

@@ -7,29 +7,31 @@ from dataclasses import replace
 
 from thermodata.diagnosis.steps.step import Step
 from thermodata.modelling.fit.model import fit_model
-from thermodata.modelling.model_file.resolve import term_ids
+from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.view.grid.dataset import Dataset
+from thermodata.schema.files.model import Model
+from thermodata.view.grid.dataset import Dataset, TestData
 
 
-def fitted_beside(steps: Sequence[Step], fitted: FittedModel, spec: Model, index: int, data: Dataset) -> FittedModel:
-    """The same effects, of the response at `index`, as they are beside the steps; these stay in its residual.
+def levelled(steps: Sequence[Step], response: BoundResponse, data: Dataset) -> Dataset:
+    """With the steps taken out of the response, each by the size that it was found with: one of a free size would take
+    what a missing effect does after it."""
 
-    spec: calibrated on the tests that are asked of. Each step is held at its time and size: one of a free size takes
-    what a missing effect does after it.
+    def without(test: TestData) -> TestData:
+        own = [s for s in steps if s.test.key == test.key]
+        if not own:
+            return test
+        name = response.channel_of(test)
+        jumps = sum(s.size * (test.t_s >= s.at_s) for s in own)
+        return replace(test, values={**test.values, name: test.values[name] - jumps})
+
+    return replace(data, tests=tuple(map(without, data.tests)))
+
+
+def fitted_beside(level: Dataset, fitted: FittedModel, spec: Model, index: int) -> FittedModel:
+    """The same effects, of the response at `index`, as they are beside its steps.
+
+    spec: calibrated on the tests that are asked of. level: these without the steps, which stay in what is asked.
     """
-    slips = [
-        EffectSpec(
-            effect="step",
-            tests=["/".join(step.test.key)],
-            acts_on=[spec.responses[index]],
-            fixed={"at": step.at_s / 60.0, "gain": step.size},
-        )
-        for step in steps
-    ]
-    found = fit_model(spec.model_copy(update={"effects": [*spec.effects, *slips]}), data, uncertainty=False)
-    own = set(term_ids(spec.effects))
-    asked = found.responses[index]
-    beside = replace(fitted.responses[index], terms=tuple(t for t in asked.terms if t.id in own))
-    return replace(fitted, responses=(*fitted.responses[:index], beside, *fitted.responses[index + 1 :]))
+    found = fit_model(spec, level, uncertainty=False).responses[index]
+    return replace(fitted, responses=(*fitted.responses[:index], found, *fitted.responses[index + 1 :]))

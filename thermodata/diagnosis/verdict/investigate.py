@@ -138,7 +138,7 @@ def investigate(
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     at_floor = selection is not None and selection.left <= measure.floor
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
-    if selection is not None:
+    if selection is not None and not steps:  # a slip is in the fit of the model, and in its error
         faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
     of_steps = as_artefacts(steps, info.unit, found)
     of_steps += repeating.as_artefacts(repeating.repeating(found), info.unit)

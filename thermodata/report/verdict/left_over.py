@@ -74,6 +74,12 @@ def otherwise(found: Diagnosis) -> str:
     if other < OTHERWISE * left or other <= NOISY * (found.noise_um or 0.0):
         return of_levels(found)
     instead = may_act_instead(found)
+    if any(a.kind == "step" and a.size_um is not None for a in found.artefacts):
+        return (
+            f"; that is beside the steps of the probe: as it is fitted the model leaves {number(fitted)} um on the "
+            f"open tests{AS_SCORED}, for its fit has these steps: write the lines that the artefacts give"
+            f"{of_levels(found)}"
+        )
     return (
         f"; that is with its effects free to act otherwise than by one lag each: as it is fitted the model leaves "
         f"{number(fitted)} um on the open tests{AS_SCORED}, so fit it "
