@@ -27,11 +27,14 @@ ORDINARY = {"one": 13, "two": 4, "none": 3, "not_logged": 2, "outside": 1, "faul
 KINDS = {  # of a block of cases of each make
     "heavy_lathe": ORDINARY,
     "horizontal_centre": ORDINARY,
+    "long_lathe": {"one": 10, "two": 2, "half": 2, "none": 3, "not_logged": 1},
     "small_mill": ORDINARY,
     "spindle_mill": ORDINARY,
     "trunnion_mill": ORDINARY | {"one": 14, "three": 1},
 }
 MAKES = tuple(KINDS)
+WEAK = {"long_lathe": 2}  # of a block, where not 4
+SMALL = {"REST": 20, "COUNT": (8, 9), "LENGTH": (20, 25)}  # steps before a test, tests, minutes of one
 
 
 def shortened(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
@@ -42,8 +45,8 @@ def shortened(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     else:
         monkeypatch.setattr(programme, "HOURS", dict.fromkeys(programme.HOURS, (0.2, 0.3)))
     for part in (programme, machine):
-        if hasattr(part, "REST"):
-            monkeypatch.setattr(part, "REST", 20)
+        for setting in SMALL.keys() & vars(part).keys():
+            monkeypatch.setattr(part, setting, SMALL[setting])
 
 
 def written(monkeypatch: pytest.MonkeyPatch, name: str, folder: Path, case: int) -> dict[str, Any]:
@@ -90,8 +93,8 @@ def test_a_make_writes_a_campaign_of_what_its_logs_hold_and_right_names_of_its_c
 def test_the_cases_of_a_block_have_each_kind_as_often(name: str, block: int) -> None:
     drawn = plans(name, block)
     assert Counter(plan.kind for plan in drawn) == KINDS[name]
-    assert [plan.kind for plan in drawn if plan.weak] == ["one"] * 4
-    number = {"one": 1, "two": 2, "three": 3, "not_logged": 1}
+    assert [plan.kind for plan in drawn if plan.weak] == ["one"] * WEAK.get(name, 4)
+    number = {"one": 1, "half": 1, "two": 2, "three": 3, "not_logged": 1}
     assert all(len(set(plan.hidden)) == number.get(plan.kind, 0) for plan in drawn)
 
 
@@ -116,6 +119,14 @@ def test_on_the_spindle_mill_a_hidden_cause_moves_the_tool_along_the_axis_that_i
     causes = import_module(f"{HERE}.spindle_mill.causes").CAUSES
     for plan in (plan for block in range(3) for plan in plans("spindle_mill", block)):
         assert all(plan.axis in causes[k].mix for k in plan.hidden)
+
+
+def test_what_acts_in_half_of_the_tests_of_the_long_lathe_rests_in_the_others() -> None:
+    programme = import_module(f"{HERE}.long_lathe.programme")
+    for hidden in (plan.hidden for block in range(7) for plan in plans("long_lathe", block) if plan.kind == "half"):
+        runs = programme.campaign(np.random.default_rng(1), hidden, True)
+        driven = {programme.DRIVEN_BY[k] for k in hidden}
+        assert not any(r.inputs[name].any() for r in runs[1::2] for name in driven)
 
 
 def test_a_fault_begins_where_it_is_told() -> None:
