@@ -6,7 +6,7 @@
 A make is a package of `makes/`: a machine with its laboratory, written by somebody who had not read the diagnosis.
 `write(folder, case)` writes campaign.yaml, model.yaml and raw logs, and answers the truth:
 
-    kind    one, two, three, none, not_logged, outside or fault
+    kind    one, half (one that acts in half of the tests), two, three, none, not_logged, outside or fault
     hidden  [{cause, um, right: [candidate ids], twins: [ids of other readings of its part or its heat]}]
     fault   what is wrong with the logs, or null
 
@@ -202,11 +202,12 @@ def outcome(row: Mapping[str, Any]) -> str:
     return next((mark for mark in ("wrong", "right", "twin") if mark in said), "silent").replace("right", "some")
 
 
+ONE = ("one", "half")
 SORTS: Mapping[str, Callable[[Mapping[str, Any]], bool]] = {
-    "one, worth 30 %": lambda r: r["kind"] == "one" and r["worth"] is not None and r["worth"] >= 0.3,
-    "one, worth 10 to 30 %": lambda r: r["kind"] == "one" and r["worth"] is not None and 0.1 <= r["worth"] < 0.3,
-    "one, worth less": lambda r: r["kind"] == "one" and r["worth"] is not None and r["worth"] < 0.1,
-    "one, worth not known": lambda r: r["kind"] == "one" and r["worth"] is None,
+    "one, worth 30 %": lambda r: r["kind"] in ONE and r["worth"] is not None and r["worth"] >= 0.3,
+    "one, worth 10 to 30 %": lambda r: r["kind"] in ONE and r["worth"] is not None and 0.1 <= r["worth"] < 0.3,
+    "one, worth less": lambda r: r["kind"] in ONE and r["worth"] is not None and r["worth"] < 0.1,
+    "one, worth not known": lambda r: r["kind"] in ONE and r["worth"] is None,
     "two or three": lambda r: r["kind"] in ("two", "three"),
     "nothing hidden": lambda r: r["kind"] == "none",
     "not logged, outside": lambda r: r["kind"] in ("not_logged", "outside"),

@@ -23,7 +23,18 @@ from ..benchmarks.makes.faults import come_loose, slipped
 from ..benchmarks.makes.truth import Plan, channels
 
 HERE = "tests.benchmarks.makes"
-MAKES = ("heavy_lathe", "horizontal_centre", "small_mill", "spindle_mill")
+ORDINARY = {"one": 13, "two": 4, "none": 3, "not_logged": 2, "outside": 1, "fault": 1}
+KINDS = {  # of a block of cases of each make
+    "heavy_lathe": ORDINARY,
+    "horizontal_centre": ORDINARY,
+    "long_lathe": {"one": 10, "two": 2, "half": 2, "none": 3, "not_logged": 1},
+    "small_mill": ORDINARY,
+    "spindle_mill": ORDINARY,
+    "trunnion_mill": ORDINARY | {"one": 14, "three": 1},
+}
+MAKES = tuple(KINDS)
+WEAK = {"long_lathe": 2}  # of a block, where not 4
+SMALL = {"REST": 20, "COUNT": (8, 9), "LENGTH": (20, 25)}  # steps before a test, tests, minutes of one
 
 
 def shortened(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
@@ -34,8 +45,8 @@ def shortened(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     else:
         monkeypatch.setattr(programme, "HOURS", dict.fromkeys(programme.HOURS, (0.2, 0.3)))
     for part in (programme, machine):
-        if hasattr(part, "REST"):
-            monkeypatch.setattr(part, "REST", 20)
+        for setting in SMALL.keys() & vars(part).keys():
+            monkeypatch.setattr(part, setting, SMALL[setting])
 
 
 def written(monkeypatch: pytest.MonkeyPatch, name: str, folder: Path, case: int) -> dict[str, Any]:
@@ -46,9 +57,9 @@ def written(monkeypatch: pytest.MonkeyPatch, name: str, folder: Path, case: int)
 
 
 def plans(name: str, block: int) -> list[Plan]:
-    """What the 24 cases of a block hide."""
-    causes = import_module(f"{HERE}.{name}.causes")
-    return [causes.plan(24 * block + k, np.random.default_rng(k)) for k in range(24)]
+    """What the cases of a block hide."""
+    causes, size = import_module(f"{HERE}.{name}.causes"), sum(KINDS[name].values())
+    return [causes.plan(size * block + k, np.random.default_rng(k)) for k in range(size)]
 
 
 @pytest.mark.parametrize("name", MAKES)
@@ -60,7 +71,7 @@ def test_a_make_writes_a_campaign_of_what_its_logs_hold_and_right_names_of_its_c
     campaign, model = load_campaign(tmp_path / "campaign.yaml"), load_model(tmp_path / "model.yaml")
     assert model.campaign == campaign.id
     logged = set(campaign.channels)
-    assert set(truth["logged"]) < logged
+    assert set(truth.get("logged", ())) < logged
     assert {channel for effect in model.effects for channel in effect.drivers.values()} <= logged
     for log, source in campaign.sources.items():
         files = [tmp_path / source.files.format(test=test.id) for test in campaign.tests]
@@ -79,12 +90,11 @@ def test_a_make_writes_a_campaign_of_what_its_logs_hold_and_right_names_of_its_c
 
 @pytest.mark.parametrize("block", [0, 1])
 @pytest.mark.parametrize("name", MAKES)
-def test_24_cases_in_a_row_have_each_kind_as_often(name: str, block: int) -> None:
+def test_the_cases_of_a_block_have_each_kind_as_often(name: str, block: int) -> None:
     drawn = plans(name, block)
-    counted = Counter(plan.kind for plan in drawn)
-    assert counted == {"one": 13, "two": 4, "none": 3, "not_logged": 2, "outside": 1, "fault": 1}
-    assert [plan.kind for plan in drawn if plan.weak] == ["one"] * 4
-    number = {"one": 1, "two": 2, "not_logged": 1}
+    assert Counter(plan.kind for plan in drawn) == KINDS[name]
+    assert [plan.kind for plan in drawn if plan.weak] == ["one"] * WEAK.get(name, 4)
+    number = {"one": 1, "half": 1, "two": 2, "three": 3, "not_logged": 1}
     assert all(len(set(plan.hidden)) == number.get(plan.kind, 0) for plan in drawn)
 
 
@@ -109,6 +119,14 @@ def test_on_the_spindle_mill_a_hidden_cause_moves_the_tool_along_the_axis_that_i
     causes = import_module(f"{HERE}.spindle_mill.causes").CAUSES
     for plan in (plan for block in range(3) for plan in plans("spindle_mill", block)):
         assert all(plan.axis in causes[k].mix for k in plan.hidden)
+
+
+def test_what_acts_in_half_of_the_tests_of_the_long_lathe_rests_in_the_others() -> None:
+    programme = import_module(f"{HERE}.long_lathe.programme")
+    for hidden in (plan.hidden for block in range(7) for plan in plans("long_lathe", block) if plan.kind == "half"):
+        runs = programme.campaign(np.random.default_rng(1), hidden, True)
+        driven = {programme.DRIVEN_BY[k] for k in hidden}
+        assert not any(r.inputs[name].any() for r in runs[1::2] for name in driven)
 
 
 def test_a_fault_begins_where_it_is_told() -> None:

@@ -46,6 +46,7 @@ class Form:
     mark: str
     time: str
     cut: int = 0
+    encoding: str = "cp1250"
 
 
 GERMAN = Form(";", ",", "%d.%m.%Y %H:%M:%S")
@@ -66,7 +67,7 @@ def csv(
         for t, values in zip(times, zip(*columns, strict=True), strict=True)
     )
     lines = map(form.separator.join, [*heads, *rows])
-    path.write_text("\n".join(lines) + "\n", encoding="cp1250")
+    path.write_text("\n".join(lines) + "\n", encoding=form.encoding)
 
 
 def workbook(path: Path, sheet: str, head: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
