@@ -154,7 +154,7 @@ def _same_words(one: str, other: str) -> bool:
 
 
 def _is_slip(one: str, other: str) -> bool:
-    return one == other or (not one.isdecimal() and bool(get_close_matches(one, [other], cutoff=0.7)))
+    return one == other or (not one.isdecimal() and bool(get_close_matches(one, [other], cutoff=0.66)))
 
 
 def unknown_channel(word: str, choices: Sequence[str], **more: str) -> UsageError:

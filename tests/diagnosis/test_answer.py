@@ -261,7 +261,13 @@ def test_what_is_asked_of_has_its_effects_as_they_are_beside_a_slip(spec: Model)
 
 def test_a_knock_is_in_no_error_that_is_told_and_makes_no_parameter_wrong(spec: Model) -> None:
     """The error with what is named is that which the next version's own answer tells of it, beside the knock, too."""
-    data = with_a_knock(of_nut)
+
+    def drifting(channels: dict[str, Any], t: np.ndarray) -> np.ndarray:
+        return of_nut(channels, t) + lag(2.0 * (channels["T_hall"] - channels["T_hall"][0]), 9000, STEP_S)
+
+    data = with_a_knock(drifting)
+    air = EffectSpec(effect="ambient_frame", drivers={"temperature": "T_hall"})
+    spec = spec.model_copy(update={"effects": [*spec.effects, air]})
     found = diagnosis(data, spec)
     assert [c.effect for c in found.candidates if c.claimed] == ["feed_screw"]
     more = [*spec.effects, EffectSpec(effect="feed_screw", drivers={"temperature": "T_nut_X"})]
