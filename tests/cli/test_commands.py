@@ -209,3 +209,5 @@ def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp
     assert said.code == 2
     assert f"name it '{tmp_path / 'both_{test}.csv'}'" in said.err
     assert "no test 'heat9'" in say(*words, "heat1", "heat9", out, "--force").err
+    assert say(*words, "heat1", "heat1", tmp_path / "once.csv").code == 0, "named twice it is one test"
+    assert "try: thermodata export small heat1 heat1.csv" in say(*words, "heat1").err

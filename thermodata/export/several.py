@@ -23,8 +23,16 @@ def paths_of(view: StoreView, campaign: str, tests: Sequence[str], out: Path) ->
     for test in tests:
         check_test(view, campaign, test)
     if _PLACE not in str(out):
-        if len(tests) == 1:
-            return {tests[0]: out}
+        if tests and len(named) == 1:
+            return {named[0]: out}
+        if not tests and not out.suffix:
+            raise UsageError(
+                "no file to write to",
+                where="OUT",
+                expected="the name of a file behind the tests, .csv, .xlsx, .mat, .mf4 or .parquet",
+                got=str(out),
+                hint=f"thermodata export {campaign} {out.name} {out.name}.csv",
+            )
         raise UsageError(
             "several tests are a file each",
             where=str(out),

@@ -37,12 +37,13 @@ def lookup_macros(catalogue: Catalogue, tests: Mapping[str, Iterable[str]]) -> I
             f"create macro {quoted('known_' + suffix)}(test) as case when list_contains("
             f"{file_list(names)}::varchar[], cast(test as varchar)) then sql_text(test) else {refusal} end"
         )
-        # a list reaches the text as its text
+        # a list reaches the text as its text; a test that stands in it twice is one test
         every = file_list(names)
+        of_list = "list_transform(cast(cast(test as varchar) as varchar[]), lambda one: coalesce(one, 'NULL'))"
         yield (
             f"create macro {quoted('named_' + suffix)}(test) as case when test is null then {every}::varchar[] "
             f"when list_contains({every}::varchar[], cast(test as varchar)) then [cast(test as varchar)] "
-            "else cast(cast(test as varchar) as varchar[]) end"
+            f"else list_sort(list_distinct({of_list})) end"
         )
 
 
