@@ -156,6 +156,7 @@ class TestAnswer:
 
         refitted: Any = SimpleNamespace(responses=[response])
         monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
+        monkeypatch.setattr(answering, "beside_slips", lambda found, _: found)
         without = replace(found, judgement=nothing("unknown"))
         monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
         monkeypatch.setattr(answering, "confirm", confirm)
