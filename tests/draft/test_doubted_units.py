@@ -84,6 +84,29 @@ def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
     assert asked in said if asked else "unit:" not in said
 
 
+@pytest.mark.parametrize(
+    ("name", "unit", "low", "high", "asked"),
+    [
+        ("spindle_load_ratio", None, 20.0, 41.0, 'unit: pu, or "%"? it goes up to 41'),
+        ("Spindle Load (p.u.)", None, 0.0, 80.0, 'unit: p.u., or "%"? it goes up to 80'),
+        ("Load fraction", None, 0.0, 100.0, 'unit: pu, or "%"? it goes up to 100'),
+        ("rel_humidity_frac", None, 30.0, 60.0, 'unit: pu, or "%"? it goes up to 60'),
+        ("humidity.pu", None, 30.0, 60.0, 'unit: pu, or "%"? it goes up to 60'),
+        ("Spindle Load", "pu", -80.0, 10.0, 'unit: pu, or "%"? it goes up to 80'),
+        ("spindle_load_ratio", None, 0.0, 2.51, 'unit: pu, or "%"? it goes up to 2.51'),
+        ("spindle_load_ratio", None, 0.0, 2.5, ""),
+        ("humidity.pu", None, 0.3, 0.6, ""),
+        ("Spindle Load", "%", 0.0, 80.0, ""),
+    ],
+)
+def test_a_share_of_one_that_goes_far_beyond_it_is_asked(
+    name: str, unit: str | None, low: float, high: float, asked: str
+) -> None:
+    said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200)))
+    assert [q for q in said.questions if q.startswith("unit")] == ([asked] if asked else [])
+    assert not (asked and said.sure)
+
+
 @pytest.mark.parametrize("name", ["T_furnace", "Ofentemperatur", "Abgas 1", "exhaust/T3", "kiln", "T hot gas"])
 @pytest.mark.parametrize(("low", "high"), [(600.0, 1200.0), (330.0, 390.0), (20.0, 900.0), (400.0, 700.0)])
 def test_what_burns_may_be_hot(name: str, low: float, high: float) -> None:

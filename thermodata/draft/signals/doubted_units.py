@@ -33,6 +33,8 @@ _MOST = {
     "rotational_speed": (250_000.0, "rpm", "rpm"),
     "feed": (500.0, "m/min", "mm/min"),
 }
+MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
+SHARED = ("load", "humidity")
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -66,7 +68,10 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
     if found.unit is None or values.n == 0:
         return found
     asked = None
-    if found.quantity in _MOST:
+    if found.quantity in SHARED and normal_unit(found.unit) == "per_unit":
+        top = max(-values.low, values.high)
+        asked = f'unit: {found.unit}, or "%"? it goes up to {top:.3g}' if top > MOST_OF_ONE else None
+    elif found.quantity in _MOST:
         most, unit, others = _MOST[found.quantity]
         top = max(-values.low, values.high) * units.factor_to(found.unit, unit)
         if top > most:
