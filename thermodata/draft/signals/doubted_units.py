@@ -35,6 +35,8 @@ _MOST = {
 }
 MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 SHARED = ("load", "humidity")
+_INCHES_MM = (25.4, 304.8)  # an inch, and a foot
+_FURTHEST_MM = 5000.0  # an axis of a machine that is told in these travels less
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -77,6 +79,9 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
         if top > most:
             other = "" if normal_unit(found.unit) == normal_unit(others) else f", or {others}"
             asked = f"unit: {found.unit}{other}? it goes up to {top:.3g} {unit}, and no machine tool's does"
+    elif found.quantity == "position" and (mm := round(units.factor_to(found.unit, "mm"), 6)) in _INCHES_MM:
+        top = max(-values.low, values.high) * mm
+        asked = f"unit: {found.unit}, or mm? it goes up to {top / 1000:.3g} m" if top > _FURTHEST_MM else None
     elif found.quantity == "displacement":
         span = (values.high - values.low) * units.factor_to(found.unit, "um")
         if span > _FURTHEST_UM:

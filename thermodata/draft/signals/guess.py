@@ -15,7 +15,7 @@ from thermodata.draft.signals.doubted_units import MOST_OF_ONE, SHARED, doubted,
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
-from thermodata.draft.signals.unit_at_end import beside, strange
+from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
@@ -146,9 +146,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(placed(_unit(found, text, unit, written, values), own, text), own, values)
-    if not unit and units.may_be_an_inlet(_last(name)):
-        asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
-        found = replace(found, sure=False, questions=(*found.questions, asked))
+    inch = next(filter(None, (inch_asked(e, found.quantity) for e in (_last(name), *ends))), None)
+    if inch and found.unit == written == "in":
+        found = replace(found, sure=False, questions=(*found.questions, inch))
     if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):
         asked = f"unit: the name ends with '{end}': {found.unit or 'what'}, or another quantity? ({range_text(values)})"
         found = replace(found, sure=False, questions=(*found.questions, asked))
