@@ -24,7 +24,7 @@ def _said(header: str, low: float, high: float) -> Guess:
         ("Y Axis Position (in.)", 11.8, "position", "in"),
         ("Ram Position (ft)", 1.0, "position", "ft"),
         ("X_pos[in]", 11.8, "position", "in"),
-        ("X_pos_in", 11.8, "position", "in"),
+        ("X pos in.", 11.8, "position", "in"),
         ("Z Height Pos, in.", 11.8, "position", "in"),
         ("Position X (Zoll)", 11.8, "position", "Zoll"),
         ("Posición X (pulgadas)", 11.8, "position", "pulgadas"),
@@ -41,6 +41,24 @@ def test_a_unit_of_the_quantity_is_taken(header: str, high: float, quantity: str
     said = _said(header, 0.0, high)
     assert (said.quantity, said.unit) == (quantity, unit)
     assert not any(q.startswith("unit") for q in said.questions)
+
+
+@pytest.mark.parametrize(
+    ("header", "high"),
+    [
+        ("X_pos_in", 11.8),
+        ("X pos in", 11.8),
+        ("X pos in", 900.0),
+        ("axis_position_in", 11.8),
+        ("/plc.axis_position_in", 11.8),
+        ("plc/axis_position_in/value", 11.8),
+    ],
+)
+def test_an_in_behind_a_position_may_say_an_input_and_is_asked(header: str, high: float) -> None:
+    said = _said(header, 0.0, high)
+    assert (said.quantity, said.unit, said.sure) == ("position", "in", False)
+    assert "unit: inch, or is 'in' an input? then its own unit" in said.questions
+    assert any("or mm?" in q for q in said.questions) is (high > 200.0)
 
 
 @pytest.mark.parametrize(

@@ -66,6 +66,13 @@ def test_a_unit_that_is_stated_is_not_asked() -> None:
         ("n", "rpm", 0.0, 60000.0, ""),
         ("feed_X", "m/min", 0.0, 6000.0, "unit: m/min, or mm/min? it goes up to 6e+03 m/min"),
         ("feed_X", "mm/min", 0.0, 60000.0, ""),
+        ("X pos", "in", 100.0, 900.0, "unit: in, or mm? it goes up to 22.9 m"),
+        ("X pos", "in", -198.0, 0.0, "unit: in, or mm? it goes up to 5.03 m"),
+        ("X pos", "in", -196.0, 0.0, ""),
+        ("X pos", "ft", 0.0, 17.0, "unit: ft, or mm? it goes up to 5.18 m"),
+        ("X pos", "ft", 0.0, 16.0, ""),
+        ("X pos", "Zoll", 100.0, 900.0, "unit: Zoll, or mm? it goes up to 22.9 m"),
+        ("X pos", "mm", 100.0, 9000.0, ""),
         ("Bett", "°C", 21.0, 87.0, ""),
         ("T Motor Z", "°C", 70.0, 87.0, ""),
         ("T_hall", "°C", 294.0, 310.0, "unit: K, or °C? no reading is below 294 degC"),
@@ -82,6 +89,29 @@ def test_a_unit_of_the_file_that_no_machine_suits_is_asked(
 ) -> None:
     said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200))).comment()
     assert asked in said if asked else "unit:" not in said
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "low", "high", "asked"),
+    [
+        ("spindle_load_ratio", None, 20.0, 41.0, 'unit: pu, or "%"? it goes up to 41'),
+        ("Spindle Load (p.u.)", None, 0.0, 80.0, 'unit: p.u., or "%"? it goes up to 80'),
+        ("Load fraction", None, 0.0, 100.0, 'unit: pu, or "%"? it goes up to 100'),
+        ("rel_humidity_frac", None, 30.0, 60.0, 'unit: pu, or "%"? it goes up to 60'),
+        ("humidity.pu", None, 30.0, 60.0, 'unit: pu, or "%"? it goes up to 60'),
+        ("Spindle Load", "pu", -80.0, 10.0, 'unit: pu, or "%"? it goes up to 80'),
+        ("spindle_load_ratio", None, 0.0, 2.51, 'unit: pu, or "%"? it goes up to 2.51'),
+        ("spindle_load_ratio", None, 0.0, 2.5, ""),
+        ("humidity.pu", None, 0.3, 0.6, ""),
+        ("Spindle Load", "%", 0.0, 80.0, ""),
+    ],
+)
+def test_a_share_of_one_that_goes_far_beyond_it_is_asked(
+    name: str, unit: str | None, low: float, high: float, asked: str
+) -> None:
+    said = guess(name, unit, "float64", values_of(np.linspace(low, high, 200)))
+    assert [q for q in said.questions if q.startswith("unit")] == ([asked] if asked else [])
+    assert not (asked and said.sure)
 
 
 @pytest.mark.parametrize("name", ["T_furnace", "Ofentemperatur", "Abgas 1", "exhaust/T3", "kiln", "T hot gas"])

@@ -9,7 +9,7 @@ import pytest
 
 from thermodata.draft.campaign.parts import DraftTest
 from thermodata.draft.make import draft_files
-from thermodata.draft.words.tool_and_coolant import tool_and_coolant
+from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
 
 
 @pytest.mark.parametrize(
@@ -34,10 +34,59 @@ from thermodata.draft.words.tool_and_coolant import tool_and_coolant
         ("T_coolant_supply", {}),
         ("laundry_3", {}),
         ("hydryl", {}),
+        ("emulsion no. 3", {}),
     ],
 )
 def test_words_say_the_tool_and_the_coolant(text: str, said: dict[str, str]) -> None:
     assert tool_and_coolant([text]) == said
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("coolant: on", "on"),
+        ("Coolant;off", "off"),
+        ("KSS = aus", "off"),
+        ('Kühlmittel: "ein"', "on"),
+        ("## coolant | 0", "off"),
+        ("coolant: off (dry), 20 degC", "off"),
+        ("coolant: on, 20 bar", "on"),
+        ("coolant off, tool D50", "off"),
+        ("emulsion: no", "off"),
+        # the nearest that say nothing
+        ("Kanal 2: KSS ein", None),
+        ("Kanal 3: KSS aus", None),
+        ("ch2: T_KSS_aus", None),
+        ("ch2: T_coolant_1", None),
+        ("KSS ein: Kanal 2", None),
+        ("KSS aus;T_bett", None),
+        ("coolant 1;T_bed", None),
+        ("coolant_on;0", None),
+        ("coolant: 0.5 l/min", None),
+        ("coolant: 0,5 l/min", None),
+        ("coolant: 1 bar", None),
+        ("coolant: emulsion no. 3", None),
+        ("emulsion no. 3, 7 %", None),
+        ("emulsion: no. 3", None),
+        ("dry bulb: 21.3", None),
+        ("Wet bulb;17.1", None),
+        ("spindle dry run: no", None),
+    ],
+)
+def test_a_line_of_a_head_that_begins_with_the_coolant_says_it(line: str, said: str | None) -> None:
+    assert tool_and_coolant_of_head([line]) == ({"coolant": said} if said else {})
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("Tool 12, ground", {"tool": "12"}),
+        ("ch2: T_tool_1", {}),
+        ("Kanal 3: Werkzeug 2", {}),
+    ],
+)
+def test_a_line_of_a_head_that_begins_with_the_tool_says_it(line: str, said: dict[str, str]) -> None:
+    assert tool_and_coolant_of_head([line]) == said
 
 
 def log(path: Path, head: str = "", day: int = 2, speed: int = 6000) -> None:
@@ -100,7 +149,7 @@ def test_heads_of_logs_say_their_tools(tmp_path: Path) -> None:
 
 def test_other_texts_and_heads_say_nothing(tmp_path: Path) -> None:
     for k in (1, 2):
-        log(tmp_path / f"run0{k}.csv", "# logger: A\n# operator: tool shop", day=k)
+        log(tmp_path / f"run0{k}.csv", "# logger: A\n# operator: tool shop\n# ch2: T_KSS_aus\n# dry bulb: 21.3", day=k)
     (tmp_path / "notes.txt").write_text("run01 and run02 were warm\nrun01: see run02\nrun01: repeated\n", "utf-8")
     tests = drafted(tmp_path)
     assert [t.conditions for t in tests.values()] == [{"speed": "6000 rpm"}] * 2

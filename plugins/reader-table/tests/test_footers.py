@@ -71,5 +71,15 @@ def test_a_footer_below_a_sheet_and_the_empty_row_above_it_are_no_losses(
 def test_a_line_that_says_what_happened_is_no_loss_and_told(tmp_path: Path) -> None:
     data = read(tmp_path, f"{ROWS}20.0;EVENT: spindle on M3\n20.0;25.0;3000\n")
     assert not data.losses
-    assert any("not read: 'EVENT: spindle on M3'" in note for note in data.recording.notes)
+    assert any("(1 line, the first is line 42): 'EVENT: spindle on M3'" in note for note in data.recording.notes)
     assert read(tmp_path, f"{ROWS}20.0;Overflow\n20.0;25.0;3000\n").losses
+
+
+def test_lines_that_say_what_happened_are_told_with_their_count_and_the_first(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    rows = [f"{k};20.{k % 10};3000;1.5" for k in range(60)]
+    rows[30] = rows[45] = "30;sensor lost"
+    path.write_text("\n".join(["# logger: A", "Zeit [s];T [°C];n [rpm];P [kW]", *rows, ""]), encoding="utf-8")
+    data = load(Reader(), path, Source(timezone="UTC"))
+    assert not data.losses
+    assert any("not read (2 lines, the first is line 33): 'sensor lost'" in note for note in data.recording.notes)

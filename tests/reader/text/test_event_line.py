@@ -48,7 +48,9 @@ def test_words_in_a_column_of_text_are_none() -> None:
 
 def test_they_are_told() -> None:
     lines = [["8:00", "1", "2", "3"], ["8:01", "spindle on"], ["8:02", "spindle on"], ["8:03", "door open"]]
-    assert event_notes(lines, NUMBERS) == [
-        "lines that say what happened are no rows, and are not read: 'spindle on', 'door open'"
-    ]
-    assert event_notes(lines[:1], NUMBERS) == []
+    said = "lines that say what happened are no rows, and are not read"
+    shown = "'spindle on', 'door open'"
+    assert event_notes(lines, NUMBERS, 30) == [f"{said} (3 lines, the first is line 31): {shown}"]
+    assert event_notes(lines, NUMBERS, 30, whole=False) == [f"{said} (at least 3 lines, the first is line 31): {shown}"]
+    assert event_notes(lines[1:2], NUMBERS, 2) == [f"{said} (1 line, the first is line 2): 'spindle on'"]
+    assert event_notes(lines[:1], NUMBERS, 1) == []

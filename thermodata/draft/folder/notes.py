@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.words.said_by_names import said_by
-from thermodata.draft.words.tool_and_coolant import tool_and_coolant
+from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.file.encoding import decode_head
 
@@ -43,7 +43,7 @@ def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[Ra
     for test, files in tests.items():
         if test in found:
             continue
-        conditions = {k: v for f in reversed(files) for k, v in tool_and_coolant(_head(folder, f)).items()}
+        conditions = {k: v for f in reversed(files) for k, v in tool_and_coolant_of_head(_head(folder, f)).items()}
         if conditions:
             found[test] = Note(f"the head of {files[0].path.name}", conditions)
     return found

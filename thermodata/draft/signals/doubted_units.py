@@ -33,6 +33,10 @@ _MOST = {
     "rotational_speed": (250_000.0, "rpm", "rpm"),
     "feed": (500.0, "m/min", "mm/min"),
 }
+MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
+SHARED = ("load", "humidity")
+_INCHES_MM = (25.4, 304.8)  # an inch, and a foot
+_FURTHEST_MM = 5000.0  # an axis of a machine that is told in these travels less
 _SLOW = ("table", "rotary", "axis", "workpiece")  # these turn so slowly
 
 
@@ -66,12 +70,18 @@ def implausible(found: Guess, text: str, values: Values) -> Guess:
     if found.unit is None or values.n == 0:
         return found
     asked = None
-    if found.quantity in _MOST:
+    if found.quantity in SHARED and normal_unit(found.unit) == "per_unit":
+        top = max(-values.low, values.high)
+        asked = f'unit: {found.unit}, or "%"? it goes up to {top:.3g}' if top > MOST_OF_ONE else None
+    elif found.quantity in _MOST:
         most, unit, others = _MOST[found.quantity]
         top = max(-values.low, values.high) * units.factor_to(found.unit, unit)
         if top > most:
             other = "" if normal_unit(found.unit) == normal_unit(others) else f", or {others}"
             asked = f"unit: {found.unit}{other}? it goes up to {top:.3g} {unit}, and no machine tool's does"
+    elif found.quantity == "position" and (mm := round(units.factor_to(found.unit, "mm"), 6)) in _INCHES_MM:
+        top = max(-values.low, values.high) * mm
+        asked = f"unit: {found.unit}, or mm? it goes up to {top / 1000:.3g} m" if top > _FURTHEST_MM else None
     elif found.quantity == "displacement":
         span = (values.high - values.low) * units.factor_to(found.unit, "um")
         if span > _FURTHEST_UM:

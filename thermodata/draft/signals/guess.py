@@ -11,11 +11,11 @@ from dataclasses import replace
 from functools import lru_cache
 
 from thermodata.draft.signals import bracket_at_end, units
-from thermodata.draft.signals.doubted_units import doubted, hottest_c, implausible, is_fired
+from thermodata.draft.signals.doubted_units import MOST_OF_ONE, SHARED, doubted, hottest_c, implausible, is_fired
 from thermodata.draft.signals.name_factor import with_factor_asked
 from thermodata.draft.signals.placed import placed
 from thermodata.draft.signals.quantity import NO_READING, Guess, quantity_of, range_text
-from thermodata.draft.signals.unit_at_end import beside, strange
+from thermodata.draft.signals.unit_at_end import beside, inch_asked, strange
 from thermodata.draft.signals.values import Values
 from thermodata.draft.words.amplifier import without_amplifier
 from thermodata.draft.words.axis import axis_of
@@ -53,9 +53,7 @@ _ASK_STATUS = (
     "out of the tests by window, or by measuring with a channel of numbers"
 )
 _SMALL_MM = 5.0  # an axis travels further than a tool is displaced
-_SHARES = ("load", "humidity")
 _RATES = ("feed", "flow", "rotational_speed")
-_MOST_OF_ONE = 2.5  # an overload of a drive that is logged as a share of 1
 _PLAUSIBLE = {
     "temperature": (-40.0, 200.0),
     "rotational_speed": (-60_000.0, 60_000.0),
@@ -148,9 +146,9 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(placed(_unit(found, text, unit, written, values), own, text), own, values)
-    if not unit and units.may_be_an_inlet(_last(name)):
-        asked = "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
-        found = replace(found, sure=False, questions=(*found.questions, asked))
+    inch = next(filter(None, (inch_asked(e, found.quantity) for e in (_last(name), *ends))), None)
+    if inch and found.unit == written == "in":
+        found = replace(found, sure=False, questions=(*found.questions, inch))
     if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):
         asked = f"unit: the name ends with '{end}': {found.unit or 'what'}, or another quantity? ({range_text(values)})"
         found = replace(found, sure=False, questions=(*found.questions, asked))
@@ -206,9 +204,9 @@ def _unit(found: Guess, text: str, unit: str | None, written: str | None, values
     if written is not None:
         basis = ("name",) if found.basis == ("name", "unit") else found.basis
         return _in_range(replace(found, unit=written, basis=basis), text, values)
-    if unit is not None and quantity in _SHARES:
+    if unit is not None and quantity in SHARED:
         return _share(found, unit, values)
-    if quantity in _SHARES and values is not None and _may_be_of_one(values):
+    if quantity in SHARED and values is not None and _may_be_of_one(values):
         asked = f'unit: "%", or is 1 100 %? then unit: pu ({range_text(values)})'
         return replace(found, unit=None, sure=False, questions=(*found.questions, asked))
     implied = _IMPLIED.get(quantity)
@@ -239,7 +237,7 @@ def _unit(found: Guess, text: str, unit: str | None, written: str | None, values
 
 def _share(found: Guess, unit: str, values: Values | None) -> Guess:
     """A load or a humidity whose file says '-' or '1': of 1, where it stays below, or else of 100."""
-    if values is not None and values.high > _MOST_OF_ONE:
+    if values is not None and values.high > MOST_OF_ONE:
         basis = (*found.basis, "values")
         return replace(found, unit="%", instead_of=unit, sure=False, basis=basis)
     asked = f'unit: the file says \'{unit}\', so 1 is read as 100 %; if 1 is 1 %: unit: "%", instead_of: "{unit}"'
@@ -248,7 +246,7 @@ def _share(found: Guess, unit: str, values: Values | None) -> Guess:
 
 def _may_be_of_one(values: Values) -> bool:
     """Whether a share without a unit stays so low that it may count from 0 to 1; whole numbers are per cent."""
-    return not values.constant and not values.whole and max(-values.low, values.high) <= _MOST_OF_ONE
+    return not values.constant and not values.whole and max(-values.low, values.high) <= MOST_OF_ONE
 
 
 def _plausible(quantity: str, values: Values) -> bool:

@@ -21,6 +21,7 @@ _BESIDE: Mapping[str, Mapping[str, str]] = {
 }
 _LOWER_AT_END = re.compile(r"(?<=[^_.\s])_([a-z]{1,2})$")
 _INCH_AT_END = re.compile(r"(?<=[^_\s])(?:\s+|, ?)(in|ft)\.?$")  # 'X pos in', 'Z Height, in.'
+_INPUT_AT_END = re.compile(r"(?<=[^_.,\s])(?:_|\s+)in$")
 _COLDEST_K = 250.0
 _SHARE_AT_END = re.compile(r"(?<=[^_.\s])[_.\s](pu|p\.u\.|frac|fract|fraction|ratio)$", re.IGNORECASE)
 _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
@@ -51,6 +52,16 @@ def beside(name: str, quantity: str | None, values: Values | None) -> str | None
     if unit == "K":
         return unit if values is not None and values.low > _COLDEST_K else None
     return unit
+
+
+def inch_asked(name: str, quantity: str | None) -> str | None:
+    """What to ask of an 'in' that may be the inch of an axis, or say where something comes in: 'X(IN)', a coolant's
+    inlet; 'axis_position_in', an input of a PLC. None of another."""
+    if units.may_be_an_inlet(name):
+        return "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
+    if quantity == "position" and _INPUT_AT_END.search(name.strip()):
+        return "unit: inch, or is 'in' an input? then its own unit"
+    return None
 
 
 def strange(name: str, quantity: str | None) -> str | None:

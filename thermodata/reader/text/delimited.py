@@ -132,7 +132,8 @@ def describe(table: Table, source: Source) -> Recording:
     below = [
         [clean(c) for c in fields(x, table.delimiter, table.quoted)] for x in table.sample.head[table.layout.first :]
     ]
-    notes += event_notes(below, [kind == "str" for kind in table.kinds])
+    texts = [kind == "str" for kind in table.kinds]
+    notes += event_notes(below, texts, table.layout.first + 1, table.sample.whole)
     if table.cut:
         notes.append(_CUT)
     return Recording(

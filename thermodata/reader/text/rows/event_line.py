@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from thermodata.reader.text.cells.cell import is_number
-from thermodata.schema.words.sentences import with_dots
+from thermodata.schema.words.sentences import counted, with_dots
 
 _TIME = re.compile(r"(?i)\d[\d.:,/TZ+ -]*(?: ?[ap]\.?m\.?)?")
 _WORDS = re.compile(r"[^\W\d_]{2,}.*\s.*\w")
@@ -29,10 +29,19 @@ def is_event_line(cells: Sequence[str], text_columns: Sequence[bool]) -> bool:
     return _WORDS.search(said) is not None or _SAYS.search(said) is not None
 
 
-def event_notes(lines: Iterable[Sequence[str]], text_columns: Sequence[bool]) -> list[str]:
-    """A note on the lines of these that are no rows and no loss. lines: the cells of each."""
-    said = [
-        next(c.strip() for c in reversed(cells) if c.strip()) for cells in lines if is_event_line(cells, text_columns)
-    ]
-    shown = with_dots([f"'{text[:60]}'" for text in dict.fromkeys(said)], _NOTED)
-    return [f"lines that say what happened are no rows, and are not read: {shown}"] if said else []
+def event_notes(
+    lines: Iterable[Sequence[str]], text_columns: Sequence[bool], first: int, whole: bool = True
+) -> list[str]:
+    """A note on the lines of these that are no rows and no loss. lines: the cells of each; first: the number of the
+    first of them in its file; whole: whether they go up to its end."""
+    found = {
+        number: next(c.strip() for c in reversed(cells) if c.strip())
+        for number, cells in enumerate(lines, first)
+        if is_event_line(cells, text_columns)
+    }
+    if not found:
+        return []
+    shown = with_dots([f"'{text[:60]}'" for text in dict.fromkeys(found.values())], _NOTED)
+    many = ("" if whole else "at least ") + counted(len(found), "line")
+    told = f"{many}, the first is line {min(found)}"
+    return [f"lines that say what happened are no rows, and are not read ({told}): {shown}"]
