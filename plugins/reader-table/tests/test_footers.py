@@ -83,3 +83,14 @@ def test_lines_that_say_what_happened_are_told_with_their_count_and_the_first(tm
     data = load(Reader(), path, Source(timezone="UTC"))
     assert not data.losses
     assert any("not read (2 lines, the first is line 33): 'sensor lost'" in note for note in data.recording.notes)
+
+
+def test_a_line_of_words_behind_what_the_note_looked_at_is_a_loss(tmp_path: Path) -> None:
+    """A large file is looked at in part, and nothing is passed over without a word."""
+    rows = [f"{i};{20 + i % 7}.5;21.{i % 10}" for i in range(60_000)]
+    rows[50_000] = "50000;sensor lost"
+    path = tmp_path / "a.csv"
+    path.write_text("t [s];T1 [degC];T2 [degC]\n" + "\n".join(rows) + "\n")
+    data = load(Reader(), path, Source())
+    assert [loss.where for loss in data.losses] == ["a.csv line 50002"]
+    assert "sensor lost" in data.losses[0].reason

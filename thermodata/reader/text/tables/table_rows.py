@@ -80,7 +80,7 @@ class RowReader:
         rows, told = self._until_another_header(rows, told, data, line)
         told += [_Complaint(n, f"{count} NUL bytes: what was written here is lost", count) for n, count in rows.nul]
         for bad in rows.bad:
-            if not (self.table.repeats_header(bad.text) or self._is_no_row(bad.text)):
+            if not (self.table.repeats_header(bad.text) or self._is_no_row(bad.text, bad.line)):
                 reason = f"expected {self.grid.width} cells, got {bad.cells}: '{bad.text[:80]}'"
                 told.append(_Complaint(bad.line, reason, bad.size))
         told += self._torn(rows)
@@ -89,9 +89,12 @@ class RowReader:
         for number, clock in enumerate(self.clocks):
             yield from self._group(clock, rows, told if number == 0 else [], data, line)
 
-    def _is_no_row(self, text: str) -> bool:
+    def _is_no_row(self, text: str, line: int) -> bool:
+        """A line that says what happened is a loss beyond what the note on such lines has looked at."""
+        if self._is_footer(text):
+            return True
         texts = [kind == "str" for kind in self.table.kinds]
-        return self._is_footer(text) or is_event_line(self._cells(text), texts)
+        return line <= len(self.table.sample.head) and is_event_line(self._cells(text), texts)
 
     def _is_footer(self, text: str) -> bool:
         return is_footer(self._cells(text))
