@@ -119,6 +119,24 @@ def test_the_order_of_the_parts_tells_the_pass_of_each(tmp_path: Path, resets: b
     assert [v for v, _ in found] == sorted(v for v, _ in found)
 
 
+@pytest.mark.parametrize("minutes", [30, 20, 25])
+@pytest.mark.parametrize("only", [False, True])
+def test_parts_shorter_than_the_hour_turn_beside_parts_outside_it(tmp_path: Path, minutes: int, only: bool) -> None:
+    """Either pass lies between those outside, until one part begins before the end of the one before. only: no other."""
+    at = datetime(2026, 10, 25, 0) if only else datetime(2026, 10, 24, 22)
+    count = (120 if only else 300) // minutes
+    for part in range(count):
+        rows = [at + timedelta(minutes=minutes * part + i) for i in range(minutes)]
+        local = [t + timedelta(hours=2 if t < datetime(2026, 10, 25, 1) else 1) for t in rows]
+        lines = [f"{t:%Y-%m-%d %H:%M:%S};{20 + part + i / 100}" for i, t in enumerate(local)]
+        (tmp_path / f"nc_a{part + 10}.csv").write_text("\n".join(["time;T_m", *lines, ""]))
+    assert not made(tmp_path).losses
+    with Store(tmp_path / "s.store").reader() as con:
+        found = con.execute("select value, t_s from sample where channel = 'T_m' order by t_s").fetchall()
+    assert [round(t) for _, t in found] == [60 * i for i in range(minutes * count)]
+    assert [v for v, _ in found] == sorted(v for v, _ in found)
+
+
 def test_two_parts_of_nothing_but_that_hour_turn_between_them(tmp_path: Path) -> None:
     written(tmp_path / "nc_a1.csv", datetime(2026, 10, 25, 2, 10), 50, "T_m")
     written(tmp_path / "nc_a2.csv", datetime(2026, 10, 25, 2, 0), 30, "T_m")

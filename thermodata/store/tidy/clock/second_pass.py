@@ -71,13 +71,17 @@ def _by_parts(source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour)
     spans = [recorded(r) for r in source.raws]
     still = [i for i, r in enumerate(source.raws) if any(r is x for x in raws)]
     known = {i: span for i, span in enumerate(spans) if i not in still}
+    if not _in_order(known):
+        return []
     told: dict[int, bool] = {}
-    if not known and (turn := _turn([spans[i] for i in still], hour)) is not None:
-        told = {i: k >= turn for k, i in enumerate(still)}
-    elif all(a[1] <= b[0] for a, b in pairwise(known.values())):
-        while (more := _next_told(spans, known, [i for i in still if i not in told], hour)) is not None:
-            i, told[i] = more
-            known[i] = _in_pass(spans[i], hour, told[i])
+    while (more := _next_told(spans, known, [i for i in still if i not in told], hour)) is not None:
+        i, told[i] = more
+        known[i] = _in_pass(spans[i], hour, told[i])
+    left = [i for i in still if i not in told]
+    if (turn := _turn([spans[i] for i in left], hour)) is not None:
+        rest = {i: k >= turn for k, i in enumerate(left)}
+        if _in_order(known | {i: _in_pass(spans[i], hour, later) for i, later in rest.items()}):
+            told |= rest
     return [(source.raws[i], later) for i, later in told.items()]
 
 
@@ -97,6 +101,11 @@ def _next_told(
         if len(fits) == 1:
             return i, fits[0]
     return None
+
+
+def _in_order(spans: Mapping[int, tuple[int, int]]) -> bool:
+    """Whether each file, by its place, ended before the next began."""
+    return all(a[1] <= b[0] for a, b in pairwise(spans[i] for i in sorted(spans)))
 
 
 def _turn(spans: Sequence[tuple[int, int]], hour: RepeatedHour) -> int | None:
