@@ -10,6 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from thermodata.report.words.causes import notes_in_words
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.ingest.summary import IngestSummary
@@ -130,7 +131,11 @@ def test_parts_shorter_than_the_hour_turn_beside_parts_outside_it(tmp_path: Path
         local = [t + timedelta(hours=2 if t < datetime(2026, 10, 25, 1) else 1) for t in rows]
         lines = [f"{t:%Y-%m-%d %H:%M:%S};{20 + part + i / 100}" for i, t in enumerate(local)]
         (tmp_path / f"nc_a{part + 10}.csv").write_text("\n".join(["time;T_m", *lines, ""]))
-    assert not made(tmp_path).losses
+    summary = made(tmp_path)
+    assert not summary.losses
+    if (minutes, only) == (20, False):
+        said = [n for n in notes_in_words(summary.notes) if "taken as of its" in n]
+        assert [n.rpartition("; also in ")[2] for n in said] == ["nc_a17.csv, nc_a18.csv", "nc_a20.csv, nc_a21.csv"]
     with Store(tmp_path / "s.store").reader() as con:
         found = con.execute("select value, t_s from sample where channel = 'T_m' order by t_s").fetchall()
     assert [round(t) for _, t in found] == [60 * i for i in range(minutes * count)]
@@ -143,7 +148,7 @@ def test_two_parts_of_nothing_but_that_hour_turn_between_them(tmp_path: Path) ->
     summary = made(tmp_path)
     assert not summary.losses
     assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, 0, 10)
-    assert any("second pass, 2026-10-25T02:00:00+01:00" in n for n in summary.notes)
+    assert any("(nc_a2.csv)" in n and "second pass, at UTC+01:00" in n for n in summary.notes)
 
 
 def test_a_source_whose_clock_is_declared_asks_nothing(tmp_path: Path) -> None:

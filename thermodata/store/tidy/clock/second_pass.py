@@ -53,13 +53,14 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
 def _take(
     plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour, later: bool, by: str
 ) -> None:
-    begin = min(recorded(r)[0] for r in raws)
     if later:
         mine = {id(r) for r in raws}
         source.raws = [replace(r, moved_ns=hour.shift_ns) if id(r) in mine else r for r in source.raws]
+    # no time of the file's own: of several files, what differs is which
     plan.notes.append(
-        f"test '{plan.test.id}': all local times of '{source.name}' lie in the hour that {source.spec.timezone} "
-        f"repeats: taken as of its {'second' if later else 'first'} pass, {hour.written(begin, second=later)}, as {by}"
+        f"test '{plan.test.id}': all local times of '{source.name}' ({raws[0].source_path}) lie in the hour that "
+        f"{source.spec.timezone} repeats: taken as of its {'second' if later else 'first'} pass, at "
+        f"{hour.offset(second=later)}, as {by}"
     )
 
 
