@@ -85,13 +85,57 @@ def test_a_longer_source_tells_it_where_both_end_together(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(("zone", "hour"), [("+02:00", 0), ("+01:00", 1)])
-def test_where_nothing_tells_it_it_is_asked_and_the_start_answers(tmp_path: Path, zone: str, hour: int) -> None:
+@pytest.mark.parametrize("beside", [False, True])
+def test_where_nothing_tells_it_it_is_asked_and_the_start_answers(
+    tmp_path: Path, zone: str, hour: int, beside: bool
+) -> None:
+    """beside: another log begins later in that hour; the start is of both."""
+    written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
+    if beside:
+        written(tmp_path / "daq_a.csv", LOCAL + timedelta(minutes=10), 40, "T_f")
+    more = ", timezone: Europe/Berlin" if beside else ""
+    said = asked(made(tmp_path, beside=more))
+    assert len(said) == 1 + beside
+    assert all(f"start: 2026-10-25T02:05:00{zone}" in s and "offset" not in s for s in said)
+    assert not made(tmp_path, start=f', start: "2026-10-25T02:05:00{zone}"', beside=more).losses
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+    assert not beside or first_of(tmp_path, "T_f") == datetime(2026, 10, 25, hour, 15)
+
+
+@pytest.mark.parametrize(("offset", "hour"), [("0 s", 0), ("3600 s", 1)])
+def test_a_start_that_is_of_another_log_tells_no_pass_and_is_not_advised(
+    tmp_path: Path, offset: str, hour: int
+) -> None:
+    """It would be refused beside the dates of the log that begins the test."""
     written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
     written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 22, 0), 400, "T_f", "Z")  # before, in and behind both
-    (said,) = asked(made(tmp_path))
-    assert f"start: 2026-10-25T02:05:00{zone}" in said
-    assert not asked(made(tmp_path, start=f', start: "2026-10-25T02:05:00{zone}"'))
+    for start in ("", ', start: "2026-10-25T00:00:00+02:00"'):
+        (said,) = (str(x["reason"]) for x in made(tmp_path, start=start).losses)
+        assert "in a test of their own" in said
+        assert f"{{offset: {offset}}}" in said
+    assert not made(tmp_path, more=f", clock: {{offset: {offset}}}").losses
     assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+
+
+@pytest.mark.parametrize(("zone", "hour"), [("+02:00", 0), ("+01:00", 1)])
+def test_a_part_that_does_not_begin_its_test_is_told_by_the_start_of_one_of_its_own(
+    tmp_path: Path, zone: str, hour: int
+) -> None:
+    own = tmp_path / "own"
+    own.mkdir()
+    for first, second in ((tmp_path / "nc_a1.csv", tmp_path / "nc_a2.csv"), (own / "nc_a.csv", own / "nc_b.csv")):
+        written(first, datetime(2026, 10, 25, 0, 0), 60, "T_m")
+        written(second, datetime(2026, 10, 25, 2, 20), 30, "T_m")
+    (said,) = asked(made(tmp_path))
+    assert "(nc_a2.csv)" in said
+    assert f"start: 2026-10-25T02:20:00{zone}" in said
+    assert "in a test of their own" in said
+    another = f'}}\n  - {{id: b, kind: spindle, role: calibration, start: "2026-10-25T02:20:00{zone}"'
+    assert not made(own, start=another).losses
+    with Store(own / "s.store").reader() as con:
+        row = con.execute("select epoch_ns(min(t)) from sample where test = 'b'").fetchone()
+    assert row is not None
+    assert row[0] == (datetime(2026, 10, 25, hour, 20) - datetime(1970, 1, 1)) // timedelta(microseconds=1) * 1000
 
 
 @pytest.mark.parametrize("hour", [0, 1])
@@ -123,7 +167,7 @@ def test_the_order_of_the_parts_tells_the_pass_of_each(tmp_path: Path, resets: b
 @pytest.mark.parametrize("minutes", [30, 20, 25])
 @pytest.mark.parametrize("only", [False, True])
 def test_parts_shorter_than_the_hour_turn_beside_parts_outside_it(tmp_path: Path, minutes: int, only: bool) -> None:
-    """Either pass lies between those outside, until one part begins before the end of the one before. only: no other."""
+    """Either pass lies between those outside, but one part begins before the end of the one before. only: no other."""
     at = datetime(2026, 10, 25, 0) if only else datetime(2026, 10, 24, 22)
     count = (120 if only else 300) // minutes
     for part in range(count):

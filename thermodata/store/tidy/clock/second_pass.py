@@ -10,7 +10,7 @@ from itertools import pairwise
 from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.clock.source_clock import recorded, start_ns
+from thermodata.store.tidy.clock.source_clock import first_ns, recorded, start_ns
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
@@ -40,14 +40,36 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
     begin, end = min(recorded(r)[0] for r in raws), max(recorded(r)[1] for r in raws)
     later, by = _later(plan, source, raws, (begin, end), hour)
     if later is None:
-        first, second = (hour.written(begin, second=x) for x in (False, True))
+        starts = _starts(plan, source, raws, hour)
+        first, second = (hour.written(begin if starts is None else starts, second=x) for x in (False, True))
+        own, or_else = ("in the test", "") if starts is not None else ("in a test of their own", _by_offset(hour))
         plan.problems.append(
             f"test '{plan.test.id}': all local times of '{source.name}' ({raws[0].source_path}) lie in the hour that "
             f"{source.spec.timezone} repeats, and nothing says in which pass: they are taken as of the first; try: "
-            f"start: {second} in the test where they are of the second, or start: {first}"
+            f"start: {second} {own} where they are of the second, or start: {first}{or_else}"
         )
         return
     _take(plan, source, raws, hour, later, by)
+
+
+def _by_offset(hour: RepeatedHour) -> str:
+    shift = f"{hour.shift_ns / 1e9:.15g} s"
+    return f"; or, of a source that has no other files, clock: {{offset: {shift}}}, or {{offset: 0 s}}"
+
+
+def _starts(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour) -> int | None:
+    """When a test begins, taken as of the first pass [ns], whose start tells the pass of these files; None where it
+    begins with what lies in neither, for then its start is of that."""
+    begin = min(recorded(r)[0] for r in raws)
+    if begin > first_ns(source):
+        return None
+    dated = [s for s in plan.reference if s.is_dated]
+    if len(dated) < len(plan.reference):
+        return begin  # what has no date begins there
+    begins = [(is_known(s), min(recorded(r)[0] - r.moved_ns for r in s.raws)) for s in dated]
+    either = [t for known, t in begins if not known and hour.in_first(t)]
+    others = [t for known, t in begins if known or not hour.in_first(t)]
+    return min(either) if either and all(t >= min(either) + hour.shift_ns for t in others) else None
 
 
 def _take(
@@ -129,7 +151,7 @@ def _later(
     """Whether files are of the second pass, None where nothing says it; and what does."""
     begin, end = span
     passes = {False: (begin, end), True: (begin + hour.shift_ns, end + hour.shift_ns)}
-    if plan.test.start is not None and _has_offset(plan.test.start):
+    if plan.test.start is not None and _has_offset(plan.test.start) and _starts(plan, source, raws, hour) is not None:
         declared = start_ns(plan.test.start, plan, source)
         return abs(passes[True][0] - declared) < abs(passes[False][0] - declared), "the test's start says"
     siblings = [recorded(r) for r in source.raws if r not in raws]
