@@ -115,3 +115,27 @@ def test_local_times_within_the_hour_that_repeats_ask_which_pass(tmp_path: Path,
     (source,) = draft_files(tmp_path).draft.sources
     (asked,) = [q for q in source.questions if q.startswith("timezone?")]
     assert ("start: 2026-10-25T02:05:00+02:00 for the first pass, 2026-10-25T02:05:00+01:00" in asked) is asks
+
+
+@pytest.mark.parametrize(
+    ("parts", "asks"),
+    [
+        ((("25T00:00", 110), ("25T02:05", 40)), False),  # the start is of the part before
+        ((("25T02:05", 55), ("25T03:00", 60)), True),
+        ((("25T02:05", 20), ("25T02:25", 30)), True),
+    ],
+)
+def test_which_pass_is_asked_of_a_file_that_begins_its_test(
+    tmp_path: Path, parts: tuple[tuple[str, int], ...], asks: bool
+) -> None:
+    """The start of a test is of none that comes later: ingest would refuse it."""
+    for test, spans in {"a1": parts, "b2": (("20T08:00", 120), ("20T10:00", 120))}.items():
+        (tmp_path / test).mkdir()
+        for i, (first, minutes) in enumerate(spans, 1):
+            at = np.datetime64(f"2026-10-{first}:00") + np.arange(2 * minutes) * np.timedelta64(30, "s")
+            rows = ["time;T [degC]", *(f"{x};{20 + k / 10}" for k, x in enumerate(at)), ""]
+            (tmp_path / test / f"log_{i}.csv").write_text("\n".join(rows))
+    draft = draft_files(tmp_path).draft
+    (asked,) = [q for s in draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert ("start: 2026-10-25T02:05:00+02:00 for the first pass" in asked) is asks
+    assert [t.id for t in draft.tests] == ["a1", "b2"]

@@ -10,6 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from thermodata.report.words.causes import notes_in_words
 from thermodata.store import Store
 from thermodata.store.ingest.run import ingest
 from thermodata.store.ingest.summary import IngestSummary
@@ -84,13 +85,57 @@ def test_a_longer_source_tells_it_where_both_end_together(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(("zone", "hour"), [("+02:00", 0), ("+01:00", 1)])
-def test_where_nothing_tells_it_it_is_asked_and_the_start_answers(tmp_path: Path, zone: str, hour: int) -> None:
+@pytest.mark.parametrize("beside", [False, True])
+def test_where_nothing_tells_it_it_is_asked_and_the_start_answers(
+    tmp_path: Path, zone: str, hour: int, beside: bool
+) -> None:
+    """beside: another log begins later in that hour; the start is of both."""
+    written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
+    if beside:
+        written(tmp_path / "daq_a.csv", LOCAL + timedelta(minutes=10), 40, "T_f")
+    more = ", timezone: Europe/Berlin" if beside else ""
+    said = asked(made(tmp_path, beside=more))
+    assert len(said) == 1 + beside
+    assert all(f"start: 2026-10-25T02:05:00{zone}" in s and "offset" not in s for s in said)
+    assert not made(tmp_path, start=f', start: "2026-10-25T02:05:00{zone}"', beside=more).losses
+    assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+    assert not beside or first_of(tmp_path, "T_f") == datetime(2026, 10, 25, hour, 15)
+
+
+@pytest.mark.parametrize(("offset", "hour"), [("0 s", 0), ("3600 s", 1)])
+def test_a_start_that_is_of_another_log_tells_no_pass_and_is_not_advised(
+    tmp_path: Path, offset: str, hour: int
+) -> None:
+    """It would be refused beside the dates of the log that begins the test."""
     written(tmp_path / "nc_a.csv", LOCAL, 45, "T_m")
     written(tmp_path / "daq_a.csv", datetime(2026, 10, 24, 22, 0), 400, "T_f", "Z")  # before, in and behind both
-    (said,) = asked(made(tmp_path))
-    assert f"start: 2026-10-25T02:05:00{zone}" in said
-    assert not asked(made(tmp_path, start=f', start: "2026-10-25T02:05:00{zone}"'))
+    for start in ("", ', start: "2026-10-25T00:00:00+02:00"'):
+        (said,) = (str(x["reason"]) for x in made(tmp_path, start=start).losses)
+        assert "in a test of their own" in said
+        assert f"{{offset: {offset}}}" in said
+    assert not made(tmp_path, more=f", clock: {{offset: {offset}}}").losses
     assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, hour, 5)
+
+
+@pytest.mark.parametrize(("zone", "hour"), [("+02:00", 0), ("+01:00", 1)])
+def test_a_part_that_does_not_begin_its_test_is_told_by_the_start_of_one_of_its_own(
+    tmp_path: Path, zone: str, hour: int
+) -> None:
+    own = tmp_path / "own"
+    own.mkdir()
+    for first, second in ((tmp_path / "nc_a1.csv", tmp_path / "nc_a2.csv"), (own / "nc_a.csv", own / "nc_b.csv")):
+        written(first, datetime(2026, 10, 25, 0, 0), 60, "T_m")
+        written(second, datetime(2026, 10, 25, 2, 20), 30, "T_m")
+    (said,) = asked(made(tmp_path))
+    assert "(nc_a2.csv)" in said
+    assert f"start: 2026-10-25T02:20:00{zone}" in said
+    assert "in a test of their own" in said
+    another = f'}}\n  - {{id: b, kind: spindle, role: calibration, start: "2026-10-25T02:20:00{zone}"'
+    assert not made(own, start=another).losses
+    with Store(own / "s.store").reader() as con:
+        row = con.execute("select epoch_ns(min(t)) from sample where test = 'b'").fetchone()
+    assert row is not None
+    assert row[0] == (datetime(2026, 10, 25, hour, 20) - datetime(1970, 1, 1)) // timedelta(microseconds=1) * 1000
 
 
 @pytest.mark.parametrize("hour", [0, 1])
@@ -119,13 +164,35 @@ def test_the_order_of_the_parts_tells_the_pass_of_each(tmp_path: Path, resets: b
     assert [v for v, _ in found] == sorted(v for v, _ in found)
 
 
+@pytest.mark.parametrize("minutes", [30, 20, 25])
+@pytest.mark.parametrize("only", [False, True])
+def test_parts_shorter_than_the_hour_turn_beside_parts_outside_it(tmp_path: Path, minutes: int, only: bool) -> None:
+    """Either pass lies between those outside, but one part begins before the end of the one before. only: no other."""
+    at = datetime(2026, 10, 25, 0) if only else datetime(2026, 10, 24, 22)
+    count = (120 if only else 300) // minutes
+    for part in range(count):
+        rows = [at + timedelta(minutes=minutes * part + i) for i in range(minutes)]
+        local = [t + timedelta(hours=2 if t < datetime(2026, 10, 25, 1) else 1) for t in rows]
+        lines = [f"{t:%Y-%m-%d %H:%M:%S};{20 + part + i / 100}" for i, t in enumerate(local)]
+        (tmp_path / f"nc_a{part + 10}.csv").write_text("\n".join(["time;T_m", *lines, ""]))
+    summary = made(tmp_path)
+    assert not summary.losses
+    if (minutes, only) == (20, False):
+        said = [n for n in notes_in_words(summary.notes) if "taken as of its" in n]
+        assert [n.rpartition("; also in ")[2] for n in said] == ["nc_a17.csv, nc_a18.csv", "nc_a20.csv, nc_a21.csv"]
+    with Store(tmp_path / "s.store").reader() as con:
+        found = con.execute("select value, t_s from sample where channel = 'T_m' order by t_s").fetchall()
+    assert [round(t) for _, t in found] == [60 * i for i in range(minutes * count)]
+    assert [v for v, _ in found] == sorted(v for v, _ in found)
+
+
 def test_two_parts_of_nothing_but_that_hour_turn_between_them(tmp_path: Path) -> None:
     written(tmp_path / "nc_a1.csv", datetime(2026, 10, 25, 2, 10), 50, "T_m")
     written(tmp_path / "nc_a2.csv", datetime(2026, 10, 25, 2, 0), 30, "T_m")
     summary = made(tmp_path)
     assert not summary.losses
     assert first_of(tmp_path, "T_m") == datetime(2026, 10, 25, 0, 10)
-    assert any("second pass, 2026-10-25T02:00:00+01:00" in n for n in summary.notes)
+    assert any("(nc_a2.csv)" in n and "second pass, at UTC+01:00" in n for n in summary.notes)
 
 
 def test_a_source_whose_clock_is_declared_asks_nothing(tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     whole = _ahead(group, groups)
     if whole is None:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
-        return asked + which_pass(group.files, likely)
+        return asked + which_pass(group, groups, likely)
     asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
     return f"{asked}{_zones_of(whole, likely, group)}{said}"
 

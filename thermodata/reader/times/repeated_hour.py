@@ -27,10 +27,12 @@ class RepeatedHour:
 
     def written(self, first_pass_ns: int, second: bool) -> str:
         """A time of the first pass, or the one that is written alike in the second, in ISO 8601 with its offset."""
-        ahead_ns = self.summer_ns - (self.shift_ns if second else 0)
-        zone = timezone(timedelta(seconds=ahead_ns / 1e9))
         moment = datetime.fromtimestamp((first_pass_ns + (self.shift_ns if second else 0)) // 10**9, UTC)
-        return moment.astimezone(zone).isoformat(timespec="seconds")
+        return moment.astimezone(self.offset(second)).isoformat(timespec="seconds")
+
+    def offset(self, second: bool) -> timezone:
+        """By how much local times are ahead of UTC in a pass; as a text 'UTC+02:00'."""
+        return timezone(timedelta(seconds=(self.summer_ns - (self.shift_ns if second else 0)) / 1e9))
 
 
 def repeated_hour(zone: str, utc_ns: int) -> RepeatedHour | None:

@@ -10,7 +10,7 @@ from itertools import pairwise
 from thermodata.reader.times.repeated_hour import ALL, ENDS, RepeatedHour, repeated_hour
 from thermodata.reader.times.zone import NO_ZONE
 from thermodata.store.raw.raw_stream import RawStream
-from thermodata.store.tidy.clock.source_clock import recorded, start_ns
+from thermodata.store.tidy.clock.source_clock import first_ns, recorded, start_ns
 from thermodata.store.tidy.clock.times_of_day import NEAR_NS
 from thermodata.store.tidy.plan.plan import SourcePlan, TestPlan
 
@@ -40,26 +40,49 @@ def _choose(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour:
     begin, end = min(recorded(r)[0] for r in raws), max(recorded(r)[1] for r in raws)
     later, by = _later(plan, source, raws, (begin, end), hour)
     if later is None:
-        first, second = (hour.written(begin, second=x) for x in (False, True))
+        starts = _starts(plan, source, raws, hour)
+        first, second = (hour.written(begin if starts is None else starts, second=x) for x in (False, True))
+        own, or_else = ("in the test", "") if starts is not None else ("in a test of their own", _by_offset(hour))
         plan.problems.append(
             f"test '{plan.test.id}': all local times of '{source.name}' ({raws[0].source_path}) lie in the hour that "
             f"{source.spec.timezone} repeats, and nothing says in which pass: they are taken as of the first; try: "
-            f"start: {second} in the test where they are of the second, or start: {first}"
+            f"start: {second} {own} where they are of the second, or start: {first}{or_else}"
         )
         return
     _take(plan, source, raws, hour, later, by)
 
 
+def _by_offset(hour: RepeatedHour) -> str:
+    shift = f"{hour.shift_ns / 1e9:.15g} s"
+    return f"; or, of a source that has no other files, clock: {{offset: {shift}}}, or {{offset: 0 s}}"
+
+
+def _starts(plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour) -> int | None:
+    """When a test begins, taken as of the first pass [ns], whose start tells the pass of these files; None where it
+    begins with what lies in neither, for then its start is of that."""
+    begin = min(recorded(r)[0] for r in raws)
+    if begin > first_ns(source):
+        return None
+    dated = [s for s in plan.reference if s.is_dated]
+    if len(dated) < len(plan.reference):
+        return begin  # what has no date begins there
+    begins = [(is_known(s), min(recorded(r)[0] - r.moved_ns for r in s.raws)) for s in dated]
+    either = [t for known, t in begins if not known and hour.in_first(t)]
+    others = [t for known, t in begins if known or not hour.in_first(t)]
+    return min(either) if either and all(t >= min(either) + hour.shift_ns for t in others) else None
+
+
 def _take(
     plan: TestPlan, source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour, later: bool, by: str
 ) -> None:
-    begin = min(recorded(r)[0] for r in raws)
     if later:
         mine = {id(r) for r in raws}
         source.raws = [replace(r, moved_ns=hour.shift_ns) if id(r) in mine else r for r in source.raws]
+    # no time of the file's own: of several files, what differs is which
     plan.notes.append(
-        f"test '{plan.test.id}': all local times of '{source.name}' lie in the hour that {source.spec.timezone} "
-        f"repeats: taken as of its {'second' if later else 'first'} pass, {hour.written(begin, second=later)}, as {by}"
+        f"test '{plan.test.id}': all local times of '{source.name}' ({raws[0].source_path}) lie in the hour that "
+        f"{source.spec.timezone} repeats: taken as of its {'second' if later else 'first'} pass, at "
+        f"{hour.offset(second=later)}, as {by}"
     )
 
 
@@ -71,13 +94,17 @@ def _by_parts(source: SourcePlan, raws: Sequence[RawStream], hour: RepeatedHour)
     spans = [recorded(r) for r in source.raws]
     still = [i for i, r in enumerate(source.raws) if any(r is x for x in raws)]
     known = {i: span for i, span in enumerate(spans) if i not in still}
+    if not _in_order(known):
+        return []
     told: dict[int, bool] = {}
-    if not known and (turn := _turn([spans[i] for i in still], hour)) is not None:
-        told = {i: k >= turn for k, i in enumerate(still)}
-    elif all(a[1] <= b[0] for a, b in pairwise(known.values())):
-        while (more := _next_told(spans, known, [i for i in still if i not in told], hour)) is not None:
-            i, told[i] = more
-            known[i] = _in_pass(spans[i], hour, told[i])
+    while (more := _next_told(spans, known, [i for i in still if i not in told], hour)) is not None:
+        i, told[i] = more
+        known[i] = _in_pass(spans[i], hour, told[i])
+    left = [i for i in still if i not in told]
+    if (turn := _turn([spans[i] for i in left], hour)) is not None:
+        rest = {i: k >= turn for k, i in enumerate(left)}
+        if _in_order(known | {i: _in_pass(spans[i], hour, later) for i, later in rest.items()}):
+            told |= rest
     return [(source.raws[i], later) for i, later in told.items()]
 
 
@@ -97,6 +124,11 @@ def _next_told(
         if len(fits) == 1:
             return i, fits[0]
     return None
+
+
+def _in_order(spans: Mapping[int, tuple[int, int]]) -> bool:
+    """Whether each file, by its place, ended before the next began."""
+    return all(a[1] <= b[0] for a, b in pairwise(spans[i] for i in sorted(spans)))
 
 
 def _turn(spans: Sequence[tuple[int, int]], hour: RepeatedHour) -> int | None:
@@ -119,7 +151,7 @@ def _later(
     """Whether files are of the second pass, None where nothing says it; and what does."""
     begin, end = span
     passes = {False: (begin, end), True: (begin + hour.shift_ns, end + hour.shift_ns)}
-    if plan.test.start is not None and _has_offset(plan.test.start):
+    if plan.test.start is not None and _has_offset(plan.test.start) and _starts(plan, source, raws, hour) is not None:
         declared = start_ns(plan.test.start, plan, source)
         return abs(passes[True][0] - declared) < abs(passes[False][0] - declared), "the test's start says"
     siblings = [recorded(r) for r in source.raws if r not in raws]
