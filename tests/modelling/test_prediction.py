@@ -214,4 +214,4 @@ def test_a_condition_that_a_test_lacks_is_told_with_how_to_say_it(world: Dataset
     assert not made
     (reason,) = left_out
     assert "no condition 'tool'" in reason
-    assert reason.endswith("predict --set tool=long says it of all tests")
+    assert reason.endswith("predict --set tool=long says it of all tests (conditions={'tool': 'long'} in Python)")
