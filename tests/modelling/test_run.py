@@ -328,9 +328,17 @@ def test_the_locked_error_of_all_claims_is_told_of_a_version_with_all_of_them(st
     ]
     version = run.load(store, parent.model).data.data_version
     found = Diagnosis(
-        model=parent.model, response="dZ", verdict="effect", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
-        candidates=claims, artefacts=[], data_version=version,
-    )  # fmt: skip
+        model=parent.model,
+        response="dZ",
+        verdict="effect",
+        noise_um=0.3,
+        rmse_um=5.0,
+        explainable=0.9,
+        weak_spots=[],
+        candidates=claims,
+        artefacts=[],
+        data_version=version,
+    )
     save_diagnosis(store, parent.model, found)
     assert add(store, parent.model, 1, plain=True).locked_rmse_um_after is None
     both = add(store, parent.model, 1, 2, plain=True)
@@ -358,9 +366,16 @@ def test_what_was_added_is_what_was_offered_by_effect_and_channels(store: Store,
         **figures,
     )
     found = Diagnosis(
-        model="m", response="dZ", verdict="refine", noise_um=0.3, rmse_um=5.0, explainable=0.9, weak_spots=[],
-        candidates=[offer], artefacts=[],
-    )  # fmt: skip
+        model="m",
+        response="dZ",
+        verdict="refine",
+        noise_um=0.3,
+        rmse_um=5.0,
+        explainable=0.9,
+        weak_spots=[],
+        candidates=[offer],
+        artefacts=[],
+    )
     nut = with_candidate(parent, "lag:T_nut", data.channels)
     assert adds_what_was_offered(nut, data, parent, found)
     second = parent.effects[0].model_copy(update={"id": "again"})

@@ -19,6 +19,20 @@ class Sensor:
     quantity: str = "temperature"
 
 
+UNITS: Mapping[str, str] = {
+    "temperature": "degC",
+    "rotational_speed": "rpm",
+    "feed": "m/min",
+    "power": "kW",
+    "load": "%",
+    "torque": "N m",
+    "flow": "l/min",
+    "humidity": "%",
+    "irradiance": "W/m2",
+    "state": "1",
+}  # of most logs
+
+
 class Logged(Protocol):
     @property
     def log(self) -> str: ...

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from thermodata.errors import FormatError
-from thermodata.plugin import Block, Loss, Source
+from thermodata.plugin import Array, Block, Loss, Source
 from thermodata.reader.text import delimited
 from thermodata.reader.text.cells.named_values import in_columns, named_values
 
@@ -24,7 +24,7 @@ def written(path: Path, line: Callable[[str, int], str]) -> Path:
     return path
 
 
-def read(path: Path) -> tuple[dict[str, np.ndarray], list[int], list[Loss]]:  # type: ignore[type-arg]
+def read(path: Path) -> tuple[dict[str, Array], list[int], list[Loss]]:
     source = Source(timezone="UTC")
     table = delimited.open_table(path, source)
     items = list(delimited.blocks(path, table, source))

@@ -17,10 +17,10 @@ from ..bodies import Array, pairs
 from ..files import csv, document
 from ..labview import Signals, Spelling, lvm, tdms
 from ..run import TestRun
-from ..sensors import of_log
+from ..sensors import UNITS, of_log
 from .machine import AT, DT_S, ZONE
 from .programme import TITLES
-from .sensors import SENSORS, UNITS
+from .sensors import SENSORS
 
 TEXT = Spelling(",", 4, "0,0E+0", padded=False)
 MOVES_UM = (50, 50, -100, -50, 50)  # of a jump test

@@ -6,15 +6,6 @@ from collections.abc import Mapping
 
 from ..sensors import Sensor
 
-UNITS = {
-    "temperature": "degC",
-    "rotational_speed": "rpm",
-    "feed": "m/min",
-    "power": "kW",
-    "load": "%",
-    "state": "1",
-    "irradiance": "W/m2",
-}
 SENSORS: Mapping[str, Sensor] = {
     "T_brg_f": Sensor("daq", "Pt01 loz P", "spindle.bearing.front", 0.1, "bf 0.8, hf 0.2"),
     "T_brg_r": Sensor("daq", "Pt02 loz Z", "spindle.bearing.rear", 0.1, "br 0.8, hr 0.2"),

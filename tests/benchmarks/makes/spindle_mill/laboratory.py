@@ -12,10 +12,10 @@ import numpy as np
 from ..bodies import Array, felt
 from ..faults import behind, come_loose, slipped
 from ..files import Form, csv, document
-from ..sensors import Sensor, of_log
+from ..sensors import UNITS, Sensor, of_log
 from .machine import AT
 from .programme import DT_S, Run
-from .sensors import SENSORS, UNITS
+from .sensors import SENSORS
 
 TITLES = {
     "const": "spindle",

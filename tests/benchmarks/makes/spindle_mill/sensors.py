@@ -6,14 +6,6 @@ from collections.abc import Mapping
 
 from ..sensors import Sensor
 
-UNITS = {
-    "temperature": "degC",
-    "rotational_speed": "rpm",
-    "feed": "m/min",
-    "power": "kW",
-    "load": "%",
-    "state": "1",
-}
 SENSORS: Mapping[str, Sensor] = {
     "T_brg_f": Sensor("crio", "AI00_brg_f", "spindle.bearing.front", 0.02, "bearing_front 1"),
     "T_brg_r": Sensor("crio", "AI01_brg_r", "spindle.bearing.rear", 0.02, "bearing_rear 0.8, sleeve_3 0.2"),

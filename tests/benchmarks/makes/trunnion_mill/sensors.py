@@ -4,19 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..sensors import UNITS as LOGGED
 from ..sensors import Sensor
 
-UNITS = {
-    "temperature": "degC",
-    "rotational_speed": "1/min",
-    "power": "kW",
-    "load": "%",
-    "feed": "m/min",
-    "torque": "N m",
-    "state": "1",
-    "flow": "l/min",
-    "humidity": "%",
-}
+UNITS = {**LOGGED, "rotational_speed": "1/min"}
 SENSORS: Mapping[str, Sensor] = {
     "T_lager_v": Sensor("daq", "RTD01 Lager vorn", "spindle.bearing.front", 0.02, "bf 0.92, h1 0.08"),
     "T_lager_h": Sensor("daq", "RTD02 Lager hinten", "spindle.bearing.rear", 0.02, "br 0.8, h4 0.2"),
