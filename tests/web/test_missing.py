@@ -34,8 +34,11 @@ def test_the_headline_is_the_sentence_of_the_terminal(reader: Client, made_lab: 
     headline = re.search(r"<h1[^>]*>(.*?)</h1>", text, re.S)[1]
     assert claim.effect in headline
     assert "probability" in headline
-    said = typeset(verdict_sentence(found))
-    assert html.unescape(headline).strip() == said[:1].upper() + said[1:]
+    rest = re.search(r'<p class="further">(.*?)</p>', text, re.S)[1]
+    parts = verdict_sentence(found).split("; ", 1)
+    assert [html.unescape(shown).strip() for shown in (headline, rest)] == [
+        typeset(part[:1].upper() + part[1:]) for part in parts
+    ], "its first part in bold, the rest below"
 
 
 def test_every_rung_has_its_value_its_limit_and_its_evidence(reader: Client) -> None:

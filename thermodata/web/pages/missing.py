@@ -91,7 +91,8 @@ def show(request: Request) -> Response:
         found=found,
         unit=unit,
         error_of=worst_of(together, model.responses),
-        headline=in_unit(_headline(found), unit) if found else "What does it miss?",
+        headline=in_unit(_headline(found)[0], unit) if found else "What does it miss?",
+        further=in_unit(_headline(found)[1], unit) if found else "",
         about=_about(found, model, unit) if found else "",
         older=older,
         answered=_answered_now(store, models, stored) if older else None,
@@ -146,9 +147,10 @@ def _left_out(candidate: Candidate) -> list[tuple[str, LeftOut]]:
     return sorted(named, key=lambda one: -one[1].rmse_um_before)
 
 
-def _headline(found: Diagnosis) -> str:
-    """The sentence of the terminal; what the tests can't tell from a claim stands below it, as in its table."""
-    return capital(verdict_sentence(found))
+def _headline(found: Diagnosis) -> tuple[str, str]:
+    """The sentence of the terminal: (what it says first, the rest), for seven lines in bold are no headline."""
+    first, _, rest = verdict_sentence(found).partition("; ")
+    return capital(first), capital(rest)
 
 
 def _about(found: Diagnosis, model: ModelRow, unit: str) -> str:
