@@ -243,9 +243,8 @@ def _to_write(step: Step) -> str:
         f"{{effect: step, tests: [{step.test.test}], fixed: {{at: {step.at_s / 60:.6g} min, gain: {step.size:.3g}}}}}"
     )
     return (
-        f"to fit without it, write '- {line}' under effects of model.yaml (with acts_on if it has other responses; "
-        "of a version without a file 'thermodata model export MODEL --to yaml' writes it), and free its "
-        "gain once nothing is missing"
+        f"to fit without it, 'thermodata add MODEL step:{step.test.test}', or write '- {line}' under effects of "
+        "model.yaml (with acts_on if it has other responses), and free its gain once nothing is missing"
     )
 
 
