@@ -12,6 +12,7 @@ from thermodata.modelling.add import add
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.versions.slips import lines_of_test, with_lines
 from thermodata.schema.answers.diagnosis import Artefact, Diagnosis
+from thermodata.schema.answers.slip_ids import slip_ids
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, save_diagnosis
 from thermodata.view.grid.dataset import Dataset
@@ -61,6 +62,12 @@ def test_what_was_told_of_a_test_is_taken_out_of_it_alone(store: Store, spec: Sp
     before = {(s.role, s.test): s.rmse_um for s in grown.before or () if s.phase == "all"}
     assert set(of) == set(before), "verification tests took no part in it, and stay what they were"
     assert (of["calibration", "t2"] or 9.0) < 0.5 < 2.0 < (before["calibration", "t2"] or 0.0)
+
+
+def test_a_slip_in_one_of_several_campaigns_is_named_with_its_campaign() -> None:
+    other = SLIP.model_copy(update={"campaign": "d"})
+    assert slip_ids(diagnosis(SLIP)) == ["step:t2"]
+    assert slip_ids(diagnosis(SLIP, other)) == ["step:c/t2", "step:d/t2"]
 
 
 def test_two_slips_of_a_test_are_two_lines(spec: Spec, world: Dataset) -> None:

@@ -16,5 +16,8 @@ def slips_of(found: Diagnosis) -> list[Artefact]:
 
 
 def slip_ids(found: Diagnosis) -> list[str]:
-    """'step:t05', once for each test with slips."""
-    return list(dict.fromkeys(f"{STEP}:{a.test}" for a in slips_of(found)))
+    """'step:t05', once for each test with slips; 'step:campaign/t05' where the tests are of several campaigns."""
+    slips = slips_of(found)
+    campaigns = {one.campaign for c in found.candidates for one in c.left_out} | {a.campaign for a in slips}
+    names = [f"{a.campaign}/{a.test}" if len(campaigns) > 1 else a.test for a in slips]
+    return list(dict.fromkeys(f"{STEP}:{name}" for name in names))
