@@ -15,9 +15,13 @@ def slips_of(found: Diagnosis) -> list[Artefact]:
     return [a for a in found.artefacts if a.kind == STEP and a.size_um is not None]
 
 
-def slip_ids(found: Diagnosis) -> list[str]:
-    """'step:t05', once for each test with slips; 'step:campaign/t05' where the tests are of several campaigns."""
+def named_slips(found: Diagnosis) -> list[tuple[str, Artefact]]:
+    """Each with its id: 'step:t05', or 'step:campaign/t05' where the tests are of several campaigns."""
     slips = slips_of(found)
     campaigns = {one.campaign for c in found.candidates for one in c.left_out} | {a.campaign for a in slips}
-    names = [f"{a.campaign}/{a.test}" if len(campaigns) > 1 else a.test for a in slips]
-    return list(dict.fromkeys(f"{STEP}:{name}" for name in names))
+    return [(f"{STEP}:{a.campaign}/{a.test}" if len(campaigns) > 1 else f"{STEP}:{a.test}", a) for a in slips]
+
+
+def slip_ids(found: Diagnosis) -> list[str]:
+    """Of each test with slips once."""
+    return list(dict.fromkeys(name for name, _ in named_slips(found)))

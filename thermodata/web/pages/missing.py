@@ -22,6 +22,7 @@ from thermodata.report.words.of_response import of_response, worst_of
 from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.looks import looks_of
@@ -100,6 +101,7 @@ def show(request: Request) -> Response:
         told=shown,
         hides=in_unit(capital(could_hide(found)), unit) if found else "",
         faults=log_faults(found.artefacts) if found else [],
+        slips={(a.kind, a.campaign, a.test): name for name, a in named_slips(found)} if found else {},
         heat=heat,
         heat_lines=heat_lines(heat) if heat else [],
         heat_charts=[script_json(chart.as_json()) for chart in drawn],
