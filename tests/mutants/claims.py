@@ -10,7 +10,6 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # the tests that stand beside the rules of a module
 BESIDE = {
-    "answer.py": ("the_answer", "the_locked_tests"),
     "artefact.py": ("steps", "steps_beside_commands", "steps_by_moves"),
     "of_library.py": ("candidates", "unread_parts"),
     "moves.py": ("clocks_in_part",),
@@ -762,9 +761,9 @@ MUTANTS = [
         ("tests/diagnosis/test_answer.py",),
     ),
     Mutant(
-        "thermodata/diagnosis/answer.py",
-        "as_told = refit if beside.level is None else",
-        "as_told = refit if True else",
+        "thermodata/diagnosis/concluded.py",
+        "beside.of if beside is not None else _of_claims",
+        "_of_claims",
         "a slip is in the error with what is named",
         ("tests/diagnosis/test_answer.py",),
     ),
