@@ -134,7 +134,7 @@ MUTANTS = [
     diagnosis("unread.py", "if own or len(others) > 1", "if own", "a feed is as sure of the nut as the nut is"),
     diagnosis("unread.py", "not (warm and any", "not (any", "a feed is as sure of the nut as the nut is"),
     diagnosis("probability.py", "(beaten and of.around)", "beaten", "a second cause is doubted for the first"),
-    diagnosis("of_library.py", "around = len(names) == 1 and", "around =", "the layers of the hall's air are doubted"),
+    diagnosis("of_library.py", "around=len(names) == 1 and", "around=", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "warm == len(names) == 1", "warm", "the layers of the hall's air are doubted"),
     diagnosis("unread.py", "(moving and heat != AIR)", "(heat != AIR)", "where an axis stands is taken for its heat"),
     diagnosis("unread.py", "if not own <= {", "if False and {", "a scale is taken for a part that rubs"),
@@ -163,9 +163,7 @@ MUTANTS = [
     ),
     diagnosis("probability.py", "\nCLAIMED = 0.65", "\nCLAIMED = 0.55", "what is slow stands in for a cause"),
     diagnosis("probability.py", "PLACELESS_CLAIMED = 0.5", "PLACELESS_CLAIMED = 0.7", "nothing is ever claimed"),
-    diagnosis(
-        "of_library.py", "passive = placed and nameless", "passive = nameless", "without places nothing is claimed"
-    ),
+    diagnosis("of_library.py", "passive=placed and nameless", "passive=nameless", "without places nothing is claimed"),
     diagnosis("of_library.py", "channel.at is None or is_casting", "is_casting", "a sensor of no place is a cause"),
     diagnosis(
         "of_library.py", "if not nameless and len(bodies) == len(names):", "if False:", "a washed table is friction"
@@ -672,10 +670,10 @@ MUTANTS = [
     # ---- what is asked for
     diagnosis("of_library.py", "UNNAMED = -3.0", "UNNAMED = 0.0", "lags rival named effects"),
     diagnosis(
-        "of_library.py", "and not placed", "and all(usable[c].at is None for c in binding.values())", "any sensor"
+        "of_library.py", "GENERIC and not placed", "GENERIC and all(usable[c].at is None for c in names)", "any sensor"
     ),
     diagnosis("kin.py", 'return "near" if near else "related"', 'return "related"', "kin is claimed"),
-    diagnosis("of_library.py", "or effect.name == STATIC", "", "a gain is asked for twice"),
+    diagnosis("of_library.py", "or e.name == STATIC", "", "a gain is asked for twice"),
     diagnosis(
         "of_library.py",
         "SLACK_FACTORS = (0.2, 5.0)",
@@ -684,11 +682,11 @@ MUTANTS = [
     ),
     diagnosis(
         "of_library.py",
-        "if any(p.channels == names and p.modes >= modes(effect) for p in plain):",
-        "if False:",
+        "same or any(p.channels == names and p.modes >= modes(effect) for p in self.plain)",
+        "same",
         "what the model lags already is claimed by name",
     ),
-    diagnosis("of_library.py", "and not (alone or", "and (alone or", "refinements of nothing"),
+    diagnosis("of_library.py", "return not (alone or", "return (alone or", "refinements of nothing"),
     diagnosis("problem.py", "MIN_ROWS = 10", "MIN_ROWS = 1", "a test of one sample is left out in turn"),
     diagnosis("problem.py", "FEW_TESTS = 3", "FEW_TESTS = 9", "parts of one test pass as tests"),
     diagnosis("problem.py", "PART_ROWS = 100", "PART_ROWS = 10", "parts too short to tell anything"),
@@ -931,7 +929,9 @@ MUTANTS = [
     diagnosis("commanded.py", "if alike >= ALIKE else 0.0", "", "one slip at a move asks for the growth of a screw"),
     diagnosis("artefact.py", "commands.make(n) >= least", "True", "it is asked wherever an axis is logged"),
     diagnosis("of_library.py", "not (alone or ", "not (", "the growth of a screw is never missing"),
-    diagnosis("of_library.py", "in telling and not", "is not None and not", "a place that tells nothing is a cause"),
+    diagnosis(
+        "of_library.py", "in self.telling and not", "is not None and not", "a place that tells nothing is a cause"
+    ),
     diagnosis("of_library.py", " if role != told_by(effect)]", "]", "a place tells a screw from its guideway"),
     diagnosis("kin.py", "(told_by(effect) is None or ", "(", "a mode of a lag is a cause"),
     diagnosis("refinement.py", "and told_by(effect) is None)", "and True)", "a screw that grows is a mode of nothing"),
