@@ -84,6 +84,11 @@ def diagnosis(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(in_its_room(file), old, new, why, tests)
 
 
+def limit(old: str, new: str, why: str) -> Mutant:
+    tests = tuple(f"tests/diagnosis/test_rules_of_{topic}.py" for topic in BESIDE["rules.py"])
+    return Mutant("thermodata/schema/agreed/limits.py", old, new, why, tests)
+
+
 def products(file: str, old: str, new: str, why: str) -> Mutant:
     return Mutant(in_its_room(file), old, new, why, BRUTE_FORCE)
 
@@ -287,10 +292,8 @@ MUTANTS = [
     diagnosis("measure.py", "SHARE = 0.25, 0.4", "SHARE = 0.05, 0.4", "a distributed machine is never complete"),
     diagnosis("measure.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.9", "a refinement hides that something is missing"),
     diagnosis("measure.py", "SHARE = 0.25, 0.4", "SHARE = 0.25, 0.3", "a rough model that lacks nothing is unknown"),
-    diagnosis("rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.64", "nothing is missing beside what may be the cause"),
-    diagnosis(
-        "rules.py", "PLAUSIBLE = 0.3", "PLAUSIBLE = 0.1", "what is no cause makes that nothing is missing unsure"
-    ),
+    limit("PLAUSIBLE = 0.3", "PLAUSIBLE = 0.64", "nothing is missing beside what may be the cause"),
+    limit("PLAUSIBLE = 0.3", "PLAUSIBLE = 0.1", "what is no cause makes that nothing is missing unsure"),
     diagnosis("rules.py", " >= PLAUSIBLE or halves(alone, left)", " >= PLAUSIBLE", "what takes half is nothing"),
     diagnosis("rules.py", "STRONG = 0.4", "STRONG = 0.04", "left-out tests that hardly gain are not heard"),
     diagnosis("rules.py", "HALVES = 0.5", "HALVES = 0.1", "a test at rest that is all wrong lacks nothing"),
