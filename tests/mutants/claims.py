@@ -826,7 +826,7 @@ MUTANTS = [
     diagnosis("once.py", "float(np.ptp(a[known])) > 0", "True", "two flat tests are copies"),
     diagnosis("once.py", "LEAST_SAMPLES = 30", "LEAST_SAMPLES = 29", "few samples are a copy"),
     diagnosis("once.py", "in tests[:number] if", "in tests if", "two copies take each other out"),
-    diagnosis("once.py", "_measured(one, mine)\n", "np.ones(len(one.t_s), bool)\n", "what was not measured is shared"),
+    diagnosis("once.py", "one.sampled(mine)\n", "np.ones(len(one.t_s), bool)\n", "what was not measured is shared"),
     diagnosis("difference.py", "and len(sides) == 2", "", "one side tells a difference from itself"),
     diagnosis("difference.py", "len(needs) == 2 and ", "", "a bearing is a difference"),
     diagnosis("artefact.py", "WITHIN = 0.7", "WITHIN = 0.0", "where heat begins is a slip"),
