@@ -19,11 +19,11 @@ from thermodata.plugin import Float1D
 
 @dataclass(frozen=True, slots=True)
 class Concluded:
-    """judgement: the last one; that of the investigation is of the open tests alone. confirmation: of what is claimed,
-    on the locked tests; None where nothing is. on_locked: whether it is only the locked tests that miss something.
-    stands: what the model leaves as it stands, where nothing is missing. named: mean square error of each left-out test
-    with all that is named; None where nothing is. turned: the keys of the locked tests in which a probe is turned.
-    looks: each time that locked tests were opened."""
+    """judgement: once the locked tests had their say. confirmation: of what is claimed, on the locked tests; None where
+    nothing is. on_locked: whether it is only the locked tests that miss something. stands: what the model leaves as it
+    stands, where nothing is missing. named: mean square error of each left-out test with all that is named; None where
+    nothing is. turned: the keys of the locked tests in which a probe is turned. looks: each time that locked tests were
+    opened."""
 
     investigation: Investigation
     judgement: Judgement
