@@ -63,13 +63,13 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     return Loaded(stored.model, stored.parent, fitted, data, kept)
 
 
-def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+def fit_alone(spec: Model, data: Dataset, *, uncertainty: bool = True) -> FittedModel:
     """`fit_model` on one core: its matrices are so small that threads wait for each other, four times as long as they
     work."""
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):
-        return fit_model(spec, data, base=base, uncertainty=uncertainty)
+        return fit_model(spec, data, uncertainty=uncertainty)
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
