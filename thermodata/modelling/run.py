@@ -190,7 +190,7 @@ def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Seque
     """How far the model carries over to each test and machine of its campaigns, which are kept as findings of the
     model; or to the tests or campaigns named, of the whole store. UsageError for a named test that is unknown, locked,
     or has nothing to carry over to."""
-    from thermodata.store.catalogue.models import save_findings
+    from thermodata.store.catalogue.findings import save_findings
 
     model = load(store, ref)
     data, more = model.data, list[Portability]()

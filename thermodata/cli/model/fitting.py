@@ -120,7 +120,8 @@ def _answer_scores(session: Session, store: Store, models: list[str]) -> None:
     from thermodata.modelling.model_file.not_installed import not_installed
     from thermodata.modelling.run import compare, differences_of, load
     from thermodata.report.collected.spots import weak_spots_of
-    from thermodata.store.catalogue.models import find_model, load_diagnosis
+    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models import find_model
     from thermodata.store.catalogue.stale import stale_line
 
     results = compare(store, models)

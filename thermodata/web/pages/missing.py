@@ -24,8 +24,9 @@ from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.findings import load_diagnosis
 from thermodata.store.catalogue.looks import looks_of
-from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
+from thermodata.store.catalogue.models import StoredModel, find_model
 from thermodata.store.catalogue.stale import all_fitted_again
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.grid.load import data_version
