@@ -1,4 +1,4 @@
-"""What may be asked for, and within which bounds (candidates/of_library.py)."""
+"""What may be asked for, and within which bounds (candidates/of_library.py, candidates/grid.py)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates, grid
+from thermodata.diagnosis.candidates.grid import grid
+from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
 from thermodata.diagnosis.claims.refinement import mode_of
 from thermodata.diagnosis.question.present import Present

@@ -184,7 +184,7 @@ class TestJudged:
         assert found.measure.noise == pytest.approx(0.1, rel=0.2)
         assert "spindle_bearing:T_bearing" not in self.asked
         assert "lag:T_hall" in self.asked
-        assert (found.judgement.verdict, found.selection) == ("not_testable", None)
+        assert (found.on_open.verdict, found.selection) == ("not_testable", None)
         one = scored()
         assert found.borne_out(Judged(one, one, None, ()), ()) is None
 
@@ -202,7 +202,7 @@ class TestJudged:
         assert found.measure.chance.tolist() == [100.0] * 199
         assert self.sound(cause)
         assert not self.sound(replace(cause, evidence=99.0))
-        assert [c.scored for c in found.judgement.claims] == [cause]
+        assert [c.scored for c in found.on_open.claims] == [cause]
 
     @pytest.mark.parametrize(
         ("evidence", "verdict", "asked"),
@@ -220,8 +220,8 @@ class TestJudged:
         cause = scored("cause", before=3.0, after=0.3, size=3.0, evidence=evidence)
         bed = scored("bed", before=3.0, after=0.3, size=3.0, evidence=700.0, passive=True, family="generic")
         found = self.investigated(monkeypatch, data, fitted.responses[0], [cause, bed], ranked=[cause, bed])
-        assert (found.judgement.verdict, self.among) == (verdict, asked)
-        assert [j.scored.candidate.effect.name for j in found.judgement.judged] == asked[-1]
+        assert (found.on_open.verdict, self.among) == (verdict, asked)
+        assert [j.scored.candidate.effect.name for j in found.on_open.judged] == asked[-1]
         self.investigated(monkeypatch, data, fitted.responses[0], [FAR])
         assert self.among == [["far"]], "no second look where nothing is passive"
 
@@ -234,7 +234,7 @@ class TestJudged:
         some = [blunt, bed]
         found = self.investigated(monkeypatch, data, fitted.responses[0], some, ranked=some, stands_out=False)
         assert self.among == [["blunt"]]
-        assert [j.scored.candidate.effect.name for j in found.judgement.judged] == ["blunt"]
+        assert [j.scored.candidate.effect.name for j in found.on_open.judged] == ["blunt"]
         rows = found.problem.rows
         for one, enough in ((bed, LEAST_OF_PASSIVE), (scored(placeless=True), LEAST_OF_PLACELESS)):
             assert self.may(replace(one, evidence=1.01 * enough * rows))
@@ -264,18 +264,18 @@ class TestJudged:
             return self.investigated(monkeypatch, data, fitted.responses[0], some, refined=["mode"], **more)
 
         found = investigated(members, locked=locked)
-        result = found.borne_out(found.judgement.claims[0], ())
+        result = found.borne_out(found.on_open.claims[0], ())
         assert result is not None
         assert result.holds
         assert asked == [(4, 3, ["mode", "blunt"], ["cause"]), (4, 3, ["mode"], ["cause"])]
         asked.clear()
         holds[:] = [False]
         found = investigated(members[:2], locked=locked)
-        result = found.borne_out(found.judgement.claims[0], ())
+        result = found.borne_out(found.on_open.claims[0], ())
         assert result is not None
         assert not result.holds
         assert len(asked) == 1, "nothing but refinements stood beside it"
-        assert investigated(members).borne_out(found.judgement.claims[0], ()) is None, "there are no locked tests"
+        assert investigated(members).borne_out(found.on_open.claims[0], ()) is None, "there are no locked tests"
 
     @pytest.mark.parametrize(
         ("evidence", "left", "asked", "among"),

@@ -157,7 +157,7 @@ class TestAnswer:
         refitted: Any = SimpleNamespace(responses=[response])
         monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
         monkeypatch.setattr(answering, "beside_slips", lambda found, _: found)
-        without = replace(found, judgement=nothing("unknown"))
+        without = replace(found, on_open=nothing("unknown"))
         monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
         monkeypatch.setattr(answering, "confirm", confirm)
         monkeypatch.setattr(answering, "Fits", Fits)

@@ -10,7 +10,8 @@ import numpy as np
 
 from thermodata.effect import effect as find_effect
 from thermodata.effect import law
-from thermodata.export.control.program import Input, Limits, Program, Start, build
+from thermodata.export.control.build import build
+from thermodata.export.control.program import Input, Limits, Program, Start
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST
 from thermodata.modelling.seen.laws import Drive, GainLaw, TermLaw
 from thermodata.plugin import Drivers, Effect, Float1D

@@ -18,8 +18,8 @@ from thermodata.modelling.least_squares.labels import alike, fastest_first
 from thermodata.modelling.least_squares.search import Problem, search
 from thermodata.modelling.trust.anew import could_fall, fit_anew
 from thermodata.modelling.trust.coordinate import Searched
+from thermodata.modelling.trust.estimate import Estimate
 from thermodata.modelling.trust.profile import Profile
-from thermodata.modelling.trust.uncertainty import _Estimate
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.files.model import Model
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
@@ -54,7 +54,7 @@ def fitted() -> tuple[Problem, Float1D, Float2D]:
     text = {"schema": "thermodata/model/1", "name": "m", "campaign": "c", "step": "60 s"}
     model = Model.model_validate(text | {"response": {"channel": "y"}, "effects": TWO})
     problem, x, _ = fitted_problem(fit_model(model, Dataset(60.0, tests, CHANNELS)).responses[0], tests)
-    slopes = _Estimate(problem, x, problem.gains(problem.matrix(x))).slopes()
+    slopes = Estimate(problem, x, problem.gains(problem.matrix(x))).slopes()
     assert slopes is not None
     return problem, x, slopes
 
@@ -137,7 +137,7 @@ def test_a_like_lag_that_is_passed_ends_where_a_search_ends(along: bool) -> None
     fit = fit_model(model, Dataset(60.0, tuple(tests), CHANNELS), uncertainty=False)
     problem, x, _ = fitted_problem(fit.responses[0], tests)
     x = fastest_first(problem, x)
-    estimate = _Estimate(problem, x, problem.gains(problem.matrix(x)))
+    estimate = Estimate(problem, x, problem.gains(problem.matrix(x)))
     for place, by in ((0, 0.2), (1, -0.2)):
         of = Searched(place, problem.free[place], alike(problem))
         way = estimate.along(place, [0, 1]) if along else None

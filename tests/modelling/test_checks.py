@@ -10,7 +10,7 @@ import pytest
 from thermodata.effect.lag import lag
 from thermodata.modelling import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
-from thermodata.modelling.trust.uncertainty import effective_count, memory
+from thermodata.modelling.trust.memory import effective_count, memory
 from thermodata.modelling.versions.result import make_result
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData

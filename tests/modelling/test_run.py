@@ -31,7 +31,8 @@ from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.files.model import EffectSpec
 from thermodata.store import Store
-from thermodata.store.catalogue.models import find_model, model_chain, save_diagnosis
+from thermodata.store.catalogue.findings import save_diagnosis
+from thermodata.store.catalogue.models import find_model, model_chain
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 

@@ -95,8 +95,9 @@ def outcome(checkout: Path, mutant: Mutant) -> str:
 
 
 def lists(names: list[str]) -> list[Mutant]:
-    others = {"run", "mutant"}
-    names = names or sorted(p.stem for p in HERE.glob("*.py") if p.stem not in others)
+    names = names or [
+        n for n in sorted(p.stem for p in HERE.glob("*.py")) if not n.startswith(("run", "mutant", "test_"))
+    ]
     return [mutant for name in names for mutant in importlib.import_module(name).MUTANTS]
 
 

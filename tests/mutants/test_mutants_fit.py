@@ -10,7 +10,7 @@ import pytest
 HERE = Path(__file__).resolve().parent
 
 
-@pytest.mark.parametrize("name", ["claims", "text"])
+@pytest.mark.parametrize("name", ["claims", "measuring", "text"])
 def test_the_old_text_of_each_mutant_stands_once_in_its_file(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(HERE))
     mutants = importlib.import_module(name).MUTANTS

@@ -8,14 +8,12 @@ from typing import Any
 
 import pytest
 
-from thermodata.diagnosis.claims import measure, rules
 from thermodata.report.collected.collect import _reason
 from thermodata.report.collected.data import ReportData
 from thermodata.report.page.error_rows import error_rows
 from thermodata.report.page.headline import headline, sentences
 from thermodata.report.page.page import render
 from thermodata.report.text.diagnosis import diagnosis_text
-from thermodata.report.verdict import left_over, verdict
 from thermodata.report.verdict.candidate_errors import beside
 from thermodata.report.verdict.refined import named
 from thermodata.report.verdict.verdict import explainable, in_parts, probability, told, verdict_sentence
@@ -232,11 +230,6 @@ def test_something_is_missing_where_more_is_left_than_of_a_machine_that_lacks_no
     """Or where a cause is plausible, or a claim left the locked tests with it."""
     known = {"rmse_um": left, "response_um": 7.0, "locked_rmse_um": locked}
     assert verdict_sentence(found("unknown", [one("sun", probability=share)], **known)).startswith(said)
-
-
-def test_limits_of_words_are_those_of_the_rules() -> None:
-    assert verdict.PLAUSIBLE == rules.PLAUSIBLE
-    assert left_over.OF_NOTHING == measure.OF_NOTHING
 
 
 def test_the_likeliest_says_by_which_name_it_may_go_and_what_else_it_may_be() -> None:

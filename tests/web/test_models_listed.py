@@ -14,7 +14,8 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import Model
 from thermodata.store import Store
-from thermodata.store.catalogue.models import find_model, save_diagnosis, save_fit
+from thermodata.store.catalogue.findings import save_diagnosis
+from thermodata.store.catalogue.models import find_model, save_fit
 from thermodata.view.lists.models import model_rows
 
 from ..view.conftest import Builder

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.draft.campaign.parts import Draft
 from thermodata.draft.campaign.plan import plan
-from thermodata.draft.files.letters_of_files import declared_before
+from thermodata.draft.files.letters_of_files import encoding_declared_before
 from thermodata.draft.folder.scan import Progress, scan
 from thermodata.draft.times.zones import zone_declared_before
 from thermodata.draft.words.naming import plain
@@ -58,7 +58,7 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             f"thermodata first-model {out} drafts a model of it; "
             "--force keeps it as campaign.1.yaml and drafts it anew",
         )
-    found = scan(folder, progress, declared_before(out) if out.exists() else None)
+    found = scan(folder, progress, encoding_declared_before(out) if out.exists() else None)
     if not found.logs and not found.ignored:
         raise UsageError(
             "a folder without files",

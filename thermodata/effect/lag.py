@@ -22,8 +22,12 @@ SHORT = 10_000  # samples up to which the recursion is a banded system of equati
 
 def step_of(drivers: Drivers) -> float:
     """The grid's step [s]; 1 where there is only one sample."""
-    t = drivers.t_s
-    return float((t[-1] - t[0]) / (len(t) - 1)) if len(t) > 1 else 1.0
+    return step_between(drivers.t_s)
+
+
+def step_between(t_s: Float1D) -> float:
+    """The step of a grid, shape (n,) [s]; 1 where there is only one sample."""
+    return float((t_s[-1] - t_s[0]) / (len(t_s) - 1)) if len(t_s) > 1 else 1.0
 
 
 def ramp_coefficients(tau_s: float, step_s: float) -> tuple[float, float, float]:

@@ -23,10 +23,10 @@ from typing import Any, Literal, TypeAlias, cast, get_args
 
 from thermodata.effect.linear import Filter
 from thermodata.errors import PluginError
+from thermodata.schema.agreed.comparators import Comparator
 from thermodata.schema.units.quantity import SECONDS_PER_UNIT
 
 Operator = Literal["+", "-", "*", "/", "**"]
-Comparator = Literal["<", "<=", ">", ">=", "==", "!="]
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,16 +11,9 @@ from thermodata.effect import law
 from thermodata.effect.lag import lag
 from thermodata.effect.linear import Filter
 from thermodata.plugin import Float1D
+from thermodata.schema.agreed.comparators import COMPARE
 
 _ARITHMETIC = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "**": np.power}
-_COMPARE = {
-    "<": np.less,
-    "<=": np.less_equal,
-    ">": np.greater,
-    ">=": np.greater_equal,
-    "==": np.equal,
-    "!=": np.not_equal,
-}
 
 
 def evaluate(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D:
@@ -40,7 +33,7 @@ def _of(node: law.Node, values: Mapping[str, Float1D], step_s: float) -> Float1D
         case law.Binary(operator, left, right):
             return np.asarray(_ARITHMETIC[operator](_of(left, values, step_s), _of(right, values, step_s)))
         case law.Compare(operator, left, right):
-            held = _COMPARE[operator](_of(left, values, step_s), _of(right, values, step_s))
+            held = COMPARE[operator](_of(left, values, step_s), _of(right, values, step_s))
             return np.asarray(held, dtype=np.float64)
         case law.Logic("not", of):
             return np.asarray(_of(of[0], values, step_s) == 0, dtype=np.float64)

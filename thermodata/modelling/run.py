@@ -63,13 +63,13 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
     return Loaded(stored.model, stored.parent, fitted, data, kept)
 
 
-def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
+def fit_alone(spec: Model, data: Dataset, *, uncertainty: bool = True) -> FittedModel:
     """`fit_model` on one core: its matrices are so small that threads wait for each other, four times as long as they
     work."""
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):
-        return fit_model(spec, data, base=base, uncertainty=uncertainty)
+        return fit_model(spec, data, uncertainty=uncertainty)
 
 
 def load_data(store: Store, spec: Model) -> Dataset:
@@ -190,7 +190,7 @@ def transfer(store: Store, ref: str, tests: Sequence[str] = (), campaigns: Seque
     """How far the model carries over to each test and machine of its campaigns, which are kept as findings of the
     model; or to the tests or campaigns named, of the whole store. UsageError for a named test that is unknown, locked,
     or has nothing to carry over to."""
-    from thermodata.store.catalogue.models import save_findings
+    from thermodata.store.catalogue.findings import save_findings
 
     model = load(store, ref)
     data, more = model.data, list[Portability]()

@@ -6,8 +6,9 @@ import numpy as np
 
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import Model
-from thermodata.schema.units.quantity import CANONICAL_UNIT, value_in
+from thermodata.schema.units.quantity import value_in
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
+from thermodata.virtual.described import described
 from thermodata.virtual.plan import AXES, STEP_S
 from thermodata.virtual.world import Run, World, make_world
 
@@ -31,18 +32,7 @@ def dataset(
 
 def to_dataset(world: World, step_s: float) -> Dataset:
     """Every test on a grid of step_s [s], a multiple of 10 s."""
-    # the campaign file declares the resolution of temperatures only
-    infos = {
-        s.name: ChannelInfo(
-            s.name,
-            s.quantity,
-            CANONICAL_UNIT[s.quantity],
-            at=s.at,
-            source=s.source,
-            resolution=s.resolution if s.quantity == "temperature" else None,
-        )
-        for s in world.sensors
-    }
+    infos = described(world.sensors)
     for a in AXES:
         infos[f"d{a}"] = ChannelInfo(f"d{a}", "displacement", "um", at="tcp", axis=a, relative_to="table", source="daq")
     tests = tuple(_test(world, r, step_s, infos, i) for i, r in enumerate(world.runs))

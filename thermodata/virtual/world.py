@@ -81,9 +81,8 @@ class World:
             for e in self.present
         }
 
-    def baseline(self, *, without: str | None = None) -> Model:
-        """The model of the lab: every effect of the world but the hidden one (or but `without`)."""
-        gone = self.hide if without is None else without
+    def baseline(self) -> Model:
+        """The model of the lab: every effect of the world but the hidden one."""
         return Model.model_validate(
             {
                 "schema": "thermodata/model/1",
@@ -91,7 +90,7 @@ class World:
                 "campaign": self.campaign,
                 "response": {"axis": self.axis, "at": "tcp"},
                 "step": "60 s",
-                "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != gone],
+                "effects": [{"effect": e, "drivers": drivers_of(e, self.axis)} for e in self.present if e != self.hide],
             }
         )
 

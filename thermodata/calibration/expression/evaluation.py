@@ -27,17 +27,10 @@ from thermodata.calibration.expression.nodes import (
 )
 from thermodata.errors import UsageError, nearest
 from thermodata.plugin import Array
+from thermodata.schema.agreed.comparators import COMPARE, Comparator
 from thermodata.schema.units.quantity import compound_unit, delta_factor, linear_conversion, normal_unit
 
 _OFFSET_UNITS = ("degC", "degF")
-_COMPARE = {
-    "<": np.less,
-    "<=": np.less_equal,
-    ">": np.greater,
-    ">=": np.greater_equal,
-    "==": np.equal,
-    "!=": np.not_equal,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +183,7 @@ class Evaluation:
             return Number(value, b_unit, False, label)
         return Number(value, compound_unit(a_unit, "*" if operator == "*" else "/", b_unit), False, label)
 
-    def _compare(self, a: Number, operator: str, b: Number) -> Logic:
+    def _compare(self, a: Number, operator: Comparator, b: Number) -> Logic:
         a_abs, b_abs = _is_offset(a), _is_offset(b)
         if "K" in (a.unit, b.unit) and a_abs != b_abs and not (a.bare or b.bare):
             # 1 degC against a difference is 1 K; 293 K against a temperature is 19.85 degC
@@ -203,7 +196,7 @@ class Evaluation:
                 )
         x, y, _, _ = self._right_in_left(a, b, difference=False)
         known = ~(np.isnan(x) | np.isnan(y))
-        holds = _COMPARE[operator](x, y)
+        holds = np.asarray(COMPARE[operator](x, y))
         return Logic(holds & known, ~holds & known)
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from thermodata.schema.agreed.comparators import Comparator
+
 Operator = Literal["+", "-", "*", "/"]
-Comparator = Literal["<", "<=", ">", ">=", "==", "!="]
 
 
 @dataclass(frozen=True, slots=True)

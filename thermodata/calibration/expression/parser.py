@@ -27,6 +27,7 @@ from thermodata.calibration.expression.evaluation import Evaluation, Logic, Numb
 from thermodata.calibration.expression.nodes import Node
 from thermodata.errors import UsageError
 from thermodata.plugin import Array, Bool1D, Float1D
+from thermodata.schema.agreed.comparators import COMPARE, Comparator
 from thermodata.schema.units.quantity import is_unit, linear_conversion, normal_unit
 
 _TOKEN = re.compile(
@@ -35,7 +36,6 @@ _TOKEN = re.compile(
 )
 _UNIT = re.compile(r"[ \t]*(?P<unit>N[ ]m\b|1/[^\W\d]\w*|[°%]?(?:[^\W\d][\w°²³⁻¹^·]*(?:-\d)?)?(?:/[^\W\d][\w²³^]*)*)")
 _WORDS = frozenset({"and", "or", "not", "abs"})
-_COMPARATORS = frozenset({"<", "<=", ">", ">=", "==", "!="})
 _LONGEST, _DEEPEST = 2000, 60
 
 
@@ -179,8 +179,8 @@ class _Parser:
 
     def _comparison(self) -> Node:
         operands, operators = [self._sum()], []
-        while operator := self._take(*_COMPARATORS):
-            operators.append(cast(nodes.Comparator, operator))
+        while operator := self._take(*COMPARE):
+            operators.append(cast(Comparator, operator))
             operands.append(self._sum())
         return nodes.Comparison(tuple(operands), tuple(operators)) if operators else operands[0]
 

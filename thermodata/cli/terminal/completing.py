@@ -89,7 +89,8 @@ def _channels(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
 def _candidates(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
     """Ids and ranks of the model's last diagnosis, and the steps that it told."""
     from thermodata.schema.answers.slip_ids import slip_ids
-    from thermodata.store.catalogue.models import find_model, load_diagnosis
+    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models import find_model
 
     found = load_diagnosis(store, find_model(store, str(words.get("model"))).model)
     if found is None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 
 from thermodata.diagnosis.candidates.kin import Kin, ModelOf, furthest, kin_of, refines, told_by
-from thermodata.diagnosis.candidates.unread import is_holder, is_lesser, is_motion, part_of, parts_of, unread
+from thermodata.diagnosis.candidates.unread import Part, is_holder, is_lesser, is_motion, part_of, parts_of, unread
 from thermodata.diagnosis.candidates.warm_at_rest import is_at_table, turns
 from thermodata.diagnosis.question.present import (
     CONTROL,
@@ -25,9 +24,9 @@ from thermodata.effect.places import holds
 from thermodata.modelling.inputs.drivers import has_drivers, make_drivers
 from thermodata.modelling.inputs.lead import columns, with_lead
 from thermodata.modelling.versions.candidate import with_effect
-from thermodata.plugin import Effect, Float1D, Float2D, Param
+from thermodata.plugin import Effect, Float2D
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.schema.units.quantity import NOT_DRIVERS, SECONDS_PER_UNIT
+from thermodata.schema.units.quantity import NOT_DRIVERS
 from thermodata.schema.words.places import is_around, is_beside, is_casting, is_scale
 from thermodata.view.grid.dataset import ChannelInfo, TestData
 
@@ -143,10 +142,9 @@ def candidates(
     as a plain lag too, whatever named effects it drives: a name must earn its place. Artefacts are looked for within
     tests, not here."""
     own = tuple(present)
-    plain = [p for p in own if is_plain(p.effect, library)]
+    plain = tuple(p for p in own if is_plain(p.effect, library))
     # a plain function is no other effect than what it stands for
     acting = (*own, *(other for p in plain for other in stands_for(p, library, channels)))
-    model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
     # a sensor that failed goes with anything that happened when it did; one that failed in a test or two of many drives
     # nothing there (`CandidateEffect.in_test`)
     usable = {
@@ -159,50 +157,76 @@ def candidates(
     # a temperature that is modelled reads its own part
     if response in channels and channels[response].quantity == "temperature":
         known |= {part for part in [part_of(channels[response].at)] if part}
-    found: list[CandidateEffect] = []
-    for effect in library.values():
-        # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
-        if effect.family == "artefact" or not effect.needs or effect.name == STATIC:
-            continue
-        for binding in bindings(effect, usable):
-            nowhere = effect.family == GENERIC and not placed
-            names, family = frozenset(binding.values()), family_of(effect, binding, channels)
-            if any(p.effect == effect.name and p.channels == names for p in own):
-                continue
-            if any(p.channels == names and p.modes >= modes(effect) for p in plain):
-                continue
-            # beside what it refines, by another channel, it is no cause either
-            alone = binding.get(told_by(effect) or "") in telling and not model.has_any(refines(effect), family)
-            if refines(effect) and not (alone or model.has_one_of(refines(effect), names)):
-                continue
-            kin = kin_of(effect, family, names, model, library, usable)
-            nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, at_rest)]
-            if not nameless and len(bodies) == len(names):
-                continue
-            passive = placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names))
-            # where an axis stands tells no part of it from another
-            other = unread(effect, [n for role, n in binding.items() if role != told_by(effect)], usable, known)
-            around = len(names) == 1 and all(_is_around(usable[n]) for n in names)
-            of_motion = all(is_motion(usable[n].quantity) for n in names)
-            found.append(
-                CandidateEffect(
-                    effect,
-                    binding,
-                    family,
-                    nowhere,
-                    passive,
-                    kin=kin,
-                    unread=other,
-                    around=around,
-                    of_motion=of_motion,
-                    of_holder=all(is_holder(usable[n]) for n in names),
-                    lesser=is_lesser(effect, names, usable, other),
-                )
-            )
-    named = [c for c in found if c.family not in (GENERIC, CONTROL)]
+    model = ModelOf(own, acting, frozenset(p.family for p in acting) - {GENERIC})
+    beside = _Beside(library, usable, model, plain, frozenset(known), placed, telling, at_rest)
+    # a static gain is a lag whose time constant is zero, and the grid of a lag begins there
+    asked = [e for e in library.values() if not (e.family == "artefact" or not e.needs or e.name == STATIC)]
+    found = [beside.candidate(e, binding) for e in asked for binding in bindings(e, usable)]
+    return _told_by_names([one for one in found if one is not None])
+
+
+@dataclass(frozen=True, slots=True)
+class _Beside:
+    """What each effect is held against. usable: channels that may drive one. model: what is there already; plain: the
+    functions without a name in it; known: the parts that it has. placed: whether any temperature has a place. telling,
+    at_rest: as `candidates` has them."""
+
+    library: Mapping[str, Effect]
+    usable: Mapping[str, ChannelInfo]
+    model: ModelOf
+    plain: tuple[Present, ...]
+    known: frozenset[Part]
+    placed: bool
+    telling: Container[str]
+    at_rest: Container[str]
+
+    def candidate(self, effect: Effect, binding: Mapping[str, str]) -> CandidateEffect | None:
+        """An effect by some channels; None where it is not asked: the model has it, it refines nothing, or it would
+        have to rub where nothing does."""
+        usable, placed = self.usable, self.placed
+        names, family = frozenset(binding.values()), family_of(effect, binding, usable)
+        if self._is_there(effect, names) or self._refines_nothing(effect, binding, family):
+            return None
+        nameless, bodies = family in (GENERIC, CONTROL), [n for n in names if _is_body(n, usable, self.at_rest)]
+        if not nameless and len(bodies) == len(names):
+            return None
+        # where an axis stands tells no part of it from another
+        other = unread(effect, [n for role, n in binding.items() if role != told_by(effect)], usable, self.known)
+        return CandidateEffect(
+            effect,
+            binding,
+            family,
+            placeless=family == GENERIC and not placed,
+            passive=placed and nameless and (bool(bodies) or any(_follows(usable[n]) for n in names)),
+            kin=kin_of(effect, family, names, self.model, self.library, usable),
+            unread=other,
+            around=len(names) == 1 and all(_is_around(usable[n]) for n in names),
+            of_motion=all(is_motion(usable[n].quantity) for n in names),
+            of_holder=all(is_holder(usable[n]) for n in names),
+            lesser=is_lesser(effect, names, usable, other),
+        )
+
+    def _is_there(self, effect: Effect, names: frozenset[str]) -> bool:
+        """Whether the model has it, or a plain function of the same channels that can do as much."""
+        same = any(p.effect == effect.name and p.channels == names for p in self.model.own)
+        return same or any(p.channels == names and p.modes >= modes(effect) for p in self.plain)
+
+    def _refines_nothing(self, effect: Effect, binding: Mapping[str, str], family: str) -> bool:
+        """Whether it is a refinement of what the model does not have, and its own moves do not tell it either."""
+        if not refines(effect):
+            return False
+        # beside what it refines, by another channel, it is no cause either
+        alone = binding.get(told_by(effect) or "") in self.telling and not self.model.has_any(refines(effect), family)
+        return not (alone or self.model.has_one_of(refines(effect), frozenset(binding.values())))
+
+
+def _told_by_names(found: Sequence[CandidateEffect]) -> list[CandidateEffect]:
+    """The same, each plain function with what the effects with a name on its channels say of it."""
     kins: dict[tuple[str, ...], list[Kin]] = {}
     unmodelled: dict[tuple[str, ...], tuple[str, ...]] = {}
-    for c in named:
+    for c in found:
+        if c.family in (GENERIC, CONTROL):
+            continue
         kins.setdefault(c.channels, []).append(c.kin)
         if c.kin is None:
             unmodelled[c.channels] = (*unmodelled.get(c.channels, ()), c.id)
@@ -245,34 +269,3 @@ def _is_around(channel: ChannelInfo) -> bool:
 def _says_little(candidate: CandidateEffect, named: Container[tuple[str, ...]]) -> bool:
     """Whether its name says no more than which channels it reads."""
     return candidate.family == CONTROL or (candidate.family == GENERIC and candidate.channels in named)
-
-
-def grid(params: Iterable[Param], step_s: float) -> list[dict[str, float]]:
-    """Points of the nonlinear parameters: time constants evenly in their logarithm, and half as close beyond
-    their bounds; others evenly."""
-    params = tuple(params)
-    if not params:
-        return [{}]
-    count = {1: 10, 2: 5}.get(len(params), 3)
-    axes = []
-    for p in params:
-        seconds = SECONDS_PER_UNIT.get(p.unit)
-        lower = max(p.lower, step_s / 4 / seconds) if seconds else p.lower
-        if p.reach is not None and p.upper > lower:
-            # nor does what is added reach what a sample does not resolve
-            resolved = min(lower, max(p.reach[0], step_s / 4 / seconds)) if seconds else p.reach[0]
-            axes.append(_within_and_beyond((lower, p.upper), (resolved, p.reach[1]), count))
-        elif seconds or (p.lower > 0 and p.upper / p.lower > 10):
-            axes.append(np.geomspace(max(lower, 1e-9), max(p.upper, lower), count))
-        else:
-            axes.append(np.linspace(p.lower, p.upper, min(count, 4)))
-    return [{p.name: float(v) for p, v in zip(params, values, strict=True)} for values in product(*axes)]
-
-
-def _within_and_beyond(bounds: tuple[float, float], reach: tuple[float, float], count: int) -> Float1D:
-    """count points within the bounds, and those beyond them twice as far apart."""
-    (first, last), within = bounds, np.geomspace(*bounds, count)
-    apart = 2 * np.log(last / first) / (count - 1)
-    below, above = (max(round(float(np.log(ratio) / apart)), 0) for ratio in (first / reach[0], reach[1] / last))
-    shorter, longer = np.geomspace(reach[0], first, below + 1)[:-1], np.geomspace(last, reach[1], above + 1)[1:]
-    return np.concatenate([shorter, within, longer])

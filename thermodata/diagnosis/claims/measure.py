@@ -13,8 +13,6 @@ FLOOR_SHARE = 0.1  # a residual under this share of the response (FIT 90) is lef
 # modes of the model are found that refine it, what they leave under that (FIT 60); what is left where a cause is
 # missing is more (docs/method.md#verdicts)
 GOOD_SHARE, REFINED_SHARE = 0.25, 0.4
-# and mostly under this, so that more is missing for sure (13 to 47 % on 25 of 26 machines that lack nothing)
-OF_NOTHING = 0.5
 # the short-term noise, so many times, is nothing but noise, for there is a slow one, too: up to the share of the
 # response that is left alone anyway; above that a noise that is large by itself
 NOISE_TIMES, LARGE_NOISE_TIMES = 5.0, 2.0

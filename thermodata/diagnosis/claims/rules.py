@@ -16,6 +16,7 @@ from thermodata.diagnosis.weigh.foretold import Foretold, Looked
 from thermodata.diagnosis.weigh.null import in_words as chance_in_words
 from thermodata.diagnosis.weigh.null import p_value
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.agreed.limits import PLAUSIBLE
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import apart, in_percent
 
@@ -36,7 +37,6 @@ WORTH_SHARE = 0.1  # of the response: less is not worth a name,
 # unless what is as probable as a claim asks does so much of the response, by a gain that differs so little between
 # tests: then the known effects take for their own what it does, and the error hardly shows it
 WORTH_SIZE, WORTH_SPREAD = 0.2, 0.2
-PLAUSIBLE = 0.3  # a sound candidate of this probability contradicts that nothing is missing, though it is not claimed
 PLAIN = 0.25  # evidence a sample: something is so plainly missing that no rule which it breaks says otherwise
 HALVES = 0.5  # what leaves no more than this share of the error contradicts that nothing is missing
 

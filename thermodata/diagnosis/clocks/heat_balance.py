@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from thermodata.diagnosis.clocks.beside_air import beside_air
 from thermodata.diagnosis.question.known import FloatND
 from thermodata.plugin import Bool1D, Float1D, Float2D, Int1D
 from thermodata.view.grid.dataset import TestData
@@ -21,7 +22,6 @@ MOST_S = 3900.0
 TWO_HOURS_S, ABOUT_S = 7200.0, 360.0  # and about two hours, as where a zone and daylight saving are wrong
 OVER_S = 600.0  # that a temperature rises over
 RIDGE = 0.02  # of a column's squares
-ALIKE = 1e-3  # of the largest: sensors of the air that differ by less are one
 TELLS = 0.2  # share of the squared rises of a temperature that is foretold at its best shift, else it says nothing,
 LEAST_SHARE = 0.3  # and of all that tell, on average
 LEAST_TELLING = 2  # temperatures: one alone may follow what nobody logged,
@@ -272,7 +272,7 @@ def _sums(
                 continue
             then = slice(max(0, -shift), n - over - max(0, shift))
             rows = slice(max(0, shift), n - over - max(0, -shift))
-            worked, rise, warm = _beside([works[then], rises[rows], begins[rows]], around[rows])
+            worked, rise, warm = beside_air([works[then], rises[rows], begins[rows]], around[rows])
             energy[i, :, k] = np.sum(rise**2, axis=0)
             seen = (energy[i, :, k] > 0).astype(np.float64)  # what was not measured says nothing of the commands
             gram[i, :, k, -1, -1] = np.sum(warm**2, axis=0)
@@ -281,15 +281,6 @@ def _sums(
             gram[i, :, k, :-1, -1] = gram[i, :, k, -1, :-1] = (worked.T @ warm).T
             cross[i, :, k, :-1] = (worked.T @ rise).T
     return gram, cross, energy
-
-
-def _beside(columns: Sequence[Float2D], air: Float2D) -> list[Float2D]:
-    """What no air gives, and no constant: each of shape (m, ...) as before. air: shape (m, sensors)."""
-    known = np.column_stack([np.ones(len(air)), air - air.mean(axis=0)])
-    size = np.linalg.norm(known, axis=0)
-    directions, singular, _ = np.linalg.svd(known[:, size > 0] / size[size > 0], full_matrices=False)
-    q = directions[:, singular > ALIKE * singular[0]]
-    return [np.asarray(c - q @ (q.T @ c)) for c in columns]
 
 
 def _mean_over(held: Float2D, over: int) -> Float2D:

@@ -78,7 +78,7 @@ def unlocked(asks: Asks, fits_of: Callable[[Sequence[TestData]], Fits], locked: 
 
 def _opened(found: Investigation, fits: Fits, locked: Sequence[TestData], looked_for: dict[str, None]) -> Judgement:
     """Where something is claimed or likely. looked_for: takes the ids of what the lock was opened for."""
-    judgement, unit = found.judgement, found.problem.unit
+    judgement, unit = found.on_open, found.problem.unit
     if not judgement.claims and not (locked and judgement.likely):
         return judgement
 

@@ -38,7 +38,7 @@ def each_once(
     for number, one in enumerate(tests):
         found += [a for other in tests[:number] if (a := again(one, other, channel, data.step_s)) is not None]
     changed = {t.key: _without(t, channel(t), [a.samples for a in found if a.test is t]) for t in tests}
-    gone = {key for key, test in changed.items() if test is not None and not _measured(test, channel(test)).any()}
+    gone = {key for key, test in changed.items() if test is not None and not test.sampled(channel(test)).any()}
     told = [replace(a, whole=a.test.key in gone) for a in found]
     kept = [changed[t.key] or t for t in tests if t.key not in gone or not any(a.test is t for a in found)]
     return replace(data, tests=tuple(changed.get(t.key) or t for t in data.tests)), kept, told
@@ -54,7 +54,7 @@ def again(one: TestData, other: TestData, channel: Callable[[TestData], str], st
     samples = np.zeros(len(one.t_s), bool)
     for from_s, to_s in spans:
         samples |= (one.t_s > from_s - step_s) & (one.t_s < to_s + step_s)
-    samples &= _measured(one, mine)
+    samples &= one.sampled(mine)
     return Again(one, other, samples, whole=False) if samples.any() else None
 
 
@@ -88,16 +88,9 @@ def _why(found: Again) -> str:
     )
 
 
-def _measured(test: TestData, channel: str) -> Bool1D:
-    if channel not in test.values:
-        return np.zeros(len(test.t_s), bool)
-    known = np.isfinite(test.values[channel]) & test.in_window
-    return known & test.valid[channel] if channel in test.valid else known
-
-
 def _without(test: TestData, channel: str, samples: Sequence[Bool1D]) -> TestData | None:
     """None where nothing of it stands in another."""
     if not samples:
         return None
-    left = _measured(test, channel) & ~np.logical_or.reduce(samples)
+    left = test.sampled(channel) & ~np.logical_or.reduce(samples)
     return replace(test, valid={**test.valid, channel: left})

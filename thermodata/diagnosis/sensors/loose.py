@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from thermodata.diagnosis.clocks.beside_air import beside_air
 from thermodata.diagnosis.clocks.by_heat import is_around
 from thermodata.diagnosis.clocks.sides import in_order
 from thermodata.diagnosis.question.known import FloatND
@@ -30,7 +31,6 @@ POWERS = {"rotational_speed": (1, 2)}  # what a bearing loses goes with its spee
 AIR_LAG_S = 3600.0
 MEASURED = 0.5  # of a test's samples at least
 RIDGE = 0.01  # of a column's squares
-ALIKE = 1e-3  # of the largest: directions of the air that differ by less are one
 LEAST_SIZE = 1e-9  # of a column, in its unit: below is what rounding leaves of one that stands
 FACTORS = (0.75, 0.65, 0.55, 0.45, 0.35, 0.25, 0.15)
 TELLS = 0.25  # of what is foretold in the test in which it is most: less of it says nothing of a factor,
@@ -249,7 +249,8 @@ def _columns(
     nothing = np.zeros(len(test.t_s))
     known = [x for a in around for x in (a, lag(a - a[0], AIR_LAG_S, step_s))]
     columns = _means([*commands, *(nothing if x is None else x for x in courses)], every, len(test.t_s))
-    return _beside(columns, _means(known, every, len(test.t_s))), np.array([x is not None for x in courses])
+    (own,) = beside_air([columns], _means(known, every, len(test.t_s)))
+    return own, np.array([x is not None for x in courses])
 
 
 def _held(test: TestData, name: str) -> Float1D:
@@ -277,14 +278,3 @@ def _means(columns: Sequence[Float1D], every: int, rows: int) -> Float2D:
     whole = rows // every
     table = np.column_stack(columns) if columns else np.zeros((rows, 0))
     return np.asarray(table[: whole * every].reshape(whole, every, table.shape[1]).mean(axis=1))
-
-
-def _beside(columns: Float2D, air: Float2D) -> Float2D:
-    """What no air gives, and no constant."""
-    if not len(columns):
-        return columns
-    known = np.column_stack([np.ones(len(air)), air - air.mean(axis=0)])
-    size = np.linalg.norm(known, axis=0)
-    directions, singular, _ = np.linalg.svd(known[:, size > 0] / size[size > 0], full_matrices=False)
-    q = directions[:, singular > ALIKE * singular[0]]
-    return np.asarray(columns - q @ (q.T @ columns))

@@ -195,7 +195,7 @@ def beside_the_model(s: Scored, investigation: Investigation) -> tuple[Scored, b
         return alone, True
     # with nothing beside it, what falls is the model's own error; in the little noise that is left the known effects
     # are pulled further towards what is missing, and foretell other tests worse than the model does
-    judged = investigation.judgement.judged
+    judged = investigation.on_open.judged
     if ranked and (judged or not s.others) and all(j.scored.columns is s.columns for j in judged):
         s = replace(s, sse_before=ranked[0].sse_before)
     if alone is None:

@@ -64,62 +64,84 @@ def why(
     """member: the same, as it was judged; None where it was not selected. held: of what is claimed, on locked tests.
     told: the same, as the answer's errors on left-out tests are of it; of_model: whether beside the model alone.
     by_name: what says the same of its channels by a name, and has its probability stated."""
-    unit, tests = investigation.problem.unit, investigation.measure.tests
-    others = judged_beside(s, member, investigation, judgement)
-    alone = told if of_model and others else None
-    like = told if told is not None and told.candidate is not s.candidate else None
-    if like is not None:
-        numbers = f"it is one equation with {like.candidate.id} and told as that: {_numbers(like, told, investigation)}"
-    elif alone is not None:
-        left = from_to(*_left_out(alone), unit, "from", "to")
-        own = _numbers(s, None, investigation, others)
-        numbers = f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {own}"
-    else:
-        numbers = _numbers(s, told, investigation, others)
-    if among(member, judgement.claims):
-        locked = _on_locked(s, held, unit, together=len(judgement.claims) > 1) if held else ""
-        elsewhere = f"; {also_missing(s)}" if s.also_on else ""
-        of_chance = chance_in_words(s.evidence, investigation.measure.chance)
-        broken = failed_rules(s, investigation.measure, unit)
-        broken += [member.refines.partition(":")[0]] if member is not None and member.refines else []
-        outweighed = f"; on the open tests {broken[0]}, which the locked ones outweigh" if broken else ""
-        few = placeless_limit(s)
-        gains = "".join(f"; {said}" for said in (held.implausible.get(s.candidate.id, ()) if held else ()))
-        spite = in_spite_of(s, investigation.measure, unit)
-        heat = where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks])
-        heat += also_of_motor(s, [j.scored for j in judgement.claims])
-        instead = member.in_place_of if member is not None else None
-        chosen = f"; taken by the locked tests in place of {instead}, which the open ones can't tell it from"
-        return (
-            f"{numbers}{spite}; {of_chance}{elsewhere}{outweighed}{locked}{chosen if instead else ''}{gains}{heat}{few}"
-        )
-    if among(member, judgement.refused):
-        return f"{numbers}; not claimed: {_refused(s, judgement)}"
-    if member is not None and member.refines:
+    numbers = _figures(s, told, judged_beside(s, member, investigation, judgement), investigation, of_model=of_model)
+    if member is not None and among(member, judgement.claims):
+        return f"{numbers}{_claimed(s, member, investigation, judgement, held)}"
+    refused = among(member, judgement.refused)
+    if member is not None and member.refines and not refused:
         return f"{numbers}; a refinement, not claimed as missing: {member.refines}"
-    failed = failed_rules(s, investigation.measure, unit)
+    reason = _refused(s, judgement) if refused else _not_claimed(s, member, investigation, judgement, by_name)
+    return f"{numbers}; not claimed: {reason}"
+
+
+def _figures(
+    s: Scored, told: Scored | None, others: Sequence[str], investigation: Investigation, *, of_model: bool
+) -> str:
+    """What it does to the errors. told, of_model: as in `why`. others: what it is judged beside."""
+    unit, tests = investigation.problem.unit, investigation.measure.tests
+    if told is not None and told.candidate is not s.candidate:
+        own = _numbers(s, told, investigation)
+        return f"it is one equation with {told.candidate.id} and told as that: {own}"
+    if told is not None and of_model and others:
+        left = from_to(*_left_out(told), unit, "from", "to")
+        own = _numbers(s, None, investigation, others)
+        return f"alone it takes the error on left-out {tests} {left}; it is judged beside others: {own}"
+    return _numbers(s, told, investigation, others)
+
+
+def _claimed(
+    s: Scored, member: Judged, investigation: Investigation, judgement: Judgement, held: Confirmation | None
+) -> str:
+    """What speaks for a claim, and what is to be known of it."""
+    measure, unit = investigation.measure, investigation.problem.unit
+    broken = failed_rules(s, measure, unit)
+    broken += [member.refines.partition(":")[0]] if member.refines else []
+    said = [in_spite_of(s, measure, unit), f"; {chance_in_words(s.evidence, measure.chance)}"]
+    if s.also_on:
+        said.append(f"; {also_missing(s)}")
+    if broken:
+        said.append(f"; on the open tests {broken[0]}, which the locked ones outweigh")
+    if held is not None:
+        said.append(_on_locked(s, held, unit, together=len(judgement.claims) > 1))
+    if member.in_place_of:
+        said.append(
+            f"; taken by the locked tests in place of {member.in_place_of}, which the open ones can't tell it from"
+        )
+    if held is not None:
+        said += [f"; {gain}" for gain in held.implausible.get(s.candidate.id, ())]
+    said.append(where_nothing_is_cut(s, [b.test for b in investigation.problem.blocks]))
+    said.append(also_of_motor(s, [j.scored for j in judgement.claims]))
+    return "".join([*said, placeless_limit(s)])
+
+
+def _not_claimed(
+    s: Scored, member: Judged | None, investigation: Investigation, judgement: Judgement, by_name: Scored | None
+) -> str:
+    """Why the open tests claim it not. by_name: as in `why`."""
+    failed = failed_rules(s, investigation.measure, investigation.problem.unit)
     # a probability that is stated of no candidate is no reason either
     if not failed and by_name is not None:
-        return f"{numbers}; not claimed: {by_name.candidate.id} says the same of its channels by a name"
+        return f"{by_name.candidate.id} says the same of its channels by a name"
     if not failed and member is None and not is_a_cause(s, member):
-        return f"{numbers}; not claimed: {would_be_a_mode(s.candidate)}"
+        return would_be_a_mode(s.candidate)
     names = [j.scored.candidate.id for j in judgement.chosen]
-    if is_judged_beside(s, member, chosen=bool(names)):
+    beside = is_judged_beside(s, member, chosen=bool(names))
+    if failed and s.looked is not None and s.looked.saying:
+        return f"{failed[0]}; {on_locked(s.looked)}"
+    if beside:
         failed += [why for why in [blunt(s)] if why]
     if failed:
-        asked = s.looked is not None and s.looked.saying and len(failed_rules(s, investigation.measure, unit)) > 0
-        return f"{numbers}; not claimed: {failed[0]}" + (f"; {on_locked(s.looked)}" if asked and s.looked else "")
+        return failed[0]
     heads = [j.scored for j in (*judgement.claims, *judgement.refused)][:1]
-    leaves_less = all(_left_out(s)[1] < _left_out(head)[1] for head in heads)
-    if leaves_less and not is_judged_beside(s, member, chosen=bool(names)):
+    if not beside and all(_left_out(s)[1] < _left_out(head)[1] for head in heads):
         were = "was" if len(names) == 1 else "were"
-        return f"{numbers}; not claimed: it keeps the rules by itself, and {listed(names)} {were} chosen without it"
+        return f"it keeps the rules by itself, and {listed(names)} {were} chosen without it"
     if judgement.claims:
-        return f"{numbers}; not claimed: {judgement.claims[0].scored.candidate.id} explains it, or more"
+        return f"{judgement.claims[0].scored.candidate.id} explains it, or more"
     if judgement.refused:
         first = judgement.refused[0].scored.candidate.id
-        return f"{numbers}; not claimed: {first}, which the locked tests do not bear out, explains it, or more"
-    return f"{numbers}; not claimed: {judgement.reason}"
+        return f"{first}, which the locked tests do not bear out, explains it, or more"
+    return judgement.reason
 
 
 def would_be_a_mode(one: CandidateEffect) -> str:

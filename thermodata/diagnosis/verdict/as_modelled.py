@@ -23,11 +23,11 @@ from thermodata.diagnosis.verdict.selection import Selection
 from thermodata.diagnosis.weigh.ranking import rank_in
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.plugin import Bool1D
+from thermodata.schema.agreed.limits import NOISY
 
 # of what the model as it stands leaves a refinement takes away this share, at least: what takes less foretells locked
 # tests hardly better (docs/method.md#as-modelled)
 FALLS = 0.3
-NOISY = 1.5  # times the short-term noise, and what the model leaves of tests that it is fitted to is noise
 ALONE = 0.9  # of the squares of what an effect of the model does: a test that has so much has it alone
 REFINES = (
     "the effects of the model do as much where they may act otherwise than by one lag each, so these tests can't tell "

@@ -63,7 +63,8 @@ Conclude = Callable[[tuple[Judged, ...]], Judgement]
 
 @dataclass(frozen=True, slots=True)
 class Investigation:
-    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out.
+    """problem: in the samples in which candidates are weighed. selection: None where nothing can be left out. on_open:
+    what the open tests alone say, before any locked one is asked.
     conclude: judges members anew. limits: how large what is not named would have to be. at_rest: what no open test
     moves. looked_for: the ids of what the locked tests were opened for on the way, whatever became of it. told: by the
     identity of a candidate's columns the errors that are told of it (`together.told_alike`)."""
@@ -72,7 +73,7 @@ class Investigation:
     selection: Selection | None
     artefacts: list[Artefact]
     spots: list[WeakSpot]
-    judgement: Judgement
+    on_open: Judgement
     measure: Measure
     borne_out: BorneOut
     conclude: Conclude

@@ -9,13 +9,14 @@ from typing import Literal
 import numpy as np
 
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
-from thermodata.diagnosis.claims.measure import GOOD_SHARE, OF_NOTHING, Measure
+from thermodata.diagnosis.claims.measure import GOOD_SHARE, Measure
 from thermodata.diagnosis.claims.probability import limit_of, probability
-from thermodata.diagnosis.claims.rules import DROP_LIMIT, PLAUSIBLE, failed_rules
+from thermodata.diagnosis.claims.rules import DROP_LIMIT, failed_rules
 from thermodata.diagnosis.question.problem import Problem
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.diagnosis.weigh.figures import from_to
 from thermodata.diagnosis.weigh.scored import Scored
+from thermodata.schema.agreed.limits import OF_NOTHING, PLAUSIBLE
 from thermodata.schema.words.sentences import apart, in_percent
 
 Doubt = Literal["none", "some", "all"]

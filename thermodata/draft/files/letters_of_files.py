@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from thermodata.draft.files.declared_before import declared_before
 from thermodata.reader.text.file.east_asia import east_asian
 
 _HEAD = 128 * 1024
@@ -48,15 +49,9 @@ def common(found: Iterable[str | None]) -> str | None:
     return named.pop() if len(named) == 1 and _PLAIN not in named else None
 
 
-def declared_before(path: Path) -> str | None:
-    """The one encoding that a campaign file declares, which need not be finished; None where it declares none, or
-    several."""
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return None
-    declared = {name for name in _DECLARED.findall(text) if _known(name)}
-    return declared.pop() if len(declared) == 1 else None
+def encoding_declared_before(path: Path) -> str | None:
+    """The one encoding that a campaign file declares."""
+    return declared_before(path, _DECLARED, _known)
 
 
 def _known(encoding: str) -> bool:

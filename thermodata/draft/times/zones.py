@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from zoneinfo import ZoneInfo
 
+from thermodata.draft.files.declared_before import declared_before
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
@@ -77,14 +78,8 @@ def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> s
 
 
 def zone_declared_before(path: Path) -> str | None:
-    """The one zone that a campaign file declares, which need not be finished; None where it declares none, or
-    several."""
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return None
-    declared = {zone for zone in _DECLARED.findall(text) if _is_zone(zone)}
-    return declared.pop() if len(declared) == 1 else None
+    """The one zone that a campaign file declares."""
+    return declared_before(path, _DECLARED, _is_zone)
 
 
 def _shown(hours: set[int]) -> str:

@@ -8,7 +8,8 @@ data.py      the same as numbers: JSON and MAT
 
 from __future__ import annotations
 
-from thermodata.export.control.program import Input, Limits, Program, build
+from thermodata.export.control.build import build
+from thermodata.export.control.program import Input, Limits, Program
 from thermodata.export.control.write import TARGETS, Written, write
 
 __all__ = ["TARGETS", "Input", "Limits", "Program", "Written", "build", "write"]

@@ -20,6 +20,7 @@ from thermodata.export.control.statements import (
     whole,
 )
 from thermodata.export.control.states import delay, parts, rest, update
+from thermodata.schema.agreed.comparators import Comparator
 
 MOST_COUNTED = 2_000_000_000  # a counter of 32 bits stands still there
 
@@ -187,5 +188,5 @@ def _limit(body: Body) -> None:
     add(If(law.Logic("and", (var("running"), law.Logic("not", (var("fault"),)))), tuple(inner)))
 
 
-def _ends(most: float) -> tuple[tuple[law.Comparator, float], ...]:
+def _ends(most: float) -> tuple[tuple[Comparator, float], ...]:
     return ((">", most), ("<", -most))

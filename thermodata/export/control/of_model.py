@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from thermodata.errors import UsageError, unknown_name
-from thermodata.export.control.program import Input, Limits, Program, Start, build
+from thermodata.export.control.build import build
+from thermodata.export.control.program import Input, Limits, Program, Start
 from thermodata.modelling.inputs.drivers import ZERO_AT_REST, evaluate, has_drivers, most_bins, names_of, still_within
 from thermodata.modelling.seen.laws import TermLaw, laws, refuse_unlawful
 from thermodata.modelling.terms.fitted import FittedModel

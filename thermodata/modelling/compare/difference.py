@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thermodata.modelling.trust.uncertainty import memory
+from thermodata.modelling.trust.memory import memory
 from thermodata.plugin import Float1D
 
 FEWEST = 4  # independent samples, or tests, that an interval needs

@@ -46,13 +46,13 @@ class Portability:
         return asdict(self)
 
 
-def portability(fitted: FittedModel, data: Dataset, *, locked: bool = False) -> list[Portability]:
-    """A row a test and response, over all tests that have the response, of whatever role (locked only if asked)."""
+def portability(fitted: FittedModel, data: Dataset) -> list[Portability]:
+    """A row a test and response, over all tests that have the response, of whatever role but locked."""
     rows: list[Portability] = []
     for test in data.tests:
         own = test.campaign in fitted.spec.campaign_ids
         role = fitted.roles.role(test.key) if own else test.role
-        if role == "locked" and not locked:
+        if role == "locked":
             continue
         for response in fitted.responses:
             why = response.why_not(test)

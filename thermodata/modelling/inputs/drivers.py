@@ -14,6 +14,7 @@ import numpy as np
 
 from thermodata.effect.binding import ANY
 from thermodata.effect.guard import read_only
+from thermodata.effect.lag import step_between
 from thermodata.errors import UsageError, unknown_channel
 from thermodata.plugin import Bool1D, Drivers, Effect, Float1D
 from thermodata.view.grid.dataset import TestData
@@ -241,8 +242,7 @@ def _noise(values: Float1D) -> float:
 
 def step_s(test: TestData) -> float:
     """The grid's step [s]."""
-    t = test.t_s
-    return float((t[-1] - t[0]) / (len(t) - 1)) if len(t) > 1 else 1.0
+    return step_between(test.t_s)
 
 
 def _good(test: TestData, name: str) -> Bool1D:

@@ -10,8 +10,9 @@ import numpy as np
 
 from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.inputs.drivers import names_of
+from thermodata.modelling.model_file.bind import bind
 from thermodata.modelling.model_file.nested import ModelOutput
-from thermodata.modelling.model_file.resolve import bind, find_response
+from thermodata.modelling.model_file.responses import find_response
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Bool1D, Effect, Float1D

@@ -22,12 +22,11 @@ FEWEST = 2  # samples that a test needs for an error: the first gives its offset
 IN_SAMPLE = "verification (in-sample)"
 
 
-def scores(fitted: FittedModel, data: Dataset, model_id: str, *, locked: bool = False) -> list[Score]:
-    """A row a test, response and phase, 'all' first. Tests that can't be predicted are left out; locked tests too,
-    unless asked for (then the caller counts the look)."""
-    roles = ("calibration", "verification", *(["locked"] if locked else []))
+def scores(fitted: FittedModel, data: Dataset, model_id: str) -> list[Score]:
+    """A row a test, response and phase, 'all' first. Tests that can't be predicted are left out, and so are
+    locked ones: to look at these is counted (`diagnosis.locked`)."""
     rows: list[Score] = []
-    for test in fitted.tests(data, *roles):
+    for test in fitted.tests(data):
         role = role_of(fitted, test)
         for response in fitted.responses:
             if response.can_predict(test):

@@ -201,11 +201,9 @@ def has_response(bound: BoundResponse, test: TestData) -> bool:
 def fit_mask(bound: BoundResponse, terms: list[BoundTerm], wanted: tuple[str, ...] | None, test: TestData) -> Bool1D:
     """See FittedResponse.mask."""
     name = bound.channel_of(test)
-    if name not in test.values:
-        return np.zeros(len(test.t_s), bool)
-    mask = np.isfinite(test.values[name]) & test.in_window
-    if name in test.valid:
-        mask &= test.valid[name]
+    mask = test.sampled(name)
+    if not mask.any():
+        return mask
     if wanted is not None:
         by_phase = phases(test, name)
         mask &= np.logical_or.reduce([by_phase[p] for p in wanted if p in by_phase] or [np.zeros(len(mask), bool)])

@@ -15,7 +15,7 @@ from thermodata.modelling.terms.bound import each_group_its_own
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.modelling.trust.apart import told_apart
 from thermodata.modelling.trust.bound_checks import at_bounds
-from thermodata.modelling.trust.uncertainty import effective_count
+from thermodata.modelling.trust.memory import effective_count
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData

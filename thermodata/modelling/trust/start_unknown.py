@@ -15,7 +15,6 @@ import numpy as np
 from thermodata.effect.guard import guarded_basis
 from thermodata.modelling.inputs.drivers import evaluate, start_deviation, step_s
 from thermodata.modelling.least_squares.design import Design
-from thermodata.modelling.terms.acting import acting, moved_while
 from thermodata.modelling.terms.bound import BoundTerm
 from thermodata.modelling.terms.of_tests import OfTests
 from thermodata.plugin import Array, Float1D, Float2D
@@ -60,5 +59,4 @@ def _moved(term: BoundTerm, test: TestData, role: str, size: float, params: Mapp
     drivers = term.drivers(test)
     other = replace(drivers, values={**drivers.values, role: drivers.values[role] + size})
     found = np.asarray(guarded_basis(term.effect, other, params) - guarded_basis(term.effect, drivers, params))
-    where = None if term.spec.phases is None else acting(test, term.spec.phases)
-    return found if where is None else moved_while(found, where)
+    return term.while_acting(test, found)

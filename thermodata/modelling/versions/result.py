@@ -45,10 +45,8 @@ def make_result(
     *,
     parent: str | None = None,
     before: list[Score] | None = None,
-    locked: bool = False,
 ) -> FitResult:
-    """The answer of a fit. identity: the model's id; before: the scores of its parent; locked: whether locked tests are
-    scored, too."""
+    """The answer of a fit. identity: the model's id; before: the scores of its parent. Locked tests have no score."""
     names = [r.name for r in fitted.responses]
     lacking: dict[str, list[str]] = {}  # a test may lack something for each of several responses
     for why in fitted.skipped:
@@ -57,9 +55,9 @@ def make_result(
         Check(name=f"skipped:{test}", value=None, threshold=None, passed=False, advice="; ".join(why))
         for test, why in lacking.items()
     ]
-    rows = scores(fitted, data, identity, locked=locked)
+    rows = scores(fitted, data, identity)
     started = started_on_checks(fitted, data)
-    checks = [*fitted.checks(), *started, *skipped, *_not_predicted(fitted, data, locked), *_not_scored(rows)]
+    checks = [*fitted.checks(), *started, *skipped, *_not_predicted(fitted, data), *_not_scored(rows)]
     return FitResult(
         model=identity,
         name=fitted.spec.name,
@@ -74,12 +72,11 @@ def make_result(
     )
 
 
-def _not_predicted(fitted: FittedModel, data: Dataset, locked: bool) -> list[Check]:
+def _not_predicted(fitted: FittedModel, data: Dataset) -> list[Check]:
     """Tests of the model that have no score, and why: none vanishes without a word."""
     said = {why.split(":")[0] for why in fitted.skipped}
-    roles = ("calibration", "verification", *(["locked"] if locked else []))
     rows = []
-    for test in fitted.tests(data, *roles):
+    for test in fitted.tests(data):
         name = f"{test.campaign}/{test.test}"
         reasons = [f"{r.name}: {why}" for r in fitted.responses if (why := r.why_not(test)) is not None]
         if reasons and name not in said:

@@ -150,6 +150,12 @@ _LOGGED_NS = (978_307_200 * 10**9, 4_102_444_800 * 10**9)  # 2001 to 2100
 REACH_S = 9e9  # beyond which nanoseconds in int64 end
 
 
+def when(number: float, unit: str) -> str:
+    """The day and hour that a count from a date says."""
+    (ns,) = EPOCHS[unit].ns(np.array([number], np.float64))
+    return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
+
+
 def known_unit(text: str) -> str | None:
     """A unit of time, or a count from a date, by its name here: 'excel' of '[OLE]'. None where it is none."""
     low = text.strip().strip("[]()").strip().lower()

@@ -32,7 +32,8 @@ def collect(store: Store, ref: str) -> ReportData:
     from thermodata.modelling.seen.as_system import see
     from thermodata.modelling.versions.result import make_result
     from thermodata.modelling.versions.with_claims import adds_what_was_offered, is_fit_with_claims
-    from thermodata.store.catalogue.models import find_model, load_diagnosis, model_chain
+    from thermodata.store.catalogue.findings import load_diagnosis
+    from thermodata.store.catalogue.models import find_model, model_chain
 
     stored = find_model(store, ref)
     chain = model_chain(store, stored.model)

@@ -9,6 +9,7 @@ from thermodata.report.verdict.could_hide import may_act_instead
 from thermodata.report.verdict.refined import named
 from thermodata.report.words.numbers import LITTLE, duration, number, percent
 from thermodata.schema.agreed.begins_on import begins_on
+from thermodata.schema.agreed.limits import NOISY, OF_NOTHING
 from thermodata.schema.answers.slip_ids import slip_ids
 
 if TYPE_CHECKING:
@@ -16,17 +17,12 @@ if TYPE_CHECKING:
 
 MORE = 1.5
 """An error of the model as it stands of so many times that of its effects free to act otherwise is told."""
-NOISY = 1.5
-"""An error up to so many times the noise is noise."""
 OTHERWISE = 3.0
 """An error of so many times that on left-out tests says that the model's effects act otherwise than it has them."""
 
 LONGER = 1.01
 """Times an averaging time: what is no longer is the same one."""
 AS_SCORED = " (of calibration about levels fitted to them, others from their first samples on)"
-
-OF_NOTHING = 0.5
-"""Models of lags leave up to this share of the response of a machine that lacks nothing (docs/method.md#verdicts)."""
 
 
 def left_over(found: Diagnosis) -> str:

@@ -10,6 +10,7 @@ from thermodata.report.verdict.could_hide import could_be
 from thermodata.report.verdict.left_over import as_of_nothing, left_over, offered, on_left_out
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
+from thermodata.schema.agreed.limits import PLAUSIBLE
 from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import listed, with_count
@@ -25,8 +26,6 @@ _MOST_TWINS = 2
 _MOST_STEPS = 3
 UNLIKELY = 0.05
 """A cause of less than this probability is none that somebody should look for."""
-PLAUSIBLE = 0.3
-"""What is so probable speaks for a missing cause (thermodata/diagnosis/claims/rules.py)."""
 NO_MORE = "the open tests show no missing cause apart from what the model has in part"
 FAR_LESS = 0.7
 """What leaves this share of the error of what is claimed is told beside it: why it is not the one."""

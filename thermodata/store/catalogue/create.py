@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import secrets
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.store.base import connection
 from thermodata.store.base.files import publish, temporary, write_text
+from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.ddl import FORMAT, TABLES
 from thermodata.version import __version__
 
@@ -37,7 +37,7 @@ def create_catalogue(folder: Path) -> None:
         con.execute(TABLES)
         con.execute(
             "insert into store values (?, ?, ?, 0)",
-            [FORMAT, f"thermodata {__version__}", datetime.now(UTC).replace(tzinfo=None)],
+            [FORMAT, f"thermodata {__version__}", utc_now()],
         )
         regenerate_views(con, folder)
         con.execute("commit; use memory")

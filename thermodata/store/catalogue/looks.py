@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime
 
 from thermodata.store.base.connection import insert
+from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.store import Store
 
 
@@ -23,7 +23,7 @@ def count_locked_look(
 ) -> None:
     """Writes down that the locked tests ((campaign, test)) were looked at, and why. once: what stands there already for
     that model and reason is the same look."""
-    now = datetime.now(UTC).replace(tzinfo=None)
+    now = utc_now()
     with store.write(views=False) as con:
         asked = "select campaign, test from locked_look where model = ? and reason = ?"
         known = set(con.execute(asked, [model, reason]).fetchall()) if once else set()

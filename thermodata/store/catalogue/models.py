@@ -1,22 +1,20 @@
-"""Fitted models, their predictions and what was found out about them."""
+"""Fitted models and their predictions; what was found out about them: `findings`."""
 
 from __future__ import annotations
 
 import contextlib
-import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from thermodata.errors import StoreError, UsageError, nearest
-from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.errors import UsageError, nearest
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.encoder import COMPRESSION
 from thermodata.store.base.files import publish, safe_name, temporary, write_error
+from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.renamed import renamed, with_names
 from thermodata.store.catalogue.store import Store
 
@@ -57,7 +55,7 @@ def save_fit(
     The same model again replaces its figures and keeps its place in the history. Prediction columns: t_s,
     measured, predicted, residual, valid, and `c__<term>` for each effect's contribution.
     """
-    now = _now()
+    now = utc_now()
     written = [
         (key, _write_prediction(store.path, result.model, key, table), table.num_rows)
         for key, table in sorted(predictions.items())
@@ -158,102 +156,6 @@ def model_chain(store: Store, model: str) -> list[StoredModel]:
     return chain[::-1]
 
 
-def save_diagnosis(store: Store, model: str, diagnosis: Diagnosis) -> None:
-    """Keeps a diagnosis in place of the model's earlier one: as a whole, and each finding as a row."""
-    now = _now()
-    rows: list[dict[str, Any]] = []
-
-    def add(kind: str, payload: Any, campaign: str = "", test: str = "", rank: int | None = None) -> None:
-        rows.append(
-            {
-                "campaign": campaign,
-                "test": test,
-                "model": model,
-                "kind": kind,
-                "rank": rank,
-                "payload": payload.model_dump_json(),
-                "created_at": now,
-            }
-        )
-
-    add("diagnosis", diagnosis)
-    for i, spot in enumerate(diagnosis.weak_spots, 1):
-        add("weak_spot", spot, spot.campaign, spot.test, i)
-    for candidate in diagnosis.candidates:
-        add("candidate", candidate, rank=candidate.rank)
-    for i, artefact in enumerate(diagnosis.artefacts, 1):
-        add("artefact", artefact, artefact.campaign, artefact.test or "", i)
-    with store.write(views=False) as con:
-        _must_exist(con, model)
-        con.execute(
-            "delete from finding where model = ? and kind in ('diagnosis', 'weak_spot', 'candidate', 'artefact')",
-            [model],
-        )
-        insert(con, "finding", rows)
-
-
-def load_diagnosis(store: Store, model: str) -> Diagnosis | None:
-    """The model's latest diagnosis, or None."""
-    with store.reader() as con:
-        rows = fetch(
-            con,
-            "select payload from finding where model = ? and kind = 'diagnosis' order by created_at desc limit 1",
-            [model],
-        )
-    return Diagnosis.model_validate_json(rows[0]["payload"]) if rows else None
-
-
-def save_findings(store: Store, model: str, kind: str, rows: Iterable[tuple[str, str, Mapping[str, Any]]]) -> None:
-    """Keeps findings of another kind ("portability"): (campaign, test, payload), in place of the earlier ones."""
-    now = _now()
-    with store.write(views=False) as con:
-        _must_exist(con, model)
-        con.execute("delete from finding where model = ? and kind = ?", [model, kind])
-        insert(
-            con,
-            "finding",
-            [
-                {
-                    "campaign": c,
-                    "test": t,
-                    "model": model,
-                    "kind": kind,
-                    "rank": i,
-                    "payload": json.dumps(dict(p)),
-                    "created_at": now,
-                }
-                for i, (c, t, p) in enumerate(rows, 1)
-            ],
-        )
-
-
-def keep_answer(store: Store, model: str, question: str, key: str, payload: str) -> None:
-    """Keeps what was answered, for as long as the key of what it was made from stays the same. question: such as
-    "diagnose"; payload: JSON."""
-    row = {
-        "campaign": "",
-        "test": "",
-        "model": model,
-        "kind": f"answer:{question}",
-        "rank": None,
-        "payload": json.dumps({"key": key, "answer": json.loads(payload)}),
-        "created_at": _now(),
-    }
-    with store.write(views=False) as con:
-        _must_exist(con, model)
-        con.execute("delete from finding where model = ? and kind = ?", [model, row["kind"]])
-        insert(con, "finding", [row])
-
-
-def kept_answer(store: Store, model: str, question: str, key: str | None = None) -> str | None:
-    """The JSON of an answer that was made from the same; None where there is none, or it is of another key. Without a
-    key: what was answered last."""
-    with store.reader() as con:
-        rows = fetch(con, "select payload from finding where model = ? and kind = ?", [model, f"answer:{question}"])
-    kept = json.loads(rows[0]["payload"]) if rows else None
-    return json.dumps(kept["answer"]) if kept is not None and key in (None, kept["key"]) else None
-
-
 def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
     row = fetch(con, "select * from model where model = ?", [model])[0]
     spec = Model.model_validate_json(row["spec"])
@@ -268,11 +170,6 @@ def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
         row["data_version"],
         names,
     )
-
-
-def _must_exist(con: duckdb.DuckDBPyConnection, model: str) -> None:
-    if not con.execute("select 1 from model where model = ?", [model]).fetchone():
-        raise StoreError(f"model '{model}' is not in the store any more", hint="fit it again")
 
 
 def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table: pa.Table) -> str:
@@ -294,7 +191,3 @@ def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table:
         with contextlib.suppress(OSError):
             part.unlink()
     return target.relative_to(store).as_posix()
-
-
-def _now() -> datetime:
-    return datetime.now(UTC).replace(tzinfo=None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from thermodata.errors import StoreError, UsageError
 from thermodata.schema.files.campaign import Campaign
 from thermodata.schema.files.load import load_campaign
 from thermodata.schema.files.locate import located, placed
+from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.create import new_mark
 from thermodata.store.catalogue.store import Store
 from thermodata.store.ingest.catalogue_rows import calibration_row
@@ -98,7 +99,7 @@ def store_for(path: Path, campaign_path: Path) -> Store:
 
 def _ingest(store: Store, path: Path, watch: Progress, given: Campaign | None, every_test: bool) -> IngestSummary:
     """every_test: looks at all of them, whatever an earlier ingest noted; else OtherwiseError may ask for that."""
-    began, now = time.monotonic(), datetime.now(UTC).replace(tzinfo=None)
+    began, now = time.monotonic(), utc_now()
     campaign = checked(path) if given is None else given
     if given is not None:
         check_expressions(campaign)

@@ -9,6 +9,8 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.view.grid.recorded import Recorded
 
@@ -75,6 +77,13 @@ class TestData:
     @property
     def key(self) -> tuple[str, str]:
         return self.campaign, self.test
+
+    def sampled(self, channel: str) -> Bool1D:
+        """Where a channel has samples that count, shape (n,): measured, valid, and no history."""
+        if channel not in self.values:
+            return np.zeros(len(self.t_s), dtype=np.bool_)
+        counts = np.isfinite(self.values[channel]) & self.in_window
+        return counts & self.valid[channel] if channel in self.valid else counts
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from thermodata.store import Store
 
 
-def enclosed(store: Store, memory_mb: int, threads: int = 1) -> duckdb.DuckDBPyConnection:
+def enclosed(store: Store, memory_mb: int) -> duckdb.DuckDBPyConnection:
     """The caller closes it. memory_mb: that DuckDB may hold; nothing is spilled to a disk.
 
     Views name their files absolutely, for a relative path is looked for along search paths, which a connection
@@ -34,7 +34,7 @@ def enclosed(store: Store, memory_mb: int, threads: int = 1) -> duckdb.DuckDBPyC
     for setting in (
         "temp_directory = ''",
         f"memory_limit = {literal(f'{memory_mb}MB')}",
-        f"threads = {threads}",
+        "threads = 1",
         "allow_community_extensions = false",
         "allow_persistent_secrets = false",
         "enable_external_access = false",

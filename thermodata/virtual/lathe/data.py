@@ -10,8 +10,8 @@ from thermodata.modelling.inputs.coarse_readings import drawn
 from thermodata.modelling.versions.candidate import candidate_spec
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.files.model import EffectSpec, Model
-from thermodata.schema.units.quantity import CANONICAL_UNIT
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
+from thermodata.virtual.described import described
 from thermodata.virtual.lathe.programme import DT_S, TEST_KIND
 from thermodata.virtual.lathe.recording import Run
 from thermodata.virtual.lathe.right_names import RIGHT
@@ -48,17 +48,7 @@ def right_effect(world: World, cause: str, channels: Mapping[str, ChannelInfo]) 
 
 def channels_of(world: World) -> dict[str, ChannelInfo]:
     """Every channel as the campaign file describes it."""
-    infos = {
-        s.name: ChannelInfo(
-            s.name,
-            s.quantity,
-            CANONICAL_UNIT[s.quantity],
-            at=s.at,
-            source=s.source,
-            resolution=s.resolution if s.quantity == "temperature" else None,
-        )
-        for s in world.sensors
-    }
+    infos = described(world.sensors)
     tread = TREAD_UM if STRATA[world.stratum].staircase else None
     for a in AXES:
         infos[f"d{a}"] = ChannelInfo(

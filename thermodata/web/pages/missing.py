@@ -25,8 +25,9 @@ from thermodata.schema.answers.diagnosis import Diagnosis
 from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
+from thermodata.store.catalogue.findings import load_diagnosis
 from thermodata.store.catalogue.looks import looks_of
-from thermodata.store.catalogue.models import StoredModel, find_model, load_diagnosis
+from thermodata.store.catalogue.models import StoredModel, find_model
 from thermodata.store.catalogue.stale import all_fitted_again
 from thermodata.view.grid.describe import channel_infos
 from thermodata.view.grid.load import data_version
@@ -73,15 +74,9 @@ def show(request: Request) -> Response:
             request, "missing.html.j2", title="What is missing", command="thermodata fit model.yaml", model=None
         )
     found, stored = load_diagnosis(store, model.model), find_model(store, model.model)
-    campaigns = list(dict.fromkeys(stored.spec.campaign_ids))
     unit = unit_of(store, found.response, model.campaigns) if found else model.unit
-    shown = told(found) if found else []
-    heat = found.unknown.heat if found and found.unknown else None
-    drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
-    older = found is not None and is_of_other_data(found, stored.data_version, data_version(store, campaigns))
     together = told_together(model.responses, response_units(store, model.responses, model.campaigns))
-    nothing = _NOTHING.get(found.verdict if found else "", _NOTHING["none"])
-    claims = claims_of(found) if found else []
+    answer = {"headline": "What does it miss?", "further": ""} if found is None else _answer(found, model, unit)
     return page(
         request,
         "missing.html.j2",
@@ -92,42 +87,63 @@ def show(request: Request) -> Response:
         found=found,
         unit=unit,
         error_of=worst_of(together, model.responses),
-        headline=in_unit(_headline(found)[0], unit) if found else "What does it miss?",
-        further=in_unit(_headline(found)[1], unit) if found else "",
-        about=_about(found, model, unit) if found else "",
-        older=older,
-        answered=_answered_now(store, models, stored) if older else None,
-        of_response=capital(of_response(found)) if found else "",
-        told=shown,
-        hides=in_unit(capital(could_hide(found)), unit) if found else "",
-        faults=log_faults(found.artefacts) if found else [],
-        slips={(a.kind, a.campaign, a.test): name for name, a in named_slips(found)} if found else {},
-        heat=heat,
-        heat_lines=heat_lines(heat) if heat else [],
-        heat_charts=[script_json(chart.as_json()) for chart in drawn],
-        nothing={"title": nothing[0], "text": nothing[1]},
-        charts={c.rank: script_json(course_chart(c, unit).as_json()) for c in shown if c.courses},
-        most={c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
-        left_out={c.rank: _left_out(c) for c in shown},
-        heat_names=names_of_pieces(heat.courses) if heat else [],
-        equivalents={e for c in claims for e in c.equivalent},
-        rivals=[c for c in (found.candidates if found else []) if c not in shown],
-        rung_target=RUNG_TARGET,
-        stumbles=_stumbles,
         looks=_looks(store, model),
         locked=_locked(store, model),
         unbound=_unbound(store, model),
-        added=_added(found, model),
+        rung_target=RUNG_TARGET,
+        stumbles=_stumbles,
         among=among,
         pair=pair,
         add_command=lambda *some: command(desk.store_path, "add", model.model, *(c.id for c in some)),
-        together=claims if len(claims) > 1 else [],
+        **answer,
+        **_of_older_data(store, models, stored, found),
     )
 
 
-def _answered_now(store: Store, models: list[ModelRow], stored: StoredModel) -> ModelRow | None:
-    """The same model fitted to the data as they are now, where that was diagnosed."""
+def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
+    """What the page tells of the kept answer. unit: of its response."""
+    shown, claims = told(found), claims_of(found)
+    first, rest = _headline(found)
+    title, text = _NOTHING.get(found.verdict, _NOTHING["none"])
+    heat = found.unknown.heat if found.unknown else None
+    drawn = heat_charts(heat.courses, unit, heat.direction is not None) if heat else []
+    return {
+        "headline": in_unit(first, unit),
+        "further": in_unit(rest, unit),
+        "about": _about(found, model, unit),
+        "of_response": capital(of_response(found)),
+        "told": shown,
+        "hides": in_unit(capital(could_hide(found)), unit),
+        "faults": log_faults(found.artefacts),
+        "slips": {(a.kind, a.campaign, a.test): name for name, a in named_slips(found)},
+        "heat": heat,
+        "heat_lines": heat_lines(heat) if heat else [],
+        "heat_names": names_of_pieces(heat.courses) if heat else [],
+        "heat_charts": [script_json(chart.as_json()) for chart in drawn],
+        "nothing": {"title": title, "text": text},
+        "charts": {c.rank: script_json(course_chart(c, unit).as_json()) for c in shown if c.courses},
+        "most": {c.rank: max((r.rmse_um_before for r in c.left_out), default=1.0) for c in shown},
+        "left_out": {c.rank: _left_out(c) for c in shown},
+        "equivalents": {e for c in claims for e in c.equivalent},
+        "rivals": [c for c in found.candidates if c not in shown],
+        "added": _added(found, model),
+        "together": claims if len(claims) > 1 else [],
+    }
+
+
+def _of_older_data(
+    store: Store, models: list[ModelRow], stored: StoredModel, found: Diagnosis | None
+) -> dict[str, Any]:
+    """Whether the answer was asked of the data as they were, and who has one of them as they are."""
+    if found is None:
+        return {}
     now = data_version(store, list(dict.fromkeys(stored.spec.campaign_ids)))
+    older = is_of_other_data(found, stored.data_version, now)
+    return {"older": older, "answered": _answered_now(store, models, stored, now) if older else None}
+
+
+def _answered_now(store: Store, models: list[ModelRow], stored: StoredModel, now: str) -> ModelRow | None:
+    """The same model fitted to the data as they are now, where that was diagnosed. now: their version."""
     for identity in all_fitted_again(store, stored):
         found = load_diagnosis(store, identity)
         if found is not None and not is_of_other_data(found, find_model(store, identity).data_version, now):
@@ -188,6 +204,6 @@ def _unbound(store: Store, model: ModelRow) -> list[Any]:
     return unbound({n: e for n, e in effects().items() if e.family != "artefact"}, channels)
 
 
-def _added(found: Diagnosis | None, model: ModelRow) -> set[str]:
+def _added(found: Diagnosis, model: ModelRow) -> set[str]:
     """Candidates that the model has already."""
-    return {c.id for c in (found.candidates if found else []) if c.effect in model.effects and c.claimed}
+    return {c.id for c in found.candidates if c.effect in model.effects and c.claimed}

@@ -12,7 +12,7 @@ from thermodata.errors import FormatError, QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.text.clocks.counts_of_seconds import may_be, scale_question
 from thermodata.reader.times.open_questions import UNKNOWN
-from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch
+from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, when
 
 _SAID = {"jd": "Julian days, in UTC", "mjd": "modified Julian days, in UTC", "decimal_year": "decimal years"}
 _MJD_NAME = re.compile(r"(?i)(?:^|[\W_])mjd(?:$|[\W_])|modified[\W_]*julian")
@@ -79,12 +79,6 @@ def excel_or_question(name: str, values: Array, where: str, other: str) -> str:
 def _day(number: float, unit: str) -> str:
     """The day that a count of days says."""
     return str(np.datetime64(int(number) + EPOCHS[unit].zero_s // 86400, "D"))
-
-
-def when(number: float, unit: str) -> str:
-    """The day and hour that a count from a date says."""
-    (ns,) = EPOCHS[unit].ns(np.array([number], np.float64))
-    return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")
 
 
 def refuse_beyond(name: str, values: Array, unit: str, where: str, declared: bool) -> None:

@@ -11,7 +11,7 @@ from thermodata.errors import QuestionError
 from thermodata.plugin import Array
 from thermodata.reader.times.open_questions import UNKNOWN
 from thermodata.reader.times.since import leaves_leaps_open
-from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit
+from thermodata.reader.times.time_units import EPOCHS, REACH_S, SECONDS, found_epoch, is_logged, known_unit, when
 
 _SCALES = {
     "gps": "GPS time, ahead of UTC by its leap seconds",
@@ -51,8 +51,8 @@ def scale_question(
     if own is None:
         return None
     other = found_epoch(values)
-    instead = "" if other is None else f"; as {other} it is {_when(values[0], other)}"
-    at = f"{_when(values[0], own)} UTC"
+    instead = "" if other is None else f"; as {other} it is {when(values[0], other)}"
+    at = f"{when(values[0], own)} UTC"
     unit_of = own, _SCALES[scale]
     return may_be(name, values[0], where, column, unit_of, at, declare_else=instead, asked_else=instead)
 
@@ -120,8 +120,3 @@ def ask_what_counts(name: str, values: Array, unit: str | None, where: str) -> N
         raise asked
     if known is not None and (asked := far_question(name, values, known, where)) is not None:
         raise asked
-
-
-def _when(number: float, unit: str) -> str:
-    (ns,) = EPOCHS[unit].ns(np.array([number], np.float64))
-    return str(np.datetime64((int(ns) + 5 * 10**8) // 10**9, "s")).replace("T", " ")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.moment import utc_now
 
 if TYPE_CHECKING:
     import duckdb
@@ -28,7 +28,7 @@ def keep_files(con: duckdb.DuckDBPyConnection, campaign: str, gone: Collection[s
         [campaign, sorted(gone)],
     ):
         files.setdefault(row["test"], set()).add(row["source_path"])
-    now = datetime.now(UTC).replace(tzinfo=None)
+    now = utc_now()
     insert(
         con,
         "finding",

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Mapping
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch, insert
 from thermodata.store.base.files import key_of
+from thermodata.store.base.moment import utc_now
 from thermodata.store.ingest.known.state import Rows
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ def looked_at(con: duckdb.DuckDBPyConnection, campaign: str, tests: Collection[s
 def keep_looks(con: duckdb.DuckDBPyConnection, campaign: str, tests: Collection[str]) -> int:
     """Notes the looks at tests with the data that they are of, before these go; returns how many looks these are."""
     looked = looked_at(con, campaign, tests) if tests else set()
-    now = datetime.now(UTC).replace(tzinfo=None)
+    now = utc_now()
     noted = {test: _looks(con, campaign, test) for test in sorted(looked)}
     insert(
         con,

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch, insert
+from thermodata.store.base.moment import utc_now
 from thermodata.store.catalogue.models import BACK, STALE
 from thermodata.store.ingest.known.state import VERSION, State, what_differs
 
@@ -105,7 +105,7 @@ def _keep(
     of_it = [model, STALE]
     since = fetch(con, "select min(created_at) as at from finding where model = ? and kind = ?", of_it)[0]["at"]
     con.execute("delete from finding where model = ? and campaign = ? and kind = ?", [model, campaign, STALE])
-    at = since or datetime.now(UTC).replace(tzinfo=None)
+    at = since or utc_now()
     insert(
         con,
         "finding",
