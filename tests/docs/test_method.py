@@ -10,6 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("method.md", "missing_heat.md")
+HOLD_THEM = ("diagnosis", "schema/agreed")
 NAME = re.compile(r"`([A-Z][A-Z_]{3,})`")
 
 
@@ -19,8 +20,9 @@ def named(text: str) -> set[str]:
 
 
 def constants() -> set[str]:
-    """Of all modules of the diagnosis."""
-    trees = (ast.parse(p.read_text("utf-8")) for p in (ROOT / "thermodata" / "diagnosis").rglob("*.py"))
+    """Of all modules of the diagnosis, and of what the words of its answers have in common with it."""
+    modules = (p for room in HOLD_THEM for p in (ROOT / "thermodata" / room).rglob("*.py"))
+    trees = (ast.parse(p.read_text("utf-8")) for p in modules)
     assigned = (node for tree in trees for node in tree.body if isinstance(node, ast.Assign))
     return {n.id for one in assigned for target in one.targets for n in ast.walk(target) if isinstance(n, ast.Name)}
 
