@@ -127,6 +127,7 @@ def _answer(
             known_faults=(*asked_of.faults, *as_artefacts(same, response.name), *loose, *faults),
             refused=refused,
             fine=beside.fine,
+            steps=beside.steps,
             means=beside.means,
         )
 
