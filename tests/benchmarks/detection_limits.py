@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from thermodata.diagnosis import answer as answering
+from thermodata.diagnosis import case
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.detection import limits
 from thermodata.diagnosis.question.known import known
@@ -44,17 +44,17 @@ class Held:
 def held(stratum: str, seed: int) -> Held | None:
     """None where nothing is hidden, or the library has no name for it."""
     kept: list[Investigation] = []
-    real = answering.investigate
+    real = case.investigate
 
     def watched(*given: Any, **more: Any) -> Investigation:
         kept.append(real(*given, **more))
         return kept[-1]
 
-    answering.investigate = watched
+    case.investigate = watched
     try:
         trial = judge(stratum, seed, rivals=False)
     finally:
-        answering.investigate = real
+        case.investigate = real
     first = kept[0]
     if not trial.hidden or first.selection is None:
         return None

@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from thermodata.diagnosis import answer as answering
+from thermodata.diagnosis import case, in_contract
+from thermodata.diagnosis import concluded as concluding
+from thermodata.diagnosis.answer import answer
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.claims.measure import Measure
 from thermodata.diagnosis.locked.confirm import Confirmation, Shape
@@ -155,15 +157,15 @@ class TestAnswer:
             return Confirmation(*shown, 1.0, after, 0.8, parameters, shapes=shapes(hold(names)), implausible=doubts)
 
         refitted: Any = SimpleNamespace(responses=[response])
-        monkeypatch.setattr(answering, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
-        monkeypatch.setattr(answering, "beside_slips", lambda found, _: found)
+        monkeypatch.setattr(case, "sound", lambda _, __, data, tests, *___: Sound(spec, refitted, data, tests))
+        monkeypatch.setattr(case, "beside_slips", lambda found, _: found)
         without = replace(found, on_open=nothing("unknown"))
-        monkeypatch.setattr(answering, "investigate", lambda *a, refused, **k: without if refused else found)
-        monkeypatch.setattr(answering, "confirm", confirm)
-        monkeypatch.setattr(answering, "Fits", Fits)
-        monkeypatch.setattr(answering, "left_with_named", lambda *_: None)
-        monkeypatch.setattr(answering, "as_modelled", lambda *_, **__: None)
-        got = answering.answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
+        monkeypatch.setattr(case, "investigate", lambda *a, refused, **k: without if refused else found)
+        monkeypatch.setattr(concluding, "confirm", confirm)
+        monkeypatch.setattr(case, "Fits", Fits)
+        monkeypatch.setattr(concluding, "left_with_named", lambda *_: None)
+        monkeypatch.setattr(concluding, "as_modelled", lambda *_, **__: None)
+        got = answer(fitted, Dataset(60.0, tuple(given), {c.name: c for c in channels}), {}, "m")
         self.looked_at, self.looked_for = [t.test for t in got.locked], list(got.asked)
         return got.diagnosis
 
@@ -339,7 +341,7 @@ class TestAnswer:
             seen.append(asked[2])
             return Unknown(time_constants_h=[], hours_of_day=[], states=[])
 
-        monkeypatch.setattr(answering, "characterise", characterise)
+        monkeypatch.setattr(in_contract, "characterise", characterise)
         self.answered(monkeypatch, spec, claim(FIRST), holds=False)
         self.answered(monkeypatch, spec, nothing("unknown"), ranked=[OTHER])
         refused, none = seen

@@ -80,7 +80,7 @@ def _figures(
     """What it does to the errors. told, of_model: as in `why`. others: what it is judged beside."""
     unit, tests = investigation.problem.unit, investigation.measure.tests
     if told is not None and told.candidate is not s.candidate:
-        own = _numbers(s, told, investigation)
+        own = _numbers(told, told, investigation)
         return f"it is one equation with {told.candidate.id} and told as that: {own}"
     if told is not None and of_model and others:
         left = from_to(*_left_out(told), unit, "from", "to")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,47 +21,48 @@ from thermodata.view.grid.dataset import TestData
 FACTORS = (0.02, 50.0)  # of one group's gains to another's
 
 
+@dataclass(frozen=True, slots=True)
+class How:
+    """How a response is fitted. wanted: the phases whose samples count, None for all. uncertainty: whether intervals
+    are asked for; profiled: and looked at by their profiles. near: the terms as they were found on nearly the same
+    data, where the search starts without a look over the whole range. loose: see `search`."""
+
+    wanted: tuple[str, ...] | None
+    uncertainty: bool
+    near: Mapping[int, FittedTerm] | None = None
+    loose: bool = False
+    profiled: bool = True
+
+
 def fit_jointly(
-    bound: BoundResponse,
-    members: Sequence[int],
-    held: Mapping[int, FittedTerm],
-    tests: Sequence[TestData],
-    wanted: tuple[str, ...] | None,
-    uncertainty: bool,
-    near: Mapping[int, FittedTerm] | None = None,
-    loose: bool = False,
-    profiled: bool = True,
+    bound: BoundResponse, members: Sequence[int], held: Mapping[int, FittedTerm], tests: Sequence[TestData], how: How
 ) -> dict[int, FittedTerm]:
-    """Fit some terms of a response together, with others held. near: the terms as they were found on nearly the same
-    data, where the search starts without a look over the whole range. loose: see `search`.
-    profiled: whether intervals are looked at by their profiles."""
+    """Fit some terms of a response together, with others held."""
     order = [*members, *held]
     terms = [bound.terms[i] if i in members else each_group_its_own(bound.terms[i]) for i in order]
-    design = Design(bound, terms, tests, wanted)
+    design = Design(bound, terms, tests, how.wanted)
     refuse_too_few(bound.name, tests, design.counts)
     fixed = {order.index(i): term for i, term in held.items()}
     problem = make_problem(design, fixed)
 
     def on(some: Sequence[TestData]) -> Problem:
-        return make_problem(Design(bound, design.terms, some, wanted), fixed)
+        return make_problem(Design(bound, design.terms, some, how.wanted), fixed)
 
     def look() -> Problem | None:
-        return rough(problem, tests, wanted, on)
+        return rough(problem, tests, how.wanted, on)
 
-    if near is None and not loose:
+    if how.near is None and not how.loose:
         x = search_from_coarse(problem, tests, on)
+    elif how.near is None:
+        x = search(problem, None, how.loose)
     else:
-        start = None
-        if near is not None:
-            found_there = {order.index(i): near[i] for i in members if i in near}
-            start = _near(problem, found_there)
-            for place in _new(problem, found_there):
-                start = along_whole_range(problem, start, place)
-        x = search(problem, start, loose)
+        x = search(
+            problem, _start_near(problem, {order.index(i): how.near[i] for i in members if i in how.near}), how.loose
+        )
     x = fastest_first(problem, x)
     gains = problem.gains(problem.matrix(x))
     none: tuple[list[Spread], frozenset[str], Cover | None] = ([Spread() for _ in design.slots], frozenset(), None)
-    spread, logs, cover = spreads(problem, x, gains, look if profiled else None) if uncertainty else none
+    spread, logs, cover = spreads(problem, x, gains, look if how.profiled else None) if how.uncertainty else none
     together = None if cover is None else _together(design, cover, logs)
     by_member: dict[int, dict[str, Values]] = {i: {} for i in members}
     for s, (slot, params) in enumerate(zip(design.slots, problem.params(x), strict=True)):
@@ -145,6 +147,14 @@ def _near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
             factors = {factor(group): found.factor for group, found in term.groups.items()}
             x[i] = free.outside(factors.get(free.param.name, free.start))
     return x
+
+
+def _start_near(problem: Problem, known: Mapping[int, FittedTerm]) -> Float1D:
+    """Where the terms stood, and parameters that they did not have there looked for over their whole range."""
+    start = _near(problem, known)
+    for place in _new(problem, known):
+        start = along_whole_range(problem, start, place)
+    return start
 
 
 def _new(problem: Problem, known: Mapping[int, FittedTerm]) -> list[int]:

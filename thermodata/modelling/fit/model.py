@@ -9,7 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import UsageError
 from thermodata.modelling.fit.arx import identify_arx, placeholder
-from thermodata.modelling.fit.joint import fit_jointly
+from thermodata.modelling.fit.joint import How, fit_jointly
 from thermodata.modelling.fit.orders import Near, Tried, choose_orders, open_orders
 from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
@@ -113,7 +113,7 @@ def fit_response(
 ) -> FittedResponse:
     """Fit one response to some tests (all must have its drivers). data: where effects that are identified first
     find their own tests (default: among `tests`)."""
-    tried: list[Tried] = []
+    how, tried = How(wanted, uncertainty), list[Tried]()
     held: dict[int, FittedTerm] = {}
     stages = stages_of(bound, tests, data)
     for stage in stages:
@@ -127,12 +127,12 @@ def fit_response(
                 + (", ".join("/".join(t.key) for t in stage.tests) or "a test"),
                 got="; ".join(why[:_SHOWN]) or None,
             )
-        known, found = _identify(stage.bound, stage.members, {}, first, None, uncertainty, tried)
+        known, found = _identify(stage.bound, stage.members, {}, first, replace(how, wanted=None), tried)
         bound = replace(bound, terms=known.terms)
         held |= {i: replace(found[i], held=True) for i in stage.members}
     rest = [i for i in range(len(bound.terms)) if i not in held]
-    bound, found = _identify(bound, rest, held, tests, wanted, uncertainty, tried)
-    fitted = refined(bound, {**held, **found}, tests, stages, wanted, uncertainty)
+    bound, found = _identify(bound, rest, held, tests, how, tried)
+    fitted = refined(bound, {**held, **found}, tests, stages, how)
     terms = tuple(fitted[i] for i in range(len(bound.terms)))
     response = FittedResponse(bound, terms, wanted, frozenset(t.key for t in tests))
     response = replace(response, tried=tuple(tried))
@@ -147,58 +147,45 @@ def _identify(
     members: Sequence[int],
     held: Mapping[int, FittedTerm],
     tests: Sequence[TestData],
-    wanted: tuple[str, ...] | None,
-    uncertainty: bool,
+    how: How,
     tried: list[Tried],
 ) -> tuple[BoundResponse, dict[int, FittedTerm]]:
     """Some terms together, with others held; the response with the orders that were open."""
-    near: Near = None
     for i in (i for i in open_orders(bound) if i in members):
-        choice = choose_orders(bound, i, tests, wanted, partial(_with_given_orders, members, held, wanted))
-        bound, near = choice.bound, choice.near
+        choice = choose_orders(bound, i, tests, how.wanted, partial(_with_given_orders, members, held, how))
+        bound, how = choice.bound, replace(how, near=choice.near)
         tried += choice.table
-    return _given_orders(bound, members, held, tests, wanted, uncertainty, near)
+    return _given_orders(bound, members, held, tests, how)
 
 
 def _with_given_orders(
     members: Sequence[int],
     held: Mapping[int, FittedTerm],
-    wanted: tuple[str, ...] | None,
+    how: How,
     bound: BoundResponse,
     tests: Sequence[TestData],
     near: Near,
     uncertainty: bool,
 ) -> FittedResponse:
     """The response of these terms alone, while orders are tried."""
-    bound, found = _given_orders(
-        bound, members, held, tests, wanted, uncertainty, near, loose=not uncertainty, last=False
-    )
+    trial = How(how.wanted, uncertainty, near, loose=not uncertainty, profiled=False)
+    bound, found = _given_orders(bound, members, held, tests, trial)
     terms = {**held, **found}
     part = replace(bound, terms=tuple(t for i, t in enumerate(bound.terms) if i in terms))
-    return FittedResponse(part, tuple(terms[i] for i in sorted(terms)), wanted, frozenset(t.key for t in tests))
+    return FittedResponse(part, tuple(terms[i] for i in sorted(terms)), how.wanted, frozenset(t.key for t in tests))
 
 
 def _given_orders(
-    bound: BoundResponse,
-    members: Sequence[int],
-    held: Mapping[int, FittedTerm],
-    tests: Sequence[TestData],
-    wanted: tuple[str, ...] | None,
-    uncertainty: bool,
-    near: Near,
-    *,
-    loose: bool = False,
-    last: bool = True,
+    bound: BoundResponse, members: Sequence[int], held: Mapping[int, FittedTerm], tests: Sequence[TestData], how: How
 ) -> tuple[BoundResponse, dict[int, FittedTerm]]:
     bound, arx = _with_placeholders(bound, members)
-    found = fit_jointly(
-        bound, members, held, tests, wanted, uncertainty and not arx, None if arx else near, loose, last
-    )
+    if not arx:
+        return bound, fit_jointly(bound, members, held, tests, how)
+    anew = replace(how, near=None)
+    found = fit_jointly(bound, members, held, tests, replace(anew, uncertainty=False))
     for i in arx:
-        bound = identify_arx(bound, i, {**held, **found}, tests, wanted)
-    if arx:
-        found = fit_jointly(bound, members, held, tests, wanted, uncertainty, loose=loose, profiled=last)
-    return bound, found
+        bound = identify_arx(bound, i, {**held, **found}, tests, how.wanted)
+    return bound, fit_jointly(bound, members, held, tests, anew)
 
 
 def _with_placeholders(bound: BoundResponse, members: Sequence[int]) -> tuple[BoundResponse, list[int]]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from thermodata.modelling.fit.joint import fit_jointly
+from thermodata.modelling.fit.joint import How, fit_jointly
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.bound import PLACE, BoundResponse
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
@@ -56,8 +56,7 @@ def refined(
     fitted: Mapping[int, FittedTerm],
     tests: Sequence[TestData],
     stages: Sequence[Stage],
-    wanted: tuple[str, ...] | None,
-    uncertainty: bool,
+    how: How,
 ) -> dict[int, FittedTerm]:
     """All terms together, from where each was found. Held stay effects seen on another response, effects whose own
     tests lack a driver of another term, and all where the model counts some phases only (an idle test has none)."""
@@ -66,14 +65,14 @@ def refined(
     free = {i for i in fitted if not any(i in s.members for s in stages)}
     for stage in own:
         usable, lacking = usable_tests(bound, stage.tests)
-        if usable and not lacking and wanted is None:
+        if usable and not lacking and how.wanted is None:
             joined |= {_at_its_place(t): t for t in usable}
             free |= set(stage.members)
     parts = [set(s.members) & free for s in own] + [free - {i for s in own for i in s.members}]
     if not any(parts[:-1]) or sum(bool(part) for part in parts) < 2:
         return dict(fitted)
     held = {i: term for i, term in fitted.items() if i not in free}
-    found = fit_jointly(bound, sorted(free), held, list(joined.values()), wanted, uncertainty, near=fitted)
+    found = fit_jointly(bound, sorted(free), held, list(joined.values()), replace(how, near=fitted))
     alone = {i: fitted[i].groups for s in own for i in s.members if i in free}
     return {**held, **{i: replace(term, alone=alone.get(i)) for i, term in found.items()}}
 
