@@ -68,7 +68,11 @@ def test_a_code_is_known_in_the_unit_of_the_log(tmp_path: Path, name: str) -> No
 
 ON = (np.arange(N) // 500) % 2
 DATA = {
-    "a machine of so many watts": ("W", "quantity: power, at: spindle", (ON * noise(65535, 3) + (1 - ON) * np.abs(noise(0, 900))).round()),
+    "a machine of so many watts": (
+        "W",
+        "quantity: power, at: spindle",
+        (ON * noise(65535, 3) + (1 - ON) * np.abs(noise(0, 900))).round(),
+    ),
     "a ramp to it": ("W", "quantity: power, at: spindle", np.minimum(np.linspace(0, 90000, N), 65535.0)),
     "a speed": ("rpm", "quantity: rotational_speed, at: spindle", np.linspace(0, 65535, N).round()),
     "a probe that is far": ("mm", PROBE, np.linspace(-1200, 300, N).round(1)),

@@ -103,7 +103,11 @@ class Chunk:
         """A logger's codes for "no value" in the unit that a channel is logged in, in its canonical one; None where no
         file has it, or none can be logged so."""
         raw = None if bound.signal is None or bound.is_text else self._raw.get(bound.signal.name)
-        if raw is None or raw.dtype.kind not in "iuf" or (bound.signal is not None and bound.signal.scaling is not None):
+        if (
+            raw is None
+            or raw.dtype.kind not in "iuf"
+            or (bound.signal is not None and bound.signal.scaling is not None)
+        ):
             return None
         codes = codes_of(bound.channel.quantity)
         if raw.dtype.kind in "iu":
