@@ -67,6 +67,7 @@ def test_a_code_is_known_in_the_unit_of_the_log(tmp_path: Path, name: str) -> No
 
 
 ON = (np.arange(N) // 500) % 2
+WATTS = (ON * noise(65535, 3) + (1 - ON) * np.abs(noise(0, 900))).round()
 DATA = {
     "a machine of so many watts": (
         "W",
