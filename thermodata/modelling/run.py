@@ -39,13 +39,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Loaded:
-    """A model of the store and its data as they are now. kept: they changed, and the parameters are those stored."""
+    """A model of the store and its data as they are now. kept: they changed, and the parameters are those stored.
+    fitted_to: the version of the data that these come from."""
 
     identity: str
     parent: str | None
     fitted: FittedModel
     data: Dataset
     kept: bool = False
+    fitted_to: str = ""
 
 
 def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = False) -> Loaded:
@@ -62,7 +64,8 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
         fitted = as_kept(stored.spec, stored.result, data, changed=stored.stale)
     else:
         fitted = fit_alone(as_chosen(stored, data), data, uncertainty=uncertainty)
-    return Loaded(stored.model, stored.parent, fitted, data, kept)
+    fitted_to = stored.data_version if kept else data.data_version
+    return Loaded(stored.model, stored.parent, fitted, data, kept, fitted_to)
 
 
 def fit_alone(spec: Model, data: Dataset, *, base: Path | None = None, uncertainty: bool = True) -> FittedModel:
