@@ -86,6 +86,7 @@ def model_command(
         _model_file(session, store, resolve(store, model), out or Path(), force)
         return
     loaded = load(store, resolve(store, model))
+    stale = stale_line(store, loaded.identity)
     asked = Asked(
         cycle,
         response,
@@ -95,6 +96,8 @@ def model_command(
         limit,
         rate,
         hold,
+        loaded.fitted_to,
+        stale,
     )
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
@@ -114,7 +117,7 @@ def model_command(
         "rate_per_min": program.limits.rate,
         "hold_s": program.limits.hold_s,
         "left_out": list(asked.without),
-        "stale": stale_line(store, loaded.identity),
+        "stale": stale,
     }
     session.answer(
         payload,
