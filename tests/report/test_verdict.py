@@ -156,6 +156,24 @@ def test_no_error_falls_upward() -> None:
     assert "falls where" not in verdict_sentence(found("effect", [claim("screw")]))
 
 
+def test_one_test_that_makes_nearly_all_of_an_error_that_rises_is_told_by_itself() -> None:
+    """3.91 -> 5.75 um, of which a table that moves in one test alone made 11.5 -> 17.2 um: nothing else knew of it."""
+
+    def left(test: str, before: float, after: float) -> LeftOut:
+        whole = {"campaign": "c", "from_s": 0.0, "to_s": 3600.0, "acts": False}
+        return LeftOut(test=test, rmse_um_before=before, rmse_um_after=after, **whole)
+
+    tests = [left("idle", 0.3, 0.2), left("table", 6.0, 9.0), left("cutting", 2.0, 0.4)]
+    error = (sum(t.rmse_um_before**2 for t in tests) / 3) ** 0.5
+    rises = {"rmse_um_before": error, "rmse_um_after": 5.2}
+    text = verdict_sentence(found("effect", [claim("chips", left_out=tests, **rises)]))
+    assert "3.66 -> 5.20 um, and 1.43 -> 0.316 um without table, which the others foretell badly)" in text
+    alike = [*tests[:1], left("table", 2.0, 9.0), *tests[2:]]
+    error = (sum(t.rmse_um_before**2 for t in alike) / 3) ** 0.5
+    plain = {"rmse_um_before": error, "rmse_um_after": 5.2}
+    assert "foretell badly" not in verdict_sentence(found("effect", [claim("chips", left_out=alike, **plain)]))
+
+
 @pytest.mark.parametrize(("fall", "falls"), [(0.01, True), (-0.3, False)])
 def test_an_error_that_falls_nowhere_is_not_said_to_fall_where_the_effect_acts(fall: float, falls: bool) -> None:
     rung = Rung(name="fall", asks="", value=fall, limit=0.15, unit="1", at="least", holds=True, asked=True)
