@@ -54,8 +54,9 @@ def basis(problem: Problem, candidate: CandidateEffect) -> Basis:
         found: Basis = kept[1]
         return found
     made = _made(problem, candidate)
-    if sum(b.nbytes for _, b in bases.values()) + made.nbytes <= KEPT_BYTES:
-        bases[id(candidate)] = candidate, made
+    size = made.nbytes
+    if sum(taken for *_, taken in bases.values()) + size <= KEPT_BYTES:
+        bases[id(candidate)] = candidate, made, size
     return made
 
 

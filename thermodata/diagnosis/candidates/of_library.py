@@ -21,8 +21,8 @@ from thermodata.diagnosis.question.present import (
 )
 from thermodata.effect.binding import bindings, candidate_id, family_of
 from thermodata.effect.places import holds
-from thermodata.modelling.inputs.drivers import has_drivers, make_drivers
-from thermodata.modelling.inputs.lead import columns, with_lead
+from thermodata.modelling.inputs.drivers import has_drivers
+from thermodata.modelling.inputs.lead import columns, led_drivers
 from thermodata.modelling.versions.candidate import with_effect
 from thermodata.plugin import Effect, Float2D
 from thermodata.schema.files.model import EffectSpec, Model
@@ -113,10 +113,9 @@ class CandidateEffect:
         failed = any(n in test.channels and test.channels[n].faulty is not None for n in self.channels)
         if failed or not has_drivers(test, self.binding):
             return lambda p: nothing
-        drivers = make_drivers(test, self.effect, self.binding)
+        drivers, led = led_drivers(test, self.effect, self.binding)
         if not any(values.any() for values in drivers.values.values()):
             return lambda p: nothing
-        led = with_lead(drivers)
         return lambda p: columns(self.effect, led, p)
 
     def slack_params(self, p: Mapping[str, float]) -> list[dict[str, float]]:

@@ -129,14 +129,13 @@ class Whitened:
         self._chain = chain_of([b.t_s for b in problem.blocks], noise)
         self._offsets: list[Float2D] = []
         self.rows, self.logdet = 0, self._chain.logdet
-        members = [free_of(b) for b in problem.blocks]
-        most = max(m.shape[1] for m in members)
-        white = self._chain.halved(np.vstack([np.pad(m, ((0, 0), (0, most - m.shape[1]))) for m in members]))
-        for rows, free in zip(self.parts, members, strict=True):
-            q, sizes = _orthogonal(white[rows, : free.shape[1]])
+        whole, counts = _free_of_all(problem)
+        white = self._chain.halved(whole)
+        for rows, count in zip(self.parts, counts, strict=True):
+            q, sizes = _orthogonal(white[rows, :count])
             self._offsets.append(q)
             self.logdet += 2 * float(np.log(sizes).sum())
-            self.rows += len(free) - free.shape[1]
+            self.rows += len(q) - count
 
     def of(self, columns: Float2D) -> Float2D:
         """Columns of all tests, shape (rows, k), in units of the noise, without what an offset explains."""
@@ -201,6 +200,18 @@ def whitened(problem: Problem, noise: Noise) -> Whitened:
     spaces[noise] = found
     while len(spaces) > SPACES:
         del spaces[next(iter(spaces))]
+    return found
+
+
+def _free_of_all(problem: Problem) -> tuple[Float2D, list[int]]:
+    """(what is free in all tests, one after the other, shape (rows, most columns), how many columns each test has);
+    kept with the problem, for it is the same under every noise."""
+    kept = problem.kept.setdefault("free", {})
+    if "whole" not in kept:
+        members = [free_of(b) for b in problem.blocks]
+        counts = [m.shape[1] for m in members]
+        kept["whole"] = np.vstack([np.pad(m, ((0, 0), (0, max(counts) - m.shape[1]))) for m in members]), counts
+    found: tuple[Float2D, list[int]] = kept["whole"]
     return found
 
 

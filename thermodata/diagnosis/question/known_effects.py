@@ -8,9 +8,9 @@ import numpy as np
 
 from thermodata.diagnosis.question.present import TIME_UNITS
 from thermodata.diagnosis.question.problem import Base
-from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of
+from thermodata.modelling.inputs.drivers import has_drivers, names_of
 from thermodata.modelling.inputs.lead import columns as led_columns
-from thermodata.modelling.inputs.lead import with_lead
+from thermodata.modelling.inputs.lead import led_drivers
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Float1D, Float2D
 from thermodata.view.grid.dataset import TestData
@@ -98,8 +98,8 @@ def from_other_zero(fitted: FittedResponse, term: int, channel: str, test: TestD
     if not has_drivers(test, {warm[0]: channel}):
         return None
     gains = np.array([values.gains[g.name] for g in known.effect.gains])
-    drivers = make_drivers(test, known.effect, {warm[0]: channel})
-    columns = led_columns(known.effect, with_lead(drivers), values.params)
+    _, led = led_drivers(test, known.effect, {warm[0]: channel})
+    columns = led_columns(known.effect, led, values.params)
     return np.asarray(known.bound.while_acting(test, columns) @ gains)
 
 

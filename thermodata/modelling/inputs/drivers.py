@@ -72,10 +72,16 @@ def names_of(text: str) -> tuple[str, ...]:
 
 def has_drivers(test: TestData, binding: Mapping[str, str]) -> bool:
     """Whether the test has all that the binding reads, with at least one valid sample each."""
-    return all(
-        all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text)) and is_known(test, text)
-        for text in binding.values()
-    )
+    return all(_has(test, text) for text in binding.values())
+
+
+def _has(test: TestData, text: str) -> bool:
+    """Of one driver; kept with the test."""
+    key = "has driver", text
+    if key not in test.kept:
+        logged = all(name in test.values and bool(np.any(_good(test, name))) for name in names_of(text))
+        test.kept[key] = logged and is_known(test, text)
+    return bool(test.kept[key])
 
 
 def shifted_in(test: TestData, text: str) -> tuple[str, ...]:

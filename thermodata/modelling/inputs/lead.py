@@ -12,11 +12,25 @@ from dataclasses import replace
 import numpy as np
 
 from thermodata.effect.guard import guarded_basis, read_only
-from thermodata.modelling.inputs.drivers import CYCLE_S, cycle_mean
+from thermodata.modelling.inputs.drivers import CYCLE_S, cycle_mean, make_drivers
 from thermodata.plugin import Drivers, Effect, Float1D, Float2D
+from thermodata.view.grid.dataset import TestData
 
 LEAD_S = 4 * 3600.0
 ALIKE = 0.5  # autocorrelation at the period that makes it one
+
+
+def led_drivers(
+    test: TestData, effect: Effect, binding: Mapping[str, str], name: str | None = None
+) -> tuple[Drivers, tuple[Drivers, int]]:
+    """(`make_drivers`, the same `with_lead`); kept with the test, which each fit and each candidate asks of it."""
+    coordinates = tuple(need.role for need in effect.needs if need.quantity == "position")
+    key = "led", tuple(binding.items()), coordinates
+    if key not in test.kept:
+        drivers = make_drivers(test, effect, binding, name)
+        test.kept[key] = drivers, with_lead(drivers)
+    found: tuple[Drivers, tuple[Drivers, int]] = test.kept[key]
+    return found
 
 
 def with_lead(drivers: Drivers) -> tuple[Drivers, int]:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from thermodata.errors import EffectError, unknown_name
-from thermodata.modelling.inputs.drivers import has_drivers, make_drivers, names_of
-from thermodata.modelling.inputs.lead import columns, with_lead
+from thermodata.modelling.inputs.drivers import has_drivers, names_of
+from thermodata.modelling.inputs.lead import columns, led_drivers
 from thermodata.modelling.inputs.phases import activity_channels
 from thermodata.modelling.inputs.roles import Key
 from thermodata.modelling.terms.acting import acting, moved_while
@@ -77,8 +77,8 @@ class BoundTerm:
         if kept is None or kept[0] is not test:
             if len(self._drivers) >= KEPT_TESTS:
                 self._drivers.clear()
-            drivers = make_drivers(test, self.effect, self.binding_of(test), self.id)
-            kept = self._drivers[id(test)] = (test, drivers, with_lead(drivers))
+            made = led_drivers(test, self.effect, self.binding_of(test), self.id)
+            kept = self._drivers[id(test)] = (test, *made)
         return kept
 
     def columns(self, test: TestData, params: Mapping[str, float]) -> Float2D:
