@@ -12,7 +12,13 @@ import pytest
 ROOT = Path(__file__).parents[2]
 # the folders of the package that hold them: of a verdict, and of what the words of its answers have in common with it
 VERDICT = ("diagnosis", "schema/agreed")
-PAGES = {"method.md": VERDICT, "missing_heat.md": VERDICT, "artefacts.md": (".",), "benchmark.md": (".",)}
+PAGES = {
+    "method.md": VERDICT,
+    "missing_heat.md": VERDICT,
+    "artefacts.md": (".",),
+    "benchmark.md": (".",),
+    "model.md": (".",),
+}
 NAME = re.compile(r"`([A-Z][A-Z_]{3,})`")
 
 
