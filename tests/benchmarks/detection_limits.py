@@ -1,4 +1,4 @@
-"""What hidden causes do, as a multiple of their limit of detection, and which of them are named (docs/method.md).
+"""What hidden causes do, as a multiple of their limit of detection, and which of them are named (docs/benchmark.md).
 
     python detection_limits.py --first-seed 600 --seeds 2 --strata strong weak_half
 

@@ -10,7 +10,7 @@ import pytest
 from thermodata.diagnosis.candidates.grid import grid
 from thermodata.diagnosis.candidates.of_library import CandidateEffect, candidates
 from thermodata.diagnosis.candidates.warm_at_rest import warm_at_rest
-from thermodata.diagnosis.claims.refinement import mode_of
+from thermodata.diagnosis.claims.refines import mode_of
 from thermodata.diagnosis.question.present import Present
 from thermodata.diagnosis.tell.why import would_be_a_mode
 from thermodata.effect import effects

@@ -13,7 +13,8 @@ import pytest
 from thermodata.diagnosis.candidates.kin import Kin
 from thermodata.diagnosis.claims import refinement
 from thermodata.diagnosis.claims.probability import CLAIMED, PROBABILITY
-from thermodata.diagnosis.claims.refinement import PART, Refinement, mode_of
+from thermodata.diagnosis.claims.refinement import Refinement
+from thermodata.diagnosis.claims.refines import PART, elsewhere_of, mode_of
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known_effects import from_other_zero, is_warm
 from thermodata.diagnosis.question.problem import Problem
@@ -175,6 +176,14 @@ def test_a_mode_of_the_same_heat_is_told_with_it_whatever_its_family() -> None:
     part = cause("heat", family="part", after=0.5)
     part = replace(part, candidate=replace(part.candidate, effect=OfHeat("part", "part")))
     assert Refinement(known, world(), NOISE)(part) == mode_of(["term0"])
+
+
+def test_the_same_effect_by_another_sensor_is_told_as_that() -> None:
+    """The water of the linear motors beside that of the spindle: it can be told from any mode of that."""
+    told = said(cause("same", name="known0", channels=("T_9",)))
+    assert told == elsewhere_of(["term0"])
+    assert "by another sensor" in told
+    assert said(cause("same", name="known0", channels=("T_0",))) == MODE
 
 
 def test_a_mode_of_nothing_in_particular_is_one_of_what_the_model_has() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from thermodata.effect.lag import lag, lags
+from thermodata.effect.lag import lag, lag_along, lags
 
 
 def test_a_ramp_is_exact_at_any_step() -> None:
@@ -38,9 +38,18 @@ def test_splitting_a_record_and_carrying_the_state_changes_nothing() -> None:
     assert np.allclose(np.concatenate([first, second[1:]]), whole)
 
 
+def test_a_time_constant_that_changes_is_as_the_parts_one_by_one() -> None:
+    u = np.random.default_rng(2).normal(size=400).cumsum()
+    first = lag(u[:200], 900.0, 60.0)
+    second = lag(u[199:], 5400.0, 60.0, start=float(first[-1]))
+    taus = np.where(np.arange(400) < 200, 900.0, 5400.0)
+    assert np.allclose(lag_along(u, taus, 60.0), np.concatenate([first, second[1:]]), rtol=1e-12)
+
+
 def test_no_lag_and_nothing() -> None:
     assert np.array_equal(lag(np.arange(3.0), 0.0, 60.0), [0, 1, 2])
     assert lag(np.zeros(0), 10.0, 60.0).shape == (0,)
+    assert lag_along(np.zeros(0), np.zeros(0), 60.0).shape == (0,)
 
 
 def test_the_same_curve_sampled_coarser_gives_the_same_answer() -> None:

@@ -529,6 +529,7 @@ def test_a_step_that_was_taken_out_of_left_out_errors_alone_is_said() -> None:
     step = Artefact(kind="step", campaign="c", test="V04", at_s=7890.0, size_um=14.0, why="")
     text = verdict_sentence(found("effect", [one("screw", claimed=True)], artefacts=[step]))
     assert "errors on left-out tests are without the step in V04 at 2.2 h (+14.0 um), but fits, parameters" in text
+    assert "until the model is without (thermodata add b1 step:V04)" in text
     repeated = step.model_copy(update={"kind": "repeated_step"})
     assert "without the step" not in verdict_sentence(
         found("effect", [one("screw", claimed=True)], artefacts=[repeated])

@@ -12,6 +12,7 @@ from markupsafe import Markup
 from thermodata.cli import main
 from thermodata.report.verdict.verdict import verdict_sentence
 from thermodata.report.words.numbers import typeset
+from thermodata.schema.answers.diagnosis import Artefact
 from thermodata.schema.answers.missing_heat import HeatCourse, MissingHeat, Unknown
 from thermodata.store import Store
 from thermodata.store.catalogue.findings import load_diagnosis, save_diagnosis
@@ -101,6 +102,22 @@ def test_a_refinement_is_added_by_its_own_name(lab: Path) -> None:
     fresh = [one.model_copy(update=other), *(c for c in found.candidates if c is not one)]
     save_diagnosis(store, model, found.model_copy(update={"candidates": fresh}))
     assert ">Add gain_by:lag,conditions.tool …</a>" in client_of(lab, write=True)[0].get("/missing").text
+
+
+def test_a_slip_that_was_told_is_taken_out_by_a_click(lab: Path) -> None:
+    store = Store(lab / "thermodata.store")
+    campaign, test = store.connect().execute("select campaign, test from test limit 1").fetchone()
+    model = store.connect().execute("select model from model").fetchone()[0]
+    found = load_diagnosis(store, model)
+    slip = Artefact(kind="step", campaign=campaign, test=test, at_s=7200.0, size_um=9.0, why="the displacement jumps")
+    save_diagnosis(store, model, found.model_copy(update={"artefacts": [slip]}))
+    client, _ = client_of(lab, write=True)
+    (address,) = re.findall(r'href="([^"]*)">Fit without it</a>', client.get("/missing").text)
+    text = client.get(html.unescape(address)).text
+    assert f"<h1>Add step:{test}</h1>" in text
+    assert "is fitted to the same tests without this step of the probe" in text
+    assert "The displacement jumps." in text
+    assert "It was not claimed" not in text
 
 
 def test_of_several_claims_the_command_stands_that_adds_them_all(lab: Path) -> None:

@@ -72,6 +72,7 @@ class Case:
             known_faults=(*self.faults, *faults),
             refused=refused,
             fine=self.beside.fine,
+            steps=self.beside.steps,
             means=self.beside.means,
         )
 

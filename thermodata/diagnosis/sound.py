@@ -25,6 +25,7 @@ from thermodata.diagnosis.sensors.turned import turned_probes
 from thermodata.diagnosis.steps import repeating
 from thermodata.diagnosis.steps.artefact import find_steps
 from thermodata.diagnosis.steps.fitted_beside import fitted_beside, levelled
+from thermodata.diagnosis.steps.step import Step
 from thermodata.modelling.fit.model import fit_model
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.plugin import Effect
@@ -37,8 +38,8 @@ from thermodata.view.grid.dataset import Dataset, TestData
 class Sound:
     """spec, fitted: the model, calibrated on `tests`. data: clocks that are off moved. tests: open, and sound. faults:
     as they are told. put_right: what was mended or left out. fine: the response in as many samples as there are, where
-    it was asked so already. means: what candidates do in the tests (`basis.sharing`). level: the data without the slips
-    of the response; None where it has none."""
+    it was asked so already, and steps: its own, where they were. means: what candidates do in the tests
+    (`basis.sharing`). level: the data without the slips of the response; None where it has none."""
 
     spec: Model
     fitted: FittedModel
@@ -47,6 +48,7 @@ class Sound:
     faults: tuple[Artefact, ...] = ()
     put_right: PutRight = field(default_factory=PutRight)
     fine: Problem | None = None
+    steps: tuple[Step, ...] | None = None
     means: Means = field(default_factory=dict, repr=False)
     level: Dataset | None = None
 
@@ -58,9 +60,10 @@ def beside_slips(found: Sound, index: int) -> Sound:
         return found
     response = found.fitted.responses[index]
     fine = found.fine or compressed(response, found.data, found.tests, TARGET_ROWS)
-    steps = repeating.single(find_steps(fine))
+    every = find_steps(fine)
+    steps = repeating.single(every)
     if not steps:
-        return replace(found, fine=fine)
+        return replace(found, fine=fine, steps=tuple(every))
     level = levelled(steps, response.bound, found.data)
     return replace(found, fitted=fitted_beside(level, found.fitted, found.spec, index), fine=None, level=level)
 

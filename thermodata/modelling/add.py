@@ -11,6 +11,7 @@ from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import with_second_lags
+from thermodata.modelling.versions.slips import lines_of_test, with_lines
 from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import EffectSpec
@@ -21,9 +22,9 @@ if TYPE_CHECKING:
 
 def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool = False) -> FitResult:
     """A new version with further effects: each a rank or id of the stored diagnosis, or any 'effect:channels'; or with
-    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; and with second lags where
-    left-out tests want them (`second_lag`). plain: no second lags. Tests whose log the stored diagnosis found wrong
-    are left out (`unsound`).
+    one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; or without a step of a probe
+    that it told of a test, 'step:test' (`slips`); and with second lags where left-out tests want them (`second_lag`).
+    plain: no second lags. Tests whose log the stored diagnosis found wrong are left out (`unsound`).
     `before` has the parent's scores, `added` the ids of what is new, `notes` why.
     UsageError where one is named twice."""
     from thermodata.store.catalogue.findings import load_diagnosis
@@ -33,7 +34,8 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     old = load(store, parent.model, anew=True)
     if not candidates:
         raise UsageError("nothing is named to add", expected="a rank or id of the diagnosis, or 'effect:channels'")
-    grown, names = parent.spec, list[str]()
+    found = load_diagnosis(store, parent.model)
+    grown, names, slips = parent.spec, list[str](), list[str]()
     for candidate in candidates:
         if isinstance(candidate, EffectSpec):
             grown = with_effect(grown, candidate)
@@ -41,16 +43,17 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
         name = chosen_id(store, parent.model, candidate)
         if name in names:
             raise UsageError(f"candidate '{name}' is named twice", expected="each once", got=str(candidate))
-        grown = with_candidate(grown, name, old.data.channels)
         names.append(name)
+        lines = lines_of_test(name, grown, old.data, found, parent.result.responses)
+        slips += [name] if lines else []
+        grown = with_lines(grown, lines) if lines else with_candidate(grown, name, old.data.channels)
     before = make_result(old.fitted, old.data, parent.model).scores
-    # what was found before the data changed may be mended
-    found = load_diagnosis(store, parent.model)
     by_it = found if found is not None and any(c.id in names for c in found.candidates) else None
     scored = {(s.campaign, s.test) for s in before}
+    # what was found before the data changed may be mended
     diagnosis, since = None if parent.stale else found, unasked(parent, by_it, old.data, scored)
     grown, notes = heeding(grown, old.data, diagnosis.put_right if diagnosis is not None else None)
-    if not plain:
+    if not plain and len(slips) < len(candidates):  # a slip taken out is no reason for another lag
         refined = with_second_lags(grown, old.data)
         grown, notes = refined.spec, [*notes, *refined.notes]
     had = term_ids(parent.spec.effects)

@@ -58,7 +58,8 @@ def both(cell: str, form: TimeFormat) -> int:
         ("13:00:00 PM", None),
         ("0:30:00 AM", None),
         ("23:59:59", 86_399),
-        ("24:00:00", None),
+        ("24:00:00", 86_400),  # the end of the day
+        ("24:00:01", None),
         ("8:60:00", None),
         ("8:00:60", 28_860),  # rounded up
         ("23:59:60", 86_400),  # a leap second

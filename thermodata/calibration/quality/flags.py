@@ -51,7 +51,8 @@ class ColumnInput:
     """A column. values: shape (n,), in the canonical unit (text for a label). flags: those that it already has
     (from the reader and from `calibrate`), kept and reported. range: (low, high) in the canonical unit. at: its place,
     where it is known. elsewhere: how it reads in other tests, where this one does not tell. limits: the ends of
-    its range that other tests show. held: it is written on change: that it stands still says nothing."""
+    its range that other tests show. held: it is written on change: that it stands still says nothing. codes: those for
+    "no value" in the unit that it was logged in, as they are in the canonical one."""
 
     values: Array
     quantity: str
@@ -61,6 +62,7 @@ class ColumnInput:
     elsewhere: RunStats | None = None
     limits: Limits = (None, None)
     held: bool = False
+    codes: Float1D | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,13 +179,13 @@ def _limits(name: str, column: ColumnInput, flags: Array, t_ns: Int1D, stats: Ru
         if beyond.any():
             mark(Flag.OUT_OF_RANGE, beyond, f"no {column.quantity.replace('_', ' ')} can be that")
     if stats is None and x.dtype.kind in "iuf" and column.quantity not in HELD_QUANTITIES:
-        code = no_values(np.asarray(x, dtype=np.float64), column.quantity) & ~told
+        code = no_values(np.asarray(x, dtype=np.float64), column.quantity, column.codes) & ~told
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, NO_VALUE)
     if stats is not None:
         y = np.asarray(x, dtype=np.float64)
         declared = bool((flags & np.uint16(Flag.SATURATED)).any())
-        code = sentinels(y, stats) & ~told
+        code = sentinels(y, stats, written=column.codes) & ~told
         if code.any():
             mark(Flag.OUT_OF_RANGE, code, NO_VALUE)
         at_end = np.zeros(len(y), dtype=bool)

@@ -67,18 +67,29 @@ def _leaps(x: Float1D, hot: Bool1D) -> Bool1D:
     return mask
 
 
-def no_values(x: Float1D, quantity: str) -> Bool1D:
+def codes_of(quantity: str) -> Float1D:
+    """A logger's codes for "no value" of a quantity, as it writes them: in the unit that it logs in. Shape (codes,)."""
+    return _CODES.get(quantity, _SENTINELS)
+
+
+def no_values(x: Float1D, quantity: str, written: Float1D | None = None) -> Bool1D:
     """The same of a drive or a flow, which may leave where it is and come back within a few samples: a ramp to a code,
-    or what is commanded so, is a reading. x: shape (n,), in the quantity's canonical unit."""
-    codes = _CODES.get(quantity, _SENTINELS)
+    or what is commanded so, is a reading. x: shape (n,), in the quantity's canonical unit; written: the codes as they
+    are in it, where x was logged in another."""
+    codes = _with(codes_of(quantity), written)
     ends = np.array([np.fmin.reduce(x), np.fmax.reduce(x)]) if len(x) else np.zeros(2)
     if not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():
         return np.zeros(len(x), dtype=bool)
     return sentinels(x, run_stats(x), codes)
 
 
-def sentinels(x: Float1D, own: RunStats, codes: Float1D = _SENTINELS) -> Bool1D:
+def _with(codes: Float1D, written: Float1D | None) -> Float1D:
+    return codes if written is None or not len(written) else np.union1d(codes, written)
+
+
+def sentinels(x: Float1D, own: RunStats, codes: Float1D = _SENTINELS, written: Float1D | None = None) -> Bool1D:
     """Where x, shape (n,), is a logger's code for "no value", far outside of what the channel reads else."""
+    codes = _with(codes, written)
     none: Bool1D = np.zeros(len(x), dtype=bool)
     ends = np.array([own.low, own.high])
     if np.isfinite(own.leap) and not (np.isin(ends, codes) | (np.abs(ends) >= _HUGE)).any():

@@ -46,7 +46,8 @@ def add_command(session: Session, model: str, candidate: tuple[str, ...], plain:
     """Make a new version of MODEL with an effect more.
 
     CANDIDATE is its rank or id, as diagnose printed them, or several of them; gain_by:EFFECT,CONDITION gives an effect
-    of MODEL a gain for each value of a condition, and phases:EFFECT,heating,cooling parts it into one for each phase.
+    of MODEL a gain for each value of a condition, phases:EFFECT,heating,cooling parts it into one for each phase, and
+    step:TEST takes out the steps of a probe that diagnose told of this test.
     Where tests that are left out of the fit want it, the effects and those that MODEL has get a second lag, for a part
     of a machine answers heat by a quick share and a slow one.
     Prints the errors before and after.

@@ -21,6 +21,17 @@ _SAID = 5  # files that can't be read, each with its reason
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 
 
+class _LogPath(click.Path):
+    """A path of a file, or of one in an archive: 'day.zip/run.csv'."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        from thermodata.reader.files.members import archive_of
+
+        if ".zip" in str(value).lower() and archive_of(Path(value)) is not None:
+            return Path(value)
+        return super().convert(value, param, ctx)
+
+
 @command("init")
 @click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
 @click.option("--force", is_flag=True, help="Draft anew: an existing campaign.yaml is kept as campaign.1.yaml.")
@@ -149,7 +160,7 @@ def _progress(session: Session) -> Callable[[int, int, str], None] | None:
 
 
 @command("sniff")
-@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path, exists=True), metavar="FILE...")
+@click.argument("files", nargs=-1, required=True, type=_LogPath(path_type=Path, exists=True), metavar="FILE...")
 def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
     """Say which reader claims each FILE, and why the others do not.
 
@@ -179,8 +190,10 @@ def sniff_command(session: Session, files: tuple[Path, ...]) -> int:
 
 
 def _each(given: tuple[Path, ...]) -> list[Path]:
-    """Files as given; of a folder all below it, without hidden ones, links and what a store holds."""
+    """Files as given, and those in archives; of a folder all below it, without hidden ones, links and what a store
+    holds."""
     from thermodata.reader.files.stores import is_store, within_stores
+    from thermodata.reader.finding.registry import files_in
 
     found: list[Path] = []
     for path in given:
@@ -189,15 +202,16 @@ def _each(given: tuple[Path, ...]) -> list[Path]:
                 continue
             in_store = within_stores(path)
             found += sorted(
-                p
+                inside
                 for p in path.rglob("*")
                 if p.is_file()
                 and not p.is_symlink()
                 and not in_store(p)
                 and not any(part.startswith(".") for part in p.relative_to(path).parts)
+                for inside in files_in(p)
             )
         else:
-            found.append(path)
+            found += files_in(path)
     return list(dict.fromkeys(found))
 
 
@@ -229,7 +243,7 @@ def _summary(rows: list[dict[str, Any]]) -> str:
 
 
 @command("preview")
-@click.argument("file", type=_FILE)
+@click.argument("file", type=_LogPath(path_type=Path, exists=True, dir_okay=False))
 @click.option("--reader", "name", help="Use this reader (default: the one that claims FILE).")
 @click.option("--timezone", help="IANA zone of local times, for example Europe/Prague.")
 @click.option("--rows", default=5, show_default=True, type=click.IntRange(0, 1000), help="Rows of each stream.")

@@ -87,13 +87,16 @@ def _channels(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _candidates(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:
-    """Ids and ranks of the model's last diagnosis."""
+    """Ids and ranks of the model's last diagnosis, and the steps that it told."""
+    from thermodata.schema.answers.slip_ids import slip_ids
     from thermodata.store.catalogue.findings import load_diagnosis
     from thermodata.store.catalogue.models import find_model
 
     found = load_diagnosis(store, find_model(store, str(words.get("model"))).model)
-    listed = found.candidates if found is not None else []
-    return [(c.id, f"rank {c.rank}") for c in listed] + [(str(c.rank), c.id) for c in listed]
+    if found is None:
+        return []
+    listed = [(c.id, f"rank {c.rank}") for c in found.candidates] + [(str(c.rank), c.id) for c in found.candidates]
+    return listed + [(name, "a step of the probe") for name in slip_ids(found)]
 
 
 def _effects_of(store: Store, words: dict[str, Any]) -> list[tuple[str, str]]:

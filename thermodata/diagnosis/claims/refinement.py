@@ -16,6 +16,7 @@ from thermodata.diagnosis.candidates.kin import cause, heat_of, refines, told_by
 from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.warm_at_rest import share_at_rest
 from thermodata.diagnosis.claims.probability import probability, sharpness
+from thermodata.diagnosis.claims.refines import LITTLE, PART, elsewhere_of, mode_of
 from thermodata.diagnosis.claims.rules import LEAST_TESTS, STRONG, acting_size, blunt
 from thermodata.diagnosis.question.discrepancy import Noise
 from thermodata.diagnosis.question.known import known, rms
@@ -29,11 +30,6 @@ from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Float1D, Int1D
 
-PART = (
-    "the model reads it already, together with others: another share of that, or a cause of its own, "
-    "which these tests can't tell"
-)
-LITTLE = "it is little beside what the model has of that family"
 AIR = "ambient"  # a temperature of the air counts from nothing else
 # what a model leaves that is good already: more, and something is missing (share of the response)
 GOOD = 0.4
@@ -58,18 +54,6 @@ EVIDENT = 1.0  # log evidence a sample: another zero changes little, and leaves 
 # nor does the machine move by this share of what the candidate does, in a quarter of the tests in which the known
 # effect does less than the candidate
 MOVES, QUARTER = 0.6, 0.25
-
-
-def mode_of(terms: Sequence[str], unmodelled: Sequence[str] = ()) -> str:
-    """terms: ids of the effects of the model. unmodelled: ids of what it may be by a name, of whose heat the model has
-    nothing."""
-    of = f"{' and '.join(terms)}, which the model has" if terms else "what the model has"
-    if unmodelled and not terms:
-        of = f"what the model reads at its place, though of the heat of {' and '.join(unmodelled)} it has nothing"
-    return (
-        f"it is taken for another mode of {of}: these tests can't tell a cause of its own from that (add it, or "
-        "confirm it on locked tests, to see what it takes away)"
-    )
 
 
 class Refinement:
@@ -121,13 +105,17 @@ class Refinement:
         """With the effects of the model that it is taken for a mode of: what it refines, what stands for the same
         cause, what reads its channels, or what is of its family; the first of these that there is."""
         one = scored.candidate
+        terms = self.fitted.terms
+        same = [t.id for t in terms if t.effect.name == one.effect.name]
+        if one.kin == "same" and same and not any(_read_by(t, one.channels) for t in terms):
+            return elsewhere_of(same)
         alike: list[Callable[[FittedTerm], bool]] = [
             lambda term: term.effect.name in refines(one.effect),
             lambda term: heat_of(term.effect, term.family) == heat_of(one.effect, one.family),
-            lambda term: any(name in names_of(text) for text in term.binding.values() for name in one.channels),
+            lambda term: _read_by(term, one.channels),
             lambda term: term.family == one.family,
         ]
-        found = next((some for is_it in alike if (some := [t.id for t in self.fitted.terms if is_it(t)])), [])
+        found = next((some for is_it in alike if (some := [t.id for t in terms if is_it(t)])), [])
         return mode_of(found, one.unmodelled)
 
     def _acts_beside(self, scored: Scored) -> bool:
@@ -271,6 +259,10 @@ def is_surely_missing(scored: Scored) -> bool:
     follows the same motion, but leaves less evidence."""
     timed = not scored.candidate.of_motion or sharpness(scored) >= EVIDENT
     return timed and scored.drop >= MOST and probability(scored) >= SURE
+
+
+def _read_by(term: FittedTerm, channels: Sequence[str]) -> bool:
+    return any(name in names_of(text) for text in term.binding.values() for name in channels)
 
 
 def _surrounds(candidate: CandidateEffect) -> bool:

@@ -239,13 +239,11 @@ def _made_by(step: Step, among: Sequence[Step]) -> str:
 def _to_write(step: Step) -> str:
     """The line that takes it out of every fit. Its size stands in it: while an effect is missing, a step of a free time
     and size is fitted to that."""
-    line = (
-        f"{{effect: step, tests: [{step.test.test}], fixed: {{at: {step.at_s / 60:.6g} min, gain: {step.size:.3g}}}}}"
-    )
+    test, at_min = "/".join(step.test.key), step.at_s / 60
+    line = f"{{effect: step, tests: [{test}], fixed: {{at: {at_min:.6g} min, gain: {step.size:.3g}}}}}"
     return (
-        f"to fit without it, write '- {line}' under effects of model.yaml (with acts_on if it has other responses; "
-        "of a version without a file 'thermodata model export MODEL --to yaml' writes it), and free its "
-        "gain once nothing is missing"
+        f"to fit without it, 'thermodata add MODEL step:{test}', or write '- {line}' under effects of "
+        "model.yaml (with acts_on if it has other responses), and free its gain once nothing is missing"
     )
 
 

@@ -96,20 +96,21 @@ def investigate(
     known_faults: Sequence[Artefact] = (),
     refused: frozenset[str] = frozenset(),
     fine: Problem | None = None,
+    steps: Sequence[Step] | None = None,
     means: Means | None = None,
 ) -> Investigation:
     """fitted: to all tests that take part in the choice. as_fitted: the model that is asked about, whose weak spots are
     shown; by default the same. others: what other axes say; None: nothing. known_faults: mended before, or left out.
-    refused: channels; what reads these alone is not asked. fine, means: made for other questions (`Sound`)."""
+    refused: channels; what reads these alone is not asked. fine, steps, means: made for other questions (`Sound`)."""
     info = data.channels[fitted.name]
     base = remembered(fitted)
     fine = compressed(fitted, data, tests, TARGET_ROWS, base) if fine is None else fine
     means = {} if means is None else means
-    found = find_steps(fine)
-    steps = repeating.single(found)
+    found = find_steps(fine) if steps is None else list(steps)
+    single = repeating.single(found)
     faults = _faults(fitted, data, fine, base)
     whole = compressed(fitted, data, tests, WEIGHED_ROWS, base)
-    problem = sharing(_without_steps(fitted, whole, steps, fine.step_s), means)
+    problem = sharing(_without_steps(fitted, whole, single, fine.step_s), means)
     asked = of_library(fitted, data, tests, library, fine)
     weighed = {b.test.key for b in problem.blocks}
     among = [t for t in tests if t.key in weighed]
@@ -139,9 +140,9 @@ def investigate(
     spots = weak_spots([(t, asked_about.residual(t), asked_about.mask(t)) for t in tests], problem.noise)
     at_floor = selection is not None and selection.left <= measure.floor
     faults = gains_are_wrong_only_where_nothing_is_missing(faults, judgement, at_floor)
-    if selection is not None and not steps:  # a slip is in the fit of the model, and in its error
+    if selection is not None and not single:  # a slip is in the fit of the model, and in its error
         faults += wrong_parameters(problem, error_of(asked_about, tests), selection.left, measure.floor)
-    of_steps = as_artefacts(steps, info.unit, found)
+    of_steps = as_artefacts(single, info.unit, found)
     of_steps += repeating.as_artefacts(repeating.repeating(found), info.unit)
     artefacts = [
         *first_of_each([*known_faults, *of_steps, *faults]),

@@ -15,6 +15,8 @@ from thermodata.draft.files.sheets import sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
+from thermodata.reader.files.members import size_of
+from thermodata.reader.files.unpacked import held
 from thermodata.reader.finding.explain import kind_of, why_no_table
 from thermodata.reader.finding.registry import claims, reader
 from thermodata.reader.text.preamble.begin import EITHER, NOT_TAKEN
@@ -135,8 +137,11 @@ def described_file(
 
     ThermodataError where it cannot be read at all.
     """
-    size, letters = full.stat().st_size, letters_of(full, encoding)
-    return _asking(who, full, RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters))
+    with held(full) as real:
+        size, letters = real.stat().st_size, letters_of(real, encoding)
+        return _asking(
+            who, full, RawFile(path, who.name, Recording((), "relative"), size, table=table, letters=letters)
+        )
 
 
 def described_files(
@@ -223,7 +228,7 @@ def claimant(path: Path) -> tuple[Reader | None, str]:
     found = claims(path)
     if len(found) == 1:
         return reader(next(iter(found))), ""
-    if not path.stat().st_size:
+    if not size_of(path):
         return None, "an empty file"
     if not found:
         why = why_no_table(path)

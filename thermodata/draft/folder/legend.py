@@ -10,7 +10,7 @@ from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.scan import Scan
-from thermodata.draft.folder.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of
+from thermodata.draft.folder.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, there
 from thermodata.draft.words.filenames import normal
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Signal
@@ -65,8 +65,8 @@ def with_legends(folder: Path, found: Scan) -> tuple[Scan, list[str]]:
     tests = {normal(t) for f in logs_of_many for t in (f.path.stem, *f.path.parts[:-1], f.sheet or "")}
     books = [str(f.path) for f in found.logs if f.path.suffix.lower() in WORKBOOKS]
     for file in dict.fromkeys((*found.others, *books)):
-        path = folder / file
-        if path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
+        path = there(folder / file)
+        if path is None or path.suffix.lower() not in SUFFIXES or path.stat().st_size > LARGEST:
             continue
         lists = [] if path.suffix.lower() in WORKBOOKS else [listed(path, _MOST_ROWS)]
         for rows in (*grids_of(path, _MOST_ROWS), *lists):

@@ -12,6 +12,7 @@ from thermodata.draft.files.raw_file import Asked, RawFile, described_files, sam
 from thermodata.draft.signals.guess import NUMBERED
 from thermodata.errors import ThermodataError
 from thermodata.reader.files.rotated import unrotated
+from thermodata.reader.files.unpacked import unpacked
 from thermodata.reader.finding.registry import reader
 from thermodata.reader.text.tables.find_table import open_table
 from thermodata.schema.words.sentences import counted
@@ -61,7 +62,7 @@ def _names_of(folder: Path, files: Sequence[RawFile]) -> tuple[str, ...] | None:
     if len(own) != 1:
         return None
     try:
-        return open_table(folder / files[0].path, files[0].source).layout.names
+        return open_table(unpacked(folder / files[0].path), files[0].source).layout.names
     except (ThermodataError, OSError):
         return None  # no text, or one that another reader takes apart
 

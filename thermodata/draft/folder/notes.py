@@ -11,6 +11,8 @@ from pathlib import Path, PurePosixPath
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.words.said_by_names import said_by
 from thermodata.draft.words.tool_and_coolant import tool_and_coolant, tool_and_coolant_of_head
+from thermodata.errors import FormatError
+from thermodata.reader.files.unpacked import held
 from thermodata.reader.text.cells.cell import is_number
 from thermodata.reader.text.file.encoding import decode_head
 
@@ -99,8 +101,8 @@ def _head(folder: Path, file: RawFile) -> list[str]:
 
 def _read(path: Path, size: int) -> str:
     try:
-        with path.open("rb") as file:
+        with held(path) as real, real.open("rb") as file:
             data = file.read(size)
-    except OSError:
+    except (FormatError, OSError):
         return ""
     return decode_head(data) or ""

@@ -17,9 +17,12 @@ from thermodata.draft.files.sample import SMALL, Watch, short
 from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfinished_in
 from thermodata.draft.folder.lent_names import with_lent_names
 from thermodata.draft.folder.of_one_time import in_every_file, of_one_time
+from thermodata.draft.folder.packed_copies import by_archive, packed_copies
 from thermodata.errors import ThermodataError
 from thermodata.plugin import Reader, Recording
+from thermodata.reader.files.members import size_of
 from thermodata.reader.files.stores import within_stores
+from thermodata.reader.finding.registry import files_in
 from thermodata.schema.agreed.left_out import CANT_READ
 from thermodata.schema.strict.lines import is_text
 from thermodata.schema.words.sentences import counted
@@ -48,7 +51,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     what somebody declared for texts that are no UTF-8."""
     paths = list(_files(folder))
     tell = progress or (lambda done, of, path: None)
-    copies, unfinished = copies_in(folder, paths), unfinished_in(paths)
+    copies, unfinished = copies_in(folder, paths) | packed_copies(folder, paths), unfinished_in(paths)
     beginnings = beginnings_in(folder, [p for p in paths if p not in copies and p not in unfinished])
     look = _Look(folder, encoding, copies, beginnings, unfinished)
     for done, path in enumerate(_spread(paths)):
@@ -61,6 +64,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {str(p): i for i, p in enumerate(paths)}
     ignored, failed = (sorted(told, key=lambda item: position[item[0]]) for told in (look.ignored, look.failed))
+    ignored = by_archive(folder, ignored, [path for path, _ in failed], [str(f.path) for f in sampled])
     no_lists = {str(p) for p in (*copies, *unfinished, *beginnings)}  # a log is no list of tests
     return Scan(
         with_lent_names(folder, sorted(sampled, key=lambda f: position[str(f.path)])),
@@ -172,7 +176,7 @@ def _as_like(like: RawFile, path: PurePosixPath, full: Path) -> RawFile:
         path,
         like.reader,
         Recording(like.recording.signals, like.recording.clock, None, None, ()),
-        full.stat().st_size,
+        size_of(full),
         like=str(like.path),
         asked=like.asked,
         table=like.table,
@@ -208,8 +212,12 @@ def _files(folder: Path) -> Iterator[PurePosixPath]:
     for path in sorted(folder.rglob("*"), key=lambda p: natural(p.relative_to(folder).as_posix())):
         inside = PurePosixPath(path.relative_to(folder).as_posix())
         hidden = any(p.startswith((".", "~$")) for p in inside.parts) or in_store(path)
-        if not hidden and path.is_file() and not path.is_symlink() and path.suffix.lower() not in _NOT_LOGS:
-            yield inside
+        if not hidden and path.is_file() and not path.is_symlink() and _may_be_log(path):
+            yield from (PurePosixPath(p.relative_to(folder).as_posix()) for p in files_in(path) if _may_be_log(p))
+
+
+def _may_be_log(path: Path) -> bool:
+    return path.suffix.lower() not in _NOT_LOGS
 
 
 def natural(text: str) -> list[tuple[int, int, str]]:

@@ -13,7 +13,8 @@ from thermodata.draft.signals.units import quantities_of
 from thermodata.draft.words.filenames import normal
 from thermodata.draft.words.naming import plain, words
 from thermodata.draft.words.vocabulary import quantities_in, says
-from thermodata.errors import ThermodataError
+from thermodata.errors import FormatError, ThermodataError
+from thermodata.reader.files.unpacked import unpacked
 from thermodata.reader.text import decode, split_unit
 from thermodata.workbook_check import check_size
 
@@ -56,14 +57,22 @@ def find_table(
     tables.sort(key=lambda c: (not says(_NAMED, words(Path(c).stem)), c))
     most = most_rows(len(tests))
     for candidate in tables[:20]:
-        path = folder / candidate
-        if path.stat().st_size > LARGEST:
+        path = there(folder / candidate)
+        if path is None or path.stat().st_size > LARGEST:
             continue
         for rows in grids_of(path, most, {normal(t) for t in tests}):
             found = _read(candidate, rows, tests, by_number)
             if found is not None:
                 return found
     return None
+
+
+def there(path: Path) -> Path | None:
+    """Where a file can be read; None where it is packed and can't be."""
+    try:
+        return unpacked(path)
+    except FormatError:
+        return None
 
 
 def most_rows(tests: int) -> int:

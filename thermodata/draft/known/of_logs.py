@@ -10,6 +10,7 @@ from pathlib import Path
 from thermodata.calibration.expression.parser import parse
 from thermodata.draft.known.by_patterns import Known, tests_by_patterns
 from thermodata.errors import UsageError
+from thermodata.reader.finding.registry import files_in
 from thermodata.schema.files.campaign import Campaign, SourceSpec, Test
 from thermodata.schema.files.tests_from import pattern_of
 from thermodata.store.ingest.reading.resolve import natural
@@ -110,7 +111,7 @@ def _files(folder: Path) -> list[str]:
     names = []
     for path in folder.rglob("*"):
         if path.is_file():
-            names.append(path.relative_to(folder).as_posix())
+            names += [each.relative_to(folder).as_posix() for each in files_in(path)]
         if len(names) >= MOST_FILES:
             raise UsageError("too many files in the folder", where=str(folder), expected=f"under {MOST_FILES}")
     return sorted(names, key=natural)

@@ -11,6 +11,7 @@ from thermodata.draft.files.raw_file import sampled_file
 from thermodata.draft.probes.jumps import staircase
 from thermodata.errors import ThermodataError, UsageError, unknown_name
 from thermodata.plugin import Float1D
+from thermodata.reader.files.members import is_there, size_of
 from thermodata.reader.finding.match import match_signal
 from thermodata.schema.strict.lines import read_document
 
@@ -41,9 +42,9 @@ def jump_seen(campaign: Path, name: str, inside: Callable[[Path], Path]) -> Jump
         raise unknown_name("jump test", name, list(jumps))
     path, wanted = str(jumps[name].get("file", "")), str(jumps[name].get("signal", ""))
     full = inside(campaign.parent / path)
-    if not path or not full.is_file():
+    if not path or not is_there(full):
         raise UsageError("the file of the jump test is not there", where=f"{campaign.name}, {name}", got=path)
-    if full.stat().st_size > MOST_BYTES:
+    if size_of(full) > MOST_BYTES:
         raise UsageError("the file is too large for a jump test to be drawn", where=path)
     try:
         file = sampled_file(full.parent, PurePosixPath(full.name))

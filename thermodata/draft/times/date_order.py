@@ -16,6 +16,7 @@ from thermodata.draft.folder.sources import Group, sources_of
 from thermodata.draft.times.hints import fitting_others, swapped
 from thermodata.errors import ThermodataError
 from thermodata.reader.contract.guard import described
+from thermodata.reader.files.members import standing
 from thermodata.reader.finding.registry import reader
 from thermodata.schema.words.sentences import with_count
 
@@ -119,7 +120,7 @@ def _contradicts(folder: Path, file: RawFile, order: str) -> str | None:
     day = day_of_name(file)
     if day is not None and abs(other_begin - day) <= _DAY_NS < abs(begin - day):
         return f"the day in the name of {file.path.name} fits {other}"
-    written = (folder / file.path).stat().st_mtime_ns
+    written = standing(folder / file.path).stat().st_mtime_ns
     right_after = abs(written - other_end) <= _DAY_NS < abs(written - end)
     if right_after or other_end <= written + _DAY_NS < end:
         return f"{file.path.name} was last written when {other} says"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
-from thermodata.reader.files.rotated import unrotated
+from thermodata.reader.files.members import SUFFIX as ZIP
+from thermodata.reader.files.rotated import as_unpacked, unrotated
 
 _PIECE = re.compile(r"[_\-. ]+")
 _PART_WORD = re.compile(r"[_\-. ]\(?(?:part|teil|cast|segment|seg|file|chunk|p|t)[_\-. ]?\d{1,5}\)?$", re.IGNORECASE)
@@ -44,15 +45,29 @@ def without_part(name: str) -> str:
 
 def namings(paths: Sequence[PurePosixPath]) -> list[Naming]:
     """The ways to read these names, the plainest first. paths: at least one."""
+    whole = [as_unpacked(p) for p in paths]
+    if whole != list(paths):
+        ends = {p.name[len(w.name) :] for p, w in zip(paths, whole, strict=True)}
+        end = ends.pop() if len(ends) == 1 else "*"
+        ways = [_packed(way, end) for way in namings(whole)]
+        # 'a.csv' and 'a.csv.gz' are two where they are no parts of one
+        each = Naming(tuple(str(p).replace("/", "_") for p in paths), None, 0.5)
+        return ways if len(set(whole)) == len(whole) else [*ways, each]
     bare = [unrotated(p) for p in paths]
     if bare != list(paths):
         # pieces of one log are parts, whatever its name says beside that
         own = {n.ids: n for n in _namings(list(dict.fromkeys(bare)))}.values()
         rotated = [_of_pieces(n, bare) for n in own]
         # where these are no pieces of one recording, each has its whole name
-        whole = Naming(tuple(str(p).replace("/", "_") for p in paths), None, 0.5)
-        return sorted([*rotated, *_namings(paths), whole], key=lambda n: n.cost)
+        each = Naming(tuple(str(p).replace("/", "_") for p in paths), None, 0.5)
+        return sorted([*rotated, *_namings(paths), each], key=lambda n: n.cost)
     return _namings(paths)
+
+
+def _packed(way: Naming, end: str) -> Naming:
+    """A way to read names without what packing added at their end."""
+    bare = way.template
+    return way if bare is None or (end == "*" and bare.endswith("*")) else replace(way, template=f"{bare}{end}")
 
 
 def _of_pieces(way: Naming, bare: Sequence[PurePosixPath]) -> Naming:
@@ -128,14 +143,16 @@ def _by_folder(paths: Sequence[PurePosixPath]) -> Iterator[Naming]:
     """The test is one of the folders above."""
     depth = min(len(p.parts) for p in paths) - 1
     for level in range(depth):
-        ids = tuple(p.parts[level] for p in paths)
-        if len(set(ids)) < 2:
+        names = [p.parts[level] for p in paths]
+        end = _archives(names)
+        if len(set(names)) < 2 or end is None:
             continue
+        ids = tuple(name.removesuffix(end) for name in names)
         above = {p.parts[:level] for p in paths}
         below = {p.parts[level + 1 :] for p in paths}
         suffixes = {p.suffix for p in paths}
         one = len(above) == 1 and len({len(p.parts) for p in paths}) == 1 and len(suffixes) == 1
-        first = "/".join((*map(_literal, paths[0].parts[:level]), "{test}"))
+        first = "/".join((*map(_literal, paths[0].parts[:level]), f"{{test}}{end}"))
         if one and len(below) == 1:
             yield Naming(ids, f"{first}/{'/'.join(map(_literal, paths[0].parts[level + 1 :]))}", 0.0)
         elif one and level == depth - 1:
@@ -171,12 +188,22 @@ def _common(stems: Sequence[str]) -> str:
 
 
 def _folder(paths: Sequence[PurePosixPath]) -> str | None:
-    """The folder of all paths with '/' at its end, '*' for a part that differs; None where their depths differ."""
+    """The folder of all paths with '/' at its end, '*' for a part that differs; None where their depths differ, or
+    where some are in archives and others are not."""
     parents = {p.parts[:-1] for p in paths}
     if len({len(p) for p in parents}) != 1:
         return None
-    parts = [_literal(level[0]) if len(set(level)) == 1 else "*" for level in zip(*parents, strict=True)]
+    levels = [(level, _archives(level)) for level in zip(*parents, strict=True)]
+    if any(end is None for _, end in levels):
+        return None
+    parts = [_literal(level[0]) if len(set(level)) == 1 else f"*{end}" for level, end in levels]
     return "".join(f"{part}/" for part in parts)
+
+
+def _archives(names: Sequence[str]) -> str | None:
+    """What the names of archives end with, '' where none is one; None where only some do."""
+    ends = {name[-len(ZIP) :] if name.lower().endswith(ZIP) else "" for name in names}
+    return ends.pop() if len(ends) == 1 else None
 
 
 def _literal(text: str) -> str:

@@ -72,6 +72,7 @@ class Design:
         edges = np.concatenate([[0], np.cumsum(self.counts)])
         self.parts = [slice(int(a), int(b)) for a, b in pairwise(edges)]
         self.n = int(edges[-1])
+        self._counted = [slice(None) if m.all() else np.flatnonzero(m) for m in self.masks]
         self.nuisance = [Nuisance(t, m, bound) for t, m in zip(tests, self.masks, strict=True)]
         self.y: Float1D = np.concatenate(
             [
@@ -127,9 +128,8 @@ class Design:
         if key not in self._kept:
             made = np.zeros((self.n, len(term.effect.gains)), order="F")
             for k, j in enumerate(of.tests):
-                full = term.columns(self.tests[j], params)[self.masks[j]]
-                own = of.factors[k] if of.factors else ""
-                made[self.parts[j]] = self.nuisance[j].without(full) * params.get(factor(own), 1.0)
+                own = self.nuisance[j].without(term.columns(self.tests[j], params)[self._counted[j]])
+                made[self.parts[j]] = own * params.get(factor(of.factors[k]), 1.0) if of.factors else own
             if (len(self._kept) + 1) * made.nbytes > KEPT_BYTES:
                 self._kept.clear()
             self._kept[key] = term.effect, made

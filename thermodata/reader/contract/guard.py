@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from pathlib import Path
 
 from thermodata.errors import FAILED, FormatError, PluginError, ThermodataError
-from thermodata.plugin import Block, Loss, Reader, Recording, Source
+from thermodata.plugin import HEAD_BYTES, Block, Head, Loss, Reader, Recording, Source
 from thermodata.reader.contract.heeded import Watched
 from thermodata.reader.contract.rules import RECORDING_RULES, broken_rule, sentence
 from thermodata.reader.files.archives import packed_by
-from thermodata.reader.files.regular import refuse_what_never_ends
+from thermodata.reader.files.regular import opened, refuse_what_never_ends
+from thermodata.reader.files.unpacked import PACKED, held
 
 
 @contextmanager
@@ -29,8 +30,13 @@ def asking(said: str, where: str) -> Iterator[None]:
 def described(reader: Reader, path: Path, source: Source) -> Recording:
     """The reader's description, held against the rules. PluginError for a broken rule or an exception that is
     none of ours: a plugin's bug, with the file named; UsageError for a declared sheet that the reader ignores, and for
-    what is no file: a reader would wait for ever."""
+    what is no file: a reader would wait for ever. A packed log is shown to its reader as it was before that."""
     refuse_what_never_ends(path)
+    with held_for(reader, path) as real:
+        return _described(reader, real, source)
+
+
+def _described(reader: Reader, path: Path, source: Source) -> Recording:
     watched = Watched(source)
     try:
         with asking(f"reader '{reader.name}' failed to describe a file", str(path)):
@@ -48,6 +54,21 @@ def described(reader: Reader, path: Path, source: Source) -> Recording:
         if wrong is not None:
             raise PluginError(f"reader '{reader.name}' broke the rule: {sentence(rule)}", where=str(path), got=wrong)
     return recording
+
+
+def held_for(reader: Reader, path: Path) -> AbstractContextManager[Path]:
+    """The file that a reader is to read: a packed log as it was before that, but where the reader's own format is
+    packed."""
+    return nullcontext(path) if path.is_file() and takes_packed(reader, path) else held(path)
+
+
+def takes_packed(reader: Reader, path: Path) -> bool:
+    """Whether a reader claims a file that is packed as it stands."""
+    if path.suffix.lower() not in PACKED:
+        return False
+    with opened(path) as file, suppress(*FAILED):
+        return reader.sniff(Head(path.name, path.stat().st_size, file.read(HEAD_BYTES))) is not None
+    return False
 
 
 def _refuse_packed(path: Path) -> None:
@@ -72,6 +93,11 @@ def guarded(reader: Reader, path: Path, source: Source, recording: Recording | N
     recording: what describe() said, where the caller has it already.
     """
     said = described(reader, path, source) if recording is None else recording
+    with held_for(reader, path) as real:
+        yield from _guarded(reader, real, source, said)
+
+
+def _guarded(reader: Reader, path: Path, source: Source, said: Recording) -> Iterator[Block | Loss]:
     count = 0
     rows: dict[str, int] = {}  # of each stream, so far
     items: Iterator[Block | Loss] | None = None

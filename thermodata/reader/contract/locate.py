@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from thermodata.plugin import Reader, Source
-from thermodata.reader.contract.guard import asking
+from thermodata.reader.contract.guard import asking, held_for
 
 
 def locate(reader: Reader, path: Path, source: Source, stream: str, row: int) -> str | None:
@@ -17,5 +17,6 @@ def locate(reader: Reader, path: Path, source: Source, stream: str, row: int) ->
     method = getattr(reader, "locate", None) or getattr(reader, "place", None)
     if method is None:
         return None
-    with asking(f"reader '{reader.name}' failed to locate a row", f"{path.name} stream '{stream}' row {row}"):
-        return str(method(path, source, stream, row))
+    where = f"{path.name} stream '{stream}' row {row}"
+    with asking(f"reader '{reader.name}' failed to locate a row", where), held_for(reader, path) as real:
+        return str(method(real, source, stream, row))

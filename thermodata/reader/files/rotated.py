@@ -6,16 +6,25 @@ import re
 from pathlib import PurePosixPath
 
 _ROTATED = re.compile(r"(?<=[A-Za-z])(?:\.(?P<number>\d{1,3})|[.-](?P<day>\d{8}))$")
+_PACKED = re.compile(r"(?i)(?<=[^.])\.(?:gz|bz2)$")
 
 
 def unrotated(path: PurePosixPath) -> PurePosixPath:
-    """A path without the number, or the day, of a piece that was put aside: `a.log` of `a.log.2`, `a.log-20260403`."""
+    """A path without the number, or the day, of a piece that was put aside: `a.log` of `a.log.2`, `a.log-20260403`; and
+    of one that was packed, `a.log.2.gz`."""
+    path = as_unpacked(path)
     bare = _ROTATED.sub("", path.name)
     return path.with_name(bare) if bare and PurePosixPath(bare).suffix else path
 
 
+def as_unpacked(path: PurePosixPath) -> PurePosixPath:
+    """A path as that of the log that was packed alone: `a.csv` of `a.csv.gz`."""
+    return path.with_name(_PACKED.sub("", path.name))
+
+
 def age(path: PurePosixPath) -> tuple[int, int]:
     """A sort key of the pieces of one log, the oldest first: numbered ones, by days, and the one that goes on."""
+    path = as_unpacked(path)
     found = _ROTATED.search(path.name) if unrotated(path) != path else None
     if found is None:
         return 2, 0

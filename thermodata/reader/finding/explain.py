@@ -7,10 +7,11 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from thermodata.errors import ThermodataError
+from thermodata.errors import FormatError, ThermodataError
 from thermodata.plugin import Head, Source
 from thermodata.reader.contract.guard import described
 from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
+from thermodata.reader.files.members import size_of, standing
 from thermodata.reader.finding.foreign_files import foreign_file
 from thermodata.reader.finding.registry import all_claims, claims, failed_readers, failed_sniffs, head, readers
 from thermodata.reader.text import decode_head
@@ -65,7 +66,14 @@ class Explanation:
 
 def explain(path: Path) -> Explanation:
     """What every installed reader says of a file. UsageError where it cannot be read."""
-    start = head(path)
+    try:
+        start = head(path)
+    except FormatError as error:
+        if not standing(path).is_file():
+            raise
+        # packed, and not to be unpacked
+        said = f"{error.what}: {error.got}" if error.got else error.what
+        return Explanation(str(path), size_of(standing(path)), said, {}, {}, error.hint)
     found = claims(path)
     kind = _kind(start)
     others = {name: _why_not(name, path, start, asked=not found) for name in readers() if name not in found}

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from thermodata.plugin import Array, Block, Loss, Reader, Recording, Signal, Source
-from thermodata.reader.contract.guard import asking, described, guarded
+from thermodata.reader.contract.guard import asking, described, guarded, held_for
+from thermodata.reader.files.members import size_of
 from thermodata.reader.files.regular import refuse_what_never_ends
 from thermodata.reader.finding.registry import claims, sniff
 from thermodata.reader.signals.units_met import units_met
@@ -102,7 +103,7 @@ def preview(
     losses: list[Loss] = []
     units = units_met(said.signals)
     began, read = time.monotonic(), 0
-    hurried = path.stat().st_size > _SMALL
+    hurried = size_of(path) > _SMALL
     for item in guarded(chosen, path, source, said):
         if isinstance(item, Loss):
             losses.append(item)
@@ -118,7 +119,7 @@ def preview(
             break
     return {
         "file": path.name,
-        "size_bytes": path.stat().st_size,
+        "size_bytes": size_of(path),
         "reader": chosen.name,
         "reason": claims(path).get(chosen.name),
         "clock": said.clock,
@@ -159,8 +160,8 @@ def beginning_of(reader: Reader, path: Path, source: Source) -> tuple[Reader, bo
     and the file is large. FormatError for what is no file."""
     refuse_what_never_ends(path)
     begin = getattr(reader, "beginning", None)
-    with asking(f"reader '{reader.name}' failed to begin a file", str(path)):
-        first: Reader | None = None if begin is None else begin(path, source)
+    with asking(f"reader '{reader.name}' failed to begin a file", str(path)), held_for(reader, path) as real:
+        first: Reader | None = None if begin is None else begin(real, source)
     return (reader, True) if first is None else (first, False)
 
 

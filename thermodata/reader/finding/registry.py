@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import warnings
+from contextlib import AbstractContextManager, nullcontext
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 
 from thermodata.errors import FAILED, FormatError, UsageError, unknown_name
 from thermodata.plugin import HEAD_BYTES, Head, Reader
+from thermodata.reader.contract.guard import takes_packed
+from thermodata.reader.files.members import each_in
 from thermodata.reader.files.regular import opened
+from thermodata.reader.files.unpacked import PACKED, held
 
 GROUP = "thermodata.reader"
 INSTALL = "pip install thermodata-reader-crio thermodata-reader-cnc thermodata-reader-mcap thermodata-reader-table"
@@ -105,13 +109,29 @@ def reader(name: str) -> Reader:
 
 
 def head(path: Path) -> Head:
-    """A file's first 64 KiB; UsageError where it cannot be read, or is none: a pipe, a device."""
+    """A file's first 64 KiB, of a packed one as it was before that; UsageError where it cannot be read, or is none: a
+    pipe, a device. FormatError for one that cannot be unpacked."""
     try:
-        with opened(path) as file:
+        with _shown(path) as real, opened(real) as file:
             start = file.read(HEAD_BYTES)
-        return Head(path.name, path.stat().st_size, start)
+            return Head(real.name, real.stat().st_size, start)
     except OSError as error:
         raise UsageError(f"cannot read {path.name}", where=str(path), got=error.strerror or str(error)) from None
+
+
+def files_in(path: Path) -> list[Path]:
+    """The files in an archive; any other file alone, and an archive that a reader takes as it is, or that can't be
+    read."""
+    return [path] if _taken_as_it_is(path) else each_in(path)
+
+
+def _shown(path: Path) -> AbstractContextManager[Path]:
+    return nullcontext(path) if _taken_as_it_is(path) else held(path)
+
+
+def _taken_as_it_is(path: Path) -> bool:
+    """Whether the format of a packed file is a reader's own."""
+    return path.suffix.lower() in PACKED and path.is_file() and any(takes_packed(r, path) for r in readers().values())
 
 
 def all_claims(path: Path | str) -> dict[str, str]:

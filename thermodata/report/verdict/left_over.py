@@ -10,6 +10,7 @@ from thermodata.report.verdict.refined import named
 from thermodata.report.words.numbers import LITTLE, duration, number, percent
 from thermodata.schema.agreed.begins_on import begins_on
 from thermodata.schema.agreed.limits import NOISY, OF_NOTHING
+from thermodata.schema.answers.slip_ids import slip_ids
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.diagnosis import Diagnosis
@@ -70,10 +71,11 @@ def otherwise(found: Diagnosis) -> str:
     if other < OTHERWISE * left or other <= NOISY * (found.noise_um or 0.0):
         return of_levels(found)
     instead = may_act_instead(found)
-    if any(a.kind == "step" and a.size_um is not None for a in found.artefacts):
+    slips = slip_ids(found)
+    if slips:
         return (
             f"; that is beside the steps of the probe: as it is fitted the model leaves {number(fitted)} um on the "
-            f"open tests{AS_SCORED}, for its fit has these steps: write the lines that the artefacts give"
+            f"open tests{AS_SCORED}, for its fit has these steps: thermodata add {found.model[:8]} {' '.join(slips)}"
             f"{of_levels(found)}"
         )
     return (

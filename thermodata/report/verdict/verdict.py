@@ -11,6 +11,7 @@ from thermodata.report.verdict.left_over import as_of_nothing, left_over, offere
 from thermodata.report.verdict.refined import can_be_refined, named, told_with_errors
 from thermodata.report.words.numbers import duration, number, percent
 from thermodata.schema.agreed.limits import PLAUSIBLE
+from thermodata.schema.answers.slip_ids import slip_ids, slips_of
 from thermodata.schema.words.places import heat_at
 from thermodata.schema.words.sentences import listed, with_count
 
@@ -83,15 +84,16 @@ def verdict_sentence(found: Diagnosis) -> str:
 def without_steps(found: Diagnosis) -> str:
     """'errors on left-out tests are without the step in V04 at 2.2 h (+14.0 um), ...': of what was taken out of these
     alone; '' where nothing was."""
-    steps = [a for a in found.artefacts if a.kind == "step" and a.size_um is not None]
+    steps = slips_of(found)
     if not steps or found.rmse_um is None:
         return ""
     sizes = [f"{'+' if (a.size_um or 0.0) > 0 else ''}{number(a.size_um)} um" for a in steps]
     named = [f"in {a.test} at {duration(a.at_s)} ({size})" for a, size in zip(steps, sizes, strict=True)]
-    s, it, gives = ("s", "them", "s give") if len(steps) > 1 else ("", "it", " gives")
+    s, it = ("s", "them") if len(steps) > 1 else ("", "it")
     return (
         f"errors on left-out tests are without the step{s} {with_count(named, _MOST_STEPS)}, but fits, parameters "
-        f"and errors on locked tests have {it}, until the model has the line{s} that the artefact{gives}"
+        f"and errors on locked tests have {it}, until the model is without (thermodata add {found.model[:8]} "
+        f"{' '.join(slip_ids(found))})"
     )
 
 

@@ -8,13 +8,15 @@ import os
 import secrets
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
 from thermodata.errors import StoreError
+from thermodata.reader.files.members import archive_of, same, standing
 from thermodata.reader.files.regular import opened
+from thermodata.reader.files.unpacked import held
 
 _CHUNK = 1 << 20
 
@@ -25,8 +27,8 @@ class ChangedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class SourceFile:
-    """A file with the hash of its bytes. path: where the bytes can be read. mark: by which a change is noticed.
-    note: said where the bytes are those of a copy."""
+    """A file with the hash of its bytes. path: where the bytes can be read. mark: by which a change is noticed, of one
+    in an archive that of the archive. note: said where the bytes are those of a copy."""
 
     path: Path
     sha256: str
@@ -37,7 +39,7 @@ class SourceFile:
     def check(self) -> None:
         """Raises ChangedError where the file is another one, longer, shorter or newer than when it was hashed."""
         try:
-            now = mark_of(os.stat(self.path))
+            now = mark_of(os.stat(standing(self.path)))
         except OSError as error:
             raise ChangedError(str(error)) from error
         if now != self.mark:
@@ -46,17 +48,24 @@ class SourceFile:
 
 def mark_of(status: os.stat_result) -> tuple[int, ...]:
     """What changes with a file's content: which file it is, its length, and when it was last written."""
-    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns
+    return same(status)
 
 
 def settled(path: Path) -> SourceFile:
     """A file and its hash. The mark is that from before the hash: what is written meanwhile shows in `check`."""
-    with opened(path) as handle:
-        mark = mark_of(os.fstat(handle.fileno()))
-        digest = hashlib.sha256()
+    mark = mark_of(os.stat(standing(path)))
+    with _as_hashed(path) as bytes_of, opened(bytes_of) as handle:
+        digest, size = hashlib.sha256(), 0
         while data := handle.read(_CHUNK):
             digest.update(data)
-    return SourceFile(path, digest.hexdigest(), mark[2], mark)
+            size += len(data)
+    return SourceFile(path, digest.hexdigest(), size, mark)
+
+
+def _as_hashed(path: Path) -> AbstractContextManager[Path]:
+    """What is hashed of a log: the file on the disk, packed as it may be; one in an archive as it is there, for others
+    come to it and go."""
+    return nullcontext(path) if archive_of(path) is None else held(path)
 
 
 @contextmanager
@@ -69,7 +78,7 @@ def frozen(path: Path, folder: Path) -> Iterator[SourceFile]:
     copy = place / path.name
     digest = hashlib.sha256()
     try:
-        with opened(path) as handle, _room(place, copy) as out:
+        with _as_hashed(path) as bytes_of, opened(bytes_of) as handle, _room(place, copy) as out:
             left = os.fstat(handle.fileno()).st_size
             while left and (data := handle.read(min(left, _CHUNK))):
                 digest.update(data)

@@ -10,6 +10,7 @@ from pathlib import Path
 from thermodata.errors import FormatError, PluginError, ThermodataError
 from thermodata.plugin import Loss, Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described, guarded
+from thermodata.reader.files.members import size_of
 from thermodata.reader.finding import registry
 from thermodata.reader.signals.units_met import units_met
 from thermodata.reader.times import newest_first
@@ -160,7 +161,7 @@ class _Reading:
             stream,
             self.source_path,
             self.sha256,
-            self.path.stat().st_size,
+            size_of(self.path),
             writer.rows,
             writer.first_ns,
             writer.last_ns,

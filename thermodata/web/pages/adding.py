@@ -10,6 +10,7 @@ from thermodata.modelling.add import chosen_id
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.schema.answers.candidate import Candidate
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
 from thermodata.store.catalogue.findings import load_diagnosis
 from thermodata.store.catalogue.models import StoredModel, find_model
@@ -29,7 +30,8 @@ def show(request: Request) -> Response:
         raise UsageError("no candidate was named", hint="choose one on the page 'What is missing'")
     model = find_model(store, given.get("model", ""))
     found = load_diagnosis(store, model.model)
-    identity, candidate = _candidate(store, model, found, name)
+    slips = [slip for its, slip in named_slips(found) if its == name] if found else []
+    identity, candidate = (name, None) if slips else _candidate(store, model, found, name)
     return page(
         request,
         "adding.html.j2",
@@ -39,6 +41,7 @@ def show(request: Request) -> Response:
         model=model,
         name=identity,
         candidate=candidate,
+        slips=slips,
         unit=unit_of(store, found.response if found else model.result.responses[0], model.spec.campaign_ids),
         pair=pair,
     )

@@ -22,6 +22,7 @@ from thermodata.report.words.of_response import of_response, worst_of
 from thermodata.report.words.pieces import names_of_pieces
 from thermodata.schema.answers.candidate import Candidate, LeftOut, Rung
 from thermodata.schema.answers.diagnosis import Diagnosis
+from thermodata.schema.answers.slip_ids import named_slips
 from thermodata.store import Store
 from thermodata.store.base.connection import fetch
 from thermodata.store.catalogue.findings import load_diagnosis
@@ -114,6 +115,7 @@ def _answer(found: Diagnosis, model: ModelRow, unit: str) -> dict[str, Any]:
         "told": shown,
         "hides": in_unit(capital(could_hide(found)), unit),
         "faults": log_faults(found.artefacts),
+        "slips": {(a.kind, a.campaign, a.test): name for name, a in named_slips(found)},
         "heat": heat,
         "heat_lines": heat_lines(heat) if heat else [],
         "heat_names": names_of_pieces(heat.courses) if heat else [],

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 import numpy as np
 
-from thermodata.effect.lag import lag, step_of
+from thermodata.effect.lag import lag, lag_along, step_of
 from thermodata.effect.law import Law
 from thermodata.plugin import Drivers, Float1D, Float2D, Need
 
@@ -193,17 +193,9 @@ class SpindleHeatingCooling:
     gains = (gain("um/K", 0.2, 40, "displacement at rest a kelvin of the bearing"),)
 
     def basis(self, drivers: Drivers, p: Mapping[str, float]) -> Float2D:
-        u, step = drivers.values["temperature"], step_of(drivers)
         turning = np.abs(drivers.values["speed"]) > 1.0
-        edges = np.flatnonzero(np.diff(turning)) + 1
-        out, state = np.empty(len(u)), 0.0
-        for a, b in zip([0, *edges], [*edges, len(u)], strict=True):
-            seconds = p["tau_on" if turning[a] else "tau_off"] * 60
-            first = max(a - 1, 0)  # carry the state over from the last sample before
-            part = lag(u[first:b], seconds, step, state)
-            out[a:b] = part[a - first :]
-            state = float(part[-1])
-        return column(out)
+        taus_s = np.where(turning, p["tau_on"], p["tau_off"]) * 60
+        return column(lag_along(drivers.values["temperature"], taus_s, step_of(drivers)))
 
     def law(self, roles: Collection[str], p: Mapping[str, float], step_s: float) -> tuple[Law, ...]:
         """The same as a formula; see `thermodata.effect.law`."""

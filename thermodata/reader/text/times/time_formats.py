@@ -182,8 +182,11 @@ def _goes_on(cells: Sequence[str], form: TimeFormat) -> bool:
     none."""
     ns = timestamp.parse(list(cells), form)
     ns = ns[ns != NAT]
+    if not ns.size:
+        return False
     roomy = all(_HUNDREDS.match(c) for c in cells if c.strip())
-    return bool(ns.size and (roomy or ns.max() >= DAY_NS) and (np.diff(ns) >= 0).all())
+    beyond = ns.max() > DAY_NS or (ns.max() == DAY_NS and ns[0] == 0)  # 24:00:00 may be the end of a day, too
+    return bool((roomy or beyond) and (np.diff(ns) >= 0).all())
 
 
 def _order(

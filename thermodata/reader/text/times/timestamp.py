@@ -27,6 +27,8 @@ _NO_NUMBERS = ("s", "p", "q", "z")  # parts of a pattern
 _REIWA = 2018  # the year before its first one
 _S = 1_000_000_000
 _LAST_SECOND = 60  # of a minute with a leap second, or rounded up: read as the minute after it
+_END_HOUR = 24  # 24:00:00 is the end of a day, and the beginning of the next (ISO 8601)
+_DAY_ENDS = re.compile(r"(?<![\d:])24(?=:00(?::00(?:[.,]0+)?)?(?![:.,\d]))")
 _EPOCH = date(1970, 1, 1)
 _DAYS_IN_MONTH = np.array([0, 31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31])
 _ISO = re.compile(r"^\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d{1,9})?)?$", re.ASCII)
@@ -131,8 +133,9 @@ def _by_strptime(cells: list[str | None], form: TimeFormat) -> Int1D:
     """Cells of a declared format with names of months and the like, each different one once."""
     known: dict[str, int] = {}
     for cell in {c or "" for c in cells}:
+        text, ends = _DAY_ENDS.subn("00", cell.strip())
         try:
-            moment = datetime.strptime(cell.strip(), form.strptime or "")
+            moment = datetime.strptime(text, form.strptime or "") + timedelta(days=ends)
         except (ValueError, re.error):  # a format that names a month twice is no pattern
             known[cell] = NAT
             continue
@@ -176,7 +179,8 @@ def parse_one(cell: str, form: TimeFormat) -> int:
             if of_day is None:
                 return NAT
             hour = of_day
-        if hour > 23 or minute > 59 or second > _LAST_SECOND:
+        ends = hour == _END_HOUR and not (half or minute or second or int(g.get("f") or 0))
+        if (hour > 23 and not ends) or minute > 59 or second > _LAST_SECOND:
             return NAT
         total += (hour * 3600 + minute * 60 + second) * _S
     if g.get("E") is not None:
@@ -247,7 +251,8 @@ def _assemble(fields: dict[str, npt.NDArray[np.int64]], match: re.Match[str]) ->
             of_day = np.array([-1 if (h := in_24_hours(k, half)) is None else h for k in range(100)])
             hour = of_day[hour]
             bad |= hour < 0
-        bad |= (hour > 23) | (minute > 59) | (second > _LAST_SECOND)
+        ends = (hour == _END_HOUR) & (minute == 0) & (second == 0) & (fields.get("f", np.zeros(size, np.int64)) == 0)
+        bad |= ((hour > 23) & ~(ends & (not half))) | (minute > 59) | (second > _LAST_SECOND)
         total += (hour * 3600 + minute * 60 + second) * _S
     if "E" in fields:
         bad |= (minute > 59) | (second > _LAST_SECOND)

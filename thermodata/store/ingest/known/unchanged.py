@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from thermodata.errors import ThermodataError
+from thermodata.reader.files.members import size_of, standing
 from thermodata.store.base.files import is_whole, key_of
 from thermodata.store.raw.source_file import SourceFile, mark_of, settled
 
@@ -43,7 +44,7 @@ class Seen:
     def __post_init__(self) -> None:
         for path, full in self.files.items():
             with suppress(OSError, ValueError):
-                self.marks[path] = mark_of(os.stat(full))
+                self.marks[path] = mark_of(os.stat(standing(full)))
 
     @property
     def note(self) -> Path:
@@ -76,11 +77,11 @@ def noted(here: Seen) -> Mapping[str, Any]:
 def known_files(here: Seen, kept: Mapping[str, Any]) -> dict[str, SourceFile]:
     """Source path -> the file with the hash that was noted of it, of those that were left alone since."""
     found = {}
-    with suppress(ValueError, TypeError, AttributeError):  # a note of another version
+    with suppress(ValueError, TypeError, AttributeError, OSError, ThermodataError):  # a note of another version
         for path, (was, young, sha256) in kept.get("sources", {}).items():
             mark = here.marks.get(path)
             if mark == tuple(was) and not young:
-                found[path] = SourceFile(here.files[path], str(sha256), mark[2], mark)
+                found[path] = SourceFile(here.files[path], str(sha256), size_of(here.files[path]), mark)
     return found
 
 

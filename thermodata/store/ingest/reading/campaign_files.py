@@ -7,9 +7,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from thermodata.errors import ThermodataError, UsageError
+from thermodata.errors import FormatError, ThermodataError, UsageError
 from thermodata.plugin import Reader, Source
 from thermodata.reader.contract.guard import described
+from thermodata.reader.files.members import size_of, standing
 from thermodata.reader.finding import registry
 from thermodata.schema.files.campaign import Campaign, JumpCalibration, SourceSpec, Test
 from thermodata.store.ingest.known.unchanged import Seen, seen
@@ -157,11 +158,11 @@ class CampaignFiles:
         asked = path, raw_key("", reader, declaration)
         if asked not in self._refused:
             full, self._refused[asked] = self.full(path), None
-            before = mark_of(os.stat(full))
+            before = mark_of(os.stat(standing(full)))
             try:
                 described(reader, full, declaration)
             except (ThermodataError, OSError) as error:
-                if mark_of(os.stat(full)) == before:
+                if mark_of(os.stat(standing(full))) == before:
                     self._refused[asked] = error
         if (refused := self._refused[asked]) is not None:
             raise refused
@@ -206,6 +207,6 @@ class CampaignFiles:
 
     def _size(self, path: str) -> int | None:
         try:
-            return os.stat(os.path.join(self.folder, self._odd.get(path, path))).st_size
-        except (OSError, ValueError):
+            return size_of(self.full(path))
+        except (OSError, ValueError, FormatError):
             return None

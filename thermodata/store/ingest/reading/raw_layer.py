@@ -9,6 +9,7 @@ from pathlib import Path
 
 from thermodata.errors import FormatError, StoreError, ThermodataError, nearest
 from thermodata.plugin import Reader, Source
+from thermodata.reader.files.members import is_there
 from thermodata.schema.files.campaign import JumpCalibration, SourceSpec, Test
 from thermodata.store.base.files import is_whole, with_room_for, write_error
 from thermodata.store.ingest.known.file_versions import pinned, read_otherwise, twins
@@ -154,9 +155,9 @@ class RawIngest:
             # a copy of another file is of another probe, or of another day
             before = [r for r in self.inventory.raw_rows("", name) if r.source_path == spec.file]
             source = self.files.campaign.sources[spec.source]
-            if path.is_file() or before:
+            if is_there(path) or before:
                 streams[name] = self._file(
-                    spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not path.is_file()
+                    spec.file, spec.source, source, before, f"calibration {name}", ("", name), gone=not is_there(path)
                 )
             else:
                 near = nearest(path.name, [p.name for p in path.parent.glob("*")] if path.parent.is_dir() else [])

@@ -12,6 +12,8 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import SpecError
+from thermodata.reader.files.members import standing
+from thermodata.reader.files.patterns import as_regex, in_archives
 from thermodata.reader.files.regular import kind_of
 from thermodata.reader.files.rotated import age, unrotated
 from thermodata.schema.files.campaign import Campaign, Test
@@ -98,16 +100,19 @@ def resolve(
 
 
 def _fitting(root: Path, pattern: str, named: bool) -> list[str]:
-    """What stands in the folder under a pattern, or under a name, which takes a fifth of the time."""
+    """What stands in the folder under a pattern, or under a name, which takes a fifth of the time; and in archives that
+    the pattern leads into."""
     if not named:
-        return glob.glob(pattern, root_dir=root, recursive=True)
-    return [pattern] if pattern and os.path.lexists(os.path.join(root, pattern)) else []
+        return glob.glob(pattern, root_dir=root, recursive=True) + in_archives(root, pattern)
+    if not pattern:
+        return []
+    return [pattern] if os.path.lexists(os.path.join(root, pattern)) else in_archives(root, pattern)
 
 
 def _refusal(root: Path, name: str, named: bool, folders: dict[str, str]) -> str | None:
     """Why a path isn't read: None where it is a file inside the folder, '' where it need not be mentioned."""
     try:
-        real, status = _real(os.path.join(root, name), folders)
+        real, status = _real(str(standing(root / name)), folders)
         if real != str(root) and not real.startswith(os.path.join(root, "")):
             return "leads outside the campaign's folder"
         kind = kind_of(status or os.stat(real))
@@ -201,24 +206,7 @@ def _told_apart(patterns: tuple[str, ...]) -> tuple[dict[str, int], list[tuple[i
     globs: list[tuple[int, re.Pattern[str]]] = []
     for k, pattern in enumerate(patterns):
         if glob.has_magic(pattern):
-            globs.append((k, re.compile(_regex(pattern))))
+            globs.append((k, re.compile(as_regex(pattern))))
         else:
             names.setdefault(PurePosixPath(Path(pattern)).as_posix(), k)
     return names, globs
-
-
-def _regex(pattern: str) -> str:
-    out, i = "", 0
-    while i < len(pattern):
-        if pattern.startswith("**/", i):
-            out, i = out + "(?:.*/)?", i + 3
-        elif pattern[i] == "*":
-            out, i = out + "[^/]*", i + 1
-        elif pattern[i] == "?":
-            out, i = out + "[^/]", i + 1
-        elif pattern[i] == "[" and "]" in pattern[i + 1 :]:
-            end = pattern.index("]", i + 2) if pattern.find("]", i + 2) > 0 else pattern.index("]", i + 1)
-            out, i = out + "[" + pattern[i + 1 : end].replace("!", "^", 1).replace("\\", "\\\\") + "]", end + 1
-        else:
-            out, i = out + re.escape(pattern[i]), i + 1
-    return out

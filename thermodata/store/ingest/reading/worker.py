@@ -22,6 +22,7 @@ from typing import Any, BinaryIO
 
 from thermodata.errors import FormatError, PluginError, UsageError
 from thermodata.plugin import Reader, Source
+from thermodata.reader.files.unpacked import forget_unpacked
 from thermodata.store.base.files import drop_unfinished
 from thermodata.store.ingest.progress import TextProgress, counted
 from thermodata.store.raw.raw_stream import RawStream
@@ -138,6 +139,7 @@ def main() -> None:
             _work(out)
     finally:
         drop_unfinished()
+        forget_unpacked()
         # without the interpreter's own end, which waits in vain for the thread that listens
         os._exit(0)
 
@@ -162,6 +164,7 @@ def _listen(incoming: BinaryIO, tasks: SimpleQueue[Task | None]) -> None:
             signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGTERM)
             time.sleep(_ENDING_S)  # for the file in hand to be given up; a library may hear of nothing meanwhile
         drop_unfinished()
+        forget_unpacked()
         os._exit(1)
 
 

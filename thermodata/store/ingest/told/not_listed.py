@@ -7,6 +7,8 @@ import re
 from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 
+from thermodata.reader.files.members import is_there
+from thermodata.reader.files.patterns import in_archives
 from thermodata.schema.files.campaign import Campaign, JumpCalibration
 from thermodata.schema.files.tests_from import pattern_of
 from thermodata.schema.strict.lines import is_text
@@ -59,10 +61,11 @@ def _fitting(folder: Path, campaign: Campaign) -> Iterator[tuple[str, str]]:
     found: dict[str, str] = {}
     for pattern in sorted(dict.fromkeys(patterns), key=_letters, reverse=True):
         reads = pattern_of(pattern)
-        for name in sorted(glob.glob(pattern.replace("{test}", "*"), root_dir=folder, recursive=True)):
+        every = pattern.replace("{test}", "*")
+        for name in sorted((*glob.glob(every, root_dir=folder, recursive=True), *in_archives(folder, every))):
             file = Path(name).as_posix()
             fits = reads.fullmatch(file)
-            if fits and is_text(file) and not _NO_ID.search(fits["test"]) and (folder / name).is_file():
+            if fits and is_text(file) and not _NO_ID.search(fits["test"]) and is_there(folder / name):
                 found.setdefault(file, fits["test"])
     yield from found.items()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
@@ -142,7 +142,7 @@ class Flagged:
                 if value is not None:
                     x = x.copy()
                     x[-1] = value
-                    seen[name] = Column(column.bound, x, column.flags)
+                    seen[name] = replace(column, values=x)
         return seen
 
     def _release(self, bound: Bound, value: float, row: int) -> float | None:

@@ -62,6 +62,7 @@ class Joined:
                 elsewhere=self.elsewhere.get(n),
                 limits=self.limits.get(n, (None, None)),
                 held=c.bound.is_held,
+                codes=c.codes,
             )
             for n, c in columns.items()
         }

@@ -9,9 +9,10 @@ from typing import Protocol
 
 import numpy as np
 
+from thermodata.calibration.quality.limit import codes_of
 from thermodata.calibration.result import CalibrationResult
 from thermodata.errors import ThermodataError, UsageError
-from thermodata.plugin import Array, Int1D
+from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.reader.text.cells.number import is_empty, is_overload
 from thermodata.schema.flag import Flag
 from thermodata.schema.units.quantity import canonical
@@ -41,14 +42,16 @@ class Streams(Protocol):
 
 @dataclass(slots=True)
 class Column:
-    """A calibrated channel on some rows: values and uint16 flags, shape (n,)."""
+    """A calibrated channel on some rows: values and uint16 flags, shape (n,). codes: a logger's for "no value", as they
+    are in its unit."""
 
     bound: Bound
     values: Array
     flags: Array
+    codes: Float1D | None = None
 
     def part(self, start: int, stop: int) -> Column:
-        return Column(self.bound, self.values[start:stop], self.flags[start:stop])
+        return Column(self.bound, self.values[start:stop], self.flags[start:stop], self.codes)
 
 
 class Chunk:
@@ -95,6 +98,22 @@ class Chunk:
     def raw(self, signal: str) -> Array | None:
         """A signal as the raw layer has it; None where no file does."""
         return self._raw.get(signal)
+
+    def codes(self, bound: Bound) -> Float1D | None:
+        """A logger's codes for "no value" in the unit that a channel is logged in, in its canonical one; None where no
+        file has it, or none can be logged so."""
+        raw = None if bound.signal is None or bound.is_text else self._raw.get(bound.signal.name)
+        if (
+            raw is None
+            or raw.dtype.kind not in "iuf"
+            or (bound.signal is not None and bound.signal.scaling is not None)
+        ):
+            return None
+        codes = codes_of(bound.channel.quantity)
+        if raw.dtype.kind in "iu":
+            codes = codes[(codes == np.round(codes)) & (codes >= 0 if raw.dtype.kind == "u" else True)]
+        values, _ = self._calibrated(bound, codes.astype(raw.dtype if raw.dtype.kind == "f" else np.int64))
+        return np.asarray(values[np.isfinite(values)], dtype=np.float64)
 
     def _measured(self, bound: Bound, signal: str) -> tuple[Array, Array]:
         if signal not in self._asked:
@@ -162,7 +181,7 @@ def calibrated(chunk: Chunk, bounds: Sequence[Bound], problems: list[str], pool:
 
     def one(bound: Bound) -> Column | str:
         try:
-            return Column(bound, *chunk.values(bound))
+            return Column(bound, *chunk.values(bound), chunk.codes(bound))
         except ThermodataError as error:
             return f"channel '{bound.name}': " + "; ".join(str(error).splitlines())
 

@@ -1,0 +1,38 @@
+"""A number that `docs/method.md` names by its constant is one of the diagnosis."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = ("method.md", "missing_heat.md")
+HOLD_THEM = ("diagnosis", "schema/agreed")
+NAME = re.compile(r"`([A-Z][A-Z_]{3,})`")
+
+
+def named(text: str) -> set[str]:
+    """Constants that a text names in backticks."""
+    return set(NAME.findall(text))
+
+
+def constants() -> set[str]:
+    """Of all modules of the diagnosis, and of what the words of its answers have in common with it."""
+    modules = (p for room in HOLD_THEM for p in (ROOT / "thermodata" / room).rglob("*.py"))
+    trees = (ast.parse(p.read_text("utf-8")) for p in modules)
+    assigned = (node for tree in trees for node in tree.body if isinstance(node, ast.Assign))
+    return {n.id for one in assigned for target in one.targets for n in ast.walk(target) if isinstance(n, ast.Name)}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_constant_of_the_page_is_in_the_code(page: str) -> None:
+    found = named((ROOT / "docs" / page).read_text("utf-8"))
+    assert len(found) > 10
+    assert found - constants() == set()
+
+
+def test_a_constant_that_is_not_there_is_found() -> None:
+    assert named("the fall (`DROP_LIMITS`, 15 %)") - constants() == {"DROP_LIMITS"}

@@ -1,0 +1,207 @@
+"""Packed logs as readers see them: unpacked into a folder of this process, which goes with it.
+
+A file packed alone keeps its name, 'run.csv.gz'. In a ZIP archive each file is one of its own, 'day.zip/run.csv'. Both
+are known by their names too: formats of their own are packed, as NumPy's .npz. What stands on the disk is never
+touched, and is not trusted: what would take the disk is refused before it does.
+"""
+
+from __future__ import annotations
+
+import atexit
+import bz2
+import gzip
+import os
+import shutil
+import tempfile
+import threading
+import zipfile
+import zlib
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, closing, contextmanager
+from dataclasses import dataclass
+from io import BufferedReader
+from pathlib import Path
+from typing import IO, Any
+
+from thermodata.errors import FormatError
+from thermodata.reader.files.archives import how_to_unpack, packed, packed_by
+from thermodata.reader.files.members import SUFFIX, archive_of, is_archive, listed, same
+from thermodata.reader.files.regular import opened
+from thermodata.reader.files.too_much import MOST_BYTES, most_of, no_room
+
+_PART = 1 << 20
+_KEPT_BYTES, _KEPT = 4 << 30, 64  # what was unpacked last is likely to be asked for again
+_OPEN: dict[str, Callable[[BufferedReader], Any]] = {
+    "gzip": lambda file: gzip.GzipFile(fileobj=file),
+    "bzip2": bz2.BZ2File,
+}
+_SUFFIXES = (".gz", ".bz2")
+PACKED = (SUFFIX, *_SUFFIXES)
+
+
+@dataclass(slots=True)
+class _Copy:
+    """A file as it was before it was packed. held: by how many it is being read."""
+
+    path: Path
+    size: int
+    held: int = 0
+
+
+_copies: OrderedDict[tuple[object, ...], _Copy] = OrderedDict()
+_lock = threading.RLock()
+_folder: Path | None = None
+_count = 0
+
+
+def unpacked(path: Path) -> Path:
+    """Where the bytes of a log can be read: the path itself, unless it is packed. Good until some more are asked for.
+
+    FormatError for what cannot be unpacked, or unpacks to too much, or holds several files.
+    """
+    with held(path) as real:
+        return real
+
+
+@contextmanager
+def held(path: Path) -> Iterator[Path]:
+    """The same, for as long as it takes."""
+    where = _packed_in(path)
+    if where is None:
+        yield path
+        return
+    with _lock:
+        copy = _copy(*where)
+        copy.held += 1
+    try:
+        yield copy.path
+    finally:
+        with _lock:
+            copy.held -= 1
+
+
+def forget_unpacked() -> None:
+    """Deletes all that was unpacked here: for a process that ends without a word."""
+    global _folder
+    with _lock:
+        _copies.clear()
+        if _folder is not None:
+            shutil.rmtree(_folder, ignore_errors=True)
+            _folder = None
+
+
+atexit.register(forget_unpacked)
+
+
+def _packed_in(path: Path) -> tuple[Path, str] | None:
+    """(the packed file, the file in it, '' where it is packed alone); None where nothing is packed."""
+    if (inside := archive_of(path)) is not None:
+        return inside
+    if path.suffix.lower() not in PACKED or not path.is_file():
+        return None
+    if path.suffix.lower() != SUFFIX:
+        with opened(path) as file:
+            return (path, "") if packed_by(file.read(16)) in _OPEN else None
+    if not is_archive(path):
+        return None
+    names = listed(path).names
+    if len(names) != 1:
+        raise FormatError(
+            "an archive of several files" if names else "an archive without a file that can be read",
+            where=path.name,
+            expected="one log",
+            got=", ".join((*names[:3], *["..."] * (len(names) > 3))) or listed(path).why(),
+            hint=f"name what is in it: files: '{path.name}/*', or '{path.name}/{names[0]}'" if names else None,
+        )
+    return path, names[0]
+
+
+def _copy(archive: Path, name: str) -> _Copy:
+    status = archive.stat()
+    key = (str(archive), name, *same(status))
+    if key in _copies:
+        _copies.move_to_end(key)
+        return _copies[key]
+    made = _made(archive, name, status)
+    _copies[key] = made
+    for old, copy in list(_copies.items())[:-8]:
+        if len(_copies) <= _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES:
+            break
+        if not copy.held:
+            shutil.rmtree(copy.path.parent, ignore_errors=True)
+            del _copies[old]
+    return made
+
+
+def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
+    """Unpacks a file, under the name that it had, with the time of what it was packed in."""
+    global _folder, _count
+    if _folder is None:
+        _folder = Path(tempfile.mkdtemp(prefix="thermodata-unpacked-"))
+    _count += 1
+    place = _folder / str(_count)
+    place.mkdir()
+    target = place / (name.rpartition("/")[2] or archive.stem)
+    where = f"{archive.name}/{name}" if name else archive.name
+    most = MOST_BYTES if name else most_of(status.st_size)  # an archive says how much it holds, and gives no more
+    try:
+        size = _written(_stream(archive, name), target, where, most)
+        with target.open("rb") as file:
+            start = file.read(512)
+        inner = packed_by(start) or ("ZIP" if packed(start) is not None else None)
+        if inner is not None:
+            raise FormatError(
+                "packed more than once",
+                where=where,
+                expected="a log",
+                got=inner,
+                hint=f"unpack it beside the others: {how_to_unpack('ZIP' if name else 'gzip', archive.name)}",
+            )
+    except BaseException:
+        shutil.rmtree(place, ignore_errors=True)
+        raise
+    os.utime(target, ns=(status.st_atime_ns, status.st_mtime_ns))
+    return _Copy(target, size)
+
+
+def _written(source: AbstractContextManager[IO[bytes]], target: Path, where: str, most: int) -> int:
+    size = 0
+    try:
+        with source as stream, target.open("wb") as out:
+            while part := stream.read(_PART):
+                size += len(part)
+                if size > most or no_room(target):
+                    raise FormatError(
+                        "unpacks to more than a log does" if size > most else "no room to unpack it",
+                        where=where,
+                        expected=f"at most {most} bytes" if size > most else f"room in {target.parent.parent.parent}",
+                        got=f"{size} bytes, and more",
+                        hint="unpack it yourself, beside the others" + ("" if size > most else ", or set TMPDIR"),
+                    )
+                out.write(part)
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, ValueError) as error:
+        raise _damaged(where, error) from None
+    except OSError as error:
+        if error.errno is not None:  # of the disk
+            raise
+        raise _damaged(where, error) from None  # what gzip and bzip2 say of their data
+    return size
+
+
+def _damaged(where: str, error: Exception) -> FormatError:
+    return FormatError("a packed file that is damaged", where=where, expected="all that was packed", got=str(error))
+
+
+@contextmanager
+def _stream(archive: Path, name: str) -> Iterator[IO[bytes]]:
+    if not name:
+        with opened(archive) as file:
+            packer = packed_by(file.read(16)) or ""
+            file.seek(0)
+            with closing(_OPEN[packer](file)) as stream:
+                yield stream
+        return
+    member = listed(archive).member(name)
+    with zipfile.ZipFile(archive) as zipped, zipped.open(member) as stream:
+        yield stream
