@@ -7,6 +7,7 @@ import pytest
 from thermodata.diagnosis.clocks.ends_of_logs import Ends, OddEnds, is_alike, meets
 from thermodata.diagnosis.clocks.heat_balance import UNMOVED_S
 from thermodata.schema.answers.diagnosis import ClockMoved
+from thermodata.store.ingest.told.whole_hours import HoursApart
 
 SHIFT_S = 1560.0
 
@@ -112,3 +113,13 @@ def test_a_hint_that_was_not_acted_upon_says_which_line_to_try() -> None:
     assert "write clocks: {nc: -2405 s} into the line of test 'feed20'" in told.why
     (elsewhere,) = Ends((odd,)).artefacts("third", [])
     assert "To try it" not in elsewhere.why
+
+
+def test_logs_that_are_hours_apart_in_all_tests_are_told_unless_heat_moved_one() -> None:
+    ends = Ends(hours={"c": [HoursApart("daq", "nc", 3600.0, 8)]})
+    (told,) = ends.artefacts("daq", [])
+    assert (told.kind, told.campaign, told.test) == ("clock_offset", "c", None)
+    assert told.why.startswith("source 'daq' begins and ends 1 h later than 'nc' in all 8 tests")
+    assert "Nothing was moved for it here" in told.why
+    by_heat = ClockMoved(source="nc", campaign="", test="", moved_s=3600.0)
+    assert ends.artefacts("daq", [by_heat]) == []

@@ -62,6 +62,7 @@ def test_what_a_result_holds_predicts_as_the_fit_did(world: Dataset, spec: Spec,
         one, other = fitted.responses[0], kept.responses[0]
         if one.can_predict(test):
             np.testing.assert_allclose(other.residual(test), one.residual(test), rtol=1e-9, atol=1e-9)
+    assert {*kept.parameters()} <= {*fitted.parameters()}, "what drives nothing here is no parameter of it"
 
 
 @pytest.fixture
@@ -107,6 +108,31 @@ def test_a_stale_model_keeps_its_parameters_and_says_so(
     again = run.fit(store, Model.model_validate(find_model(store, model).spec)).model
     assert again != model
     assert stale_line(store, again) is None
+
+
+@pytest.mark.parametrize("target", ["st", "json"])
+def test_a_program_names_the_data_that_its_model_was_fitted_to(
+    edited: tuple[Store, str, Callable[[str, str], list[str]]], tmp_path: Path, target: str
+) -> None:
+    store, model, edit = edited
+    out = tmp_path / "out"
+
+    def written() -> str:
+        words = ["model", "export", model, "--to", target, "--cycle", "60 s", "--out", str(out), "--force"]
+        said = CliRunner().invoke(cli, ["--store", str(store.path), *words])
+        assert said.exit_code == 0, said.output
+        return next(out.glob("*")).read_text()
+
+    fitted_to = find_model(store, model).data_version[:16]
+    before = written()
+    assert fitted_to in before
+    assert "stale" not in before
+    edit("role: verification", "role: calibration")
+    after = written()
+    assert fitted_to in after
+    assert run.load_data(store, find_model(store, model).spec).data_version[:16] not in after
+    assert "changed since it was fitted (role of" in after
+    assert ("exponent" in after) == ("exponent" in before)
 
 
 def test_advice_on_a_model_that_was_fitted_again_names_that_fit(

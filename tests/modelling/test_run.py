@@ -14,11 +14,12 @@ import pytest
 import yaml
 
 from thermodata.cli.look.query import sql_command
-from thermodata.errors import UsageError
+from thermodata.errors import StoreError, UsageError
 from thermodata.modelling import run
 from thermodata.modelling.add import add, chosen_id
 from thermodata.modelling.named import fit_named
 from thermodata.modelling.remove import remove
+from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.versions.candidate import with_candidate
 from thermodata.modelling.versions.with_claims import adds_what_was_offered
 from thermodata.report.collected.collect import collect
@@ -452,3 +453,54 @@ def test_carrying_over_to_a_locked_test_is_refused(store: Store, spec: Spec) -> 
         assert (caught.value.where, caught.value.got, caught.value.exit_code) == ("--test", "c/t7", 2)
     with store.reader() as con:
         assert con.execute("select count(*) from locked_look where model = ?", [model]).fetchone() == (0,)
+
+
+@pytest.mark.parametrize("how", ["fit", "add", "remove"])
+def test_what_is_made_while_an_ingest_changes_the_data_is_of_the_data_as_they_are_kept(
+    world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch, how: str
+) -> None:
+    store = stored(world, tmp_path)
+    wished = spec("spindle_bearing", "ambient_frame", name="beside")
+    parent = run.fit(store, wished).model
+    alone, begun = run.fit_alone, list[bool]()
+
+    def beside(*args: Any, **more: Any) -> FittedModel:
+        found = alone(*args, **more)
+        if not begun:
+            begun.append(True)
+            path = tmp_path / "campaign.yaml"
+            path.write_text(path.read_text().replace("unit: um", "unit: 1.02 um"))
+            ingest(Store(store.path), path)
+        return found
+
+    monkeypatch.setattr(run, "fit_alone", beside)
+    made = {
+        "fit": lambda: run.fit(store, wished),
+        "add": lambda: add(store, parent, "coolant:coolant_on", plain=True),
+        "remove": lambda: remove(store, parent, "ambient_frame"),
+    }[how]()
+    assert begun
+    kept = find_model(store, made.model)
+    assert not kept.stale
+    assert kept.data_version == run.load_data(store, kept.spec).data_version
+    before = {(s.test, s.phase): s.ptp_um for s in made.before or () if s.phase == "all"}
+    after = {(s.test, s.phase): s.ptp_um for s in made.scores}
+    assert all(before[test] == after[test] for test in before)  # measured in the same unit, before and after
+
+
+def test_data_that_never_stand_still_are_said_and_nothing_of_them_is_kept(
+    world: Dataset, tmp_path: Path, spec: Spec, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = stored(world, tmp_path)
+    alone = run.fit_alone
+
+    def beside(*args: Any, **more: Any) -> FittedModel:
+        with store.write(views=False) as con:
+            con.execute("update campaign set data_version = data_version || '-'")
+        return alone(*args, **more)
+
+    monkeypatch.setattr(run, "fit_alone", beside)
+    with pytest.raises(StoreError, match="the data of c changed meanwhile"):
+        run.fit(store, spec("spindle_bearing", name="never"))
+    with store.reader() as con:
+        assert con.execute("select count(*) from model").fetchone() == (0,)

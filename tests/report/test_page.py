@@ -274,3 +274,16 @@ def test_what_is_slow_is_no_more_than_all_that_is_left(data: ReportData) -> None
         for what, figure, _ in what_is_left(dataclasses.replace(data, tests=[fitted] * 10 + [foretold]))
     }
     assert figures["of it, in means of 30 min"] <= figures["left over in all open tests"]
+
+
+@pytest.mark.parametrize("ends", [5.0, np.nan])
+def test_a_mean_of_one_sample_weighs_as_one_sample(data: ReportData, ends: float) -> None:
+    """A test seldom ends with a whole half hour: the noise of its last sample is nothing slow."""
+    residual = np.tile([-0.1, 0.1], 300)
+    residual[1::60] = np.nan
+    one = dataclasses.replace(data.tests[0], step_s=30.0, residual=np.append(residual, ends), role="verification")
+    figures = {what: float(figure) for what, figure, _ in what_is_left(dataclasses.replace(data, tests=[one]))}
+    whole = one.residual[np.isfinite(one.residual)]
+    assert figures["left over in all open tests"] == pytest.approx(np.sqrt(np.mean(whole**2)), rel=0.01)
+    expected = np.sqrt(25.0 / len(whole)) if ends == 5.0 else 0.0
+    assert figures["of it, in means of 30 min"] == pytest.approx(expected, abs=0.01)

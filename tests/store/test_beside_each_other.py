@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
+from thermodata.store.ingest.told.whole_hours import whole_hours
 
 DAY, MINUTE = 86_400.0, 60.0
 
@@ -141,3 +142,57 @@ def test_logs_in_seconds_from_nowhere_tell_nothing_of_clocks() -> None:
     assert len(together(rows)) == 5
     assert together(relative) == {}
     assert odd_clocks({t: [{**r, "clock": "relative"} for r in some] for t, some in days().items()}) == []
+
+
+def hours_apart(hours: float, *, late_s: float = 0.0, longer_s: float = 0.0, count: int = 3) -> dict[str, Any]:
+    """late_s, longer_s: of the control's log on the last day."""
+    found = {}
+    for day in range(count):
+        start, lasts, last = 1.76e9 + day * DAY, 5 * 3600.0 + 900.0 * day, day == count - 1
+        begins = start - hours * 3600 - 20.0 + late_s * last
+        found[f"d{day}"] = [row("daq", start, lasts), row("nc", begins, lasts + 100.0 + longer_s * last)]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("of", "told"),
+    [
+        ({"hours": 1.0}, "'daq' begins and ends 1 h later than 'nc'"),
+        ({"hours": -2.0, "count": 12}, "'nc' begins and ends 2 h later than 'daq'"),
+        ({"hours": 5.5}, "'daq' begins and ends 5.5 h later"),
+        ({"hours": 0.0}, None),
+        ({"hours": 0.75}, None),  # no zones differ by so much
+        ({"hours": 27.0}, None),  # nor by so much
+        ({"hours": 1.0, "count": 1}, None),  # one log begun later, once
+        ({"hours": 1.0, "late_s": 35.0}, "'daq' begins"),
+        ({"hours": 1.0, "late_s": 45.0}, None),
+        ({"hours": 1.0, "longer_s": 10.0}, "'daq' begins"),
+        ({"hours": 1.0, "longer_s": 30.0}, None),
+        ({"hours": 1.0, "longer_s": 3600.0}, None),  # it goes on: longer on both sides
+    ],
+)
+def test_logs_of_one_length_that_are_whole_hours_apart_in_all_tests_are_told(of: Any, told: str | None) -> None:
+    said = [str(one) for one in whole_hours(hours_apart(**of))]
+    assert len(said) == (told is not None)
+    assert all(f"source {told}" in one for one in said)
+
+
+def test_what_to_declare_is_told_and_what_was_declared_is_not_asked() -> None:
+    rows = hours_apart(1.0, count=4)
+    [said] = whole_hours(rows)
+    assert "in all 4 tests" in str(said)
+    assert "timezone" in str(said)
+    assert "clock: {offset: 3600 s} at 'nc'" in str(said)
+    assert "clock: {offset: -3600 s} at 'daq'" in str(said)
+    assert whole_hours(rows, {test: {"nc"} for test in rows}) == []
+    assert [told.tests for told in whole_hours(rows, {"d0": {"nc"}, "d1": {"hall"}})] == [3]
+    assert odd_clocks(rows) == [], "no test is odd beside the others"
+
+
+def test_logs_that_are_whole_hours_apart_in_all_tests_do_not_agree() -> None:
+    """So heat is asked which of them is off; what somebody declared is his word."""
+    both = frozenset({"daq", "nc"})
+    rows = hours_apart(1.0, count=6)
+    assert together(rows) == {}
+    assert together(rows, {test: {"nc"} for test in rows}) == dict.fromkeys(rows, both)
+    assert together(hours_apart(0.25, count=6)) == dict.fromkeys(rows, both), "people begin one of them earlier"

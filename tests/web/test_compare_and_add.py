@@ -20,6 +20,7 @@ from thermodata.modelling.seen.residual_tests import autocorrelation
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model
+from thermodata.store.ingest.run import ingest
 from thermodata.store.keep.check import check_store
 from thermodata.view.curves.predictions import Prediction
 from thermodata.view.curves.residuals import against, predicted_tests, residuals
@@ -255,3 +256,21 @@ def test_contributions_stand_beside_each_other_on_one_scale(writer: Client, lab:
     assert writer.get(f"{onward}&test=small%2Fday2").status == 400
     assert 'value="small/day2"' not in text
     assert store.connect().execute("select count(*) from locked_look").fetchall() == before
+
+
+def test_a_model_that_its_data_left_behind_says_so_on_every_page_that_shows_it(writer: Client, lab: Path) -> None:
+    """And no difference to it stands there with its 95 %: that would be one of the data."""
+    store = Store(lab / "thermodata.store")
+    first = model_rows(store)[0].model
+    finished(writer, writer.post("/task/add", {"model": first, "candidate": "1"}).text)
+    newest = model_rows(store)[0].model
+    pages = [f"/compare?model={newest}&pin={first}", f"/test?campaign=small&test=day1&model={first}"]
+    assert not any("stale: the data of" in writer.get(page).text for page in pages)
+    assert "with its 95 %: samples" in writer.get(pages[0]).text
+    path = lab / "campaign.yaml"
+    path.write_text(path.read_text(encoding="utf-8").replace("gain: 1 um", "gain: 1.01 um", 1), encoding="utf-8")
+    assert ingest(store, path).stale
+    for page in pages:
+        assert f"stale: the data of baseline {first} changed since it was fitted" in writer.get(page).text
+    assert "No differences with their 95 %" in writer.get(pages[0]).text
+    assert "with its 95 %: samples" not in writer.get(pages[0]).text

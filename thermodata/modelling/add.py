@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.modelling.run import fit, load
+from thermodata.modelling.run import fit_once, load
 from thermodata.modelling.versions.came_since import unasked
 from thermodata.modelling.versions.candidate import note_of_response, with_candidate, with_effect
 from thermodata.modelling.versions.result import make_result
@@ -15,11 +15,13 @@ from thermodata.modelling.versions.slips import lines_of_test, with_lines
 from thermodata.modelling.versions.unsound import heeding
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import EffectSpec
+from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.store import Store
 
 
+@again_where_data_changed
 def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool = False) -> FitResult:
     """A new version with further effects: each a rank or id of the stored diagnosis, or any 'effect:channels'; or with
     one that it has changed, 'gain_by:effect,condition' or 'phases:effect,heating,cooling'; or without a step of a probe
@@ -61,7 +63,7 @@ def add(store: Store, ref: str, *candidates: str | int | EffectSpec, plain: bool
     own = [e for e, i in zip(grown.effects, term_ids(grown.effects), strict=True) if i in added]
     named = dict.fromkeys(str(channel) for e in own for channel in e.drivers.values())
     notes = [*notes, *since, *filter(None, [note_of_response(list(named), old.data.channels)])]
-    result = fit(store, grown, parent=parent.model, before=before, added=added, notes=notes)
+    result = fit_once(store, grown, read=old.data, parent=parent.model, before=before, added=added, notes=notes)
     claims = [c for c in diagnosis.candidates if c.claimed] if diagnosis is not None else []
     all_taken = bool(claims) and {c.id for c in claims} <= set(names)
     if diagnosis is None or not all_taken or diagnosis.data_version != old.data.data_version:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import ThermodataError, UsageError
-from thermodata.modelling.run import fit, load_data
+from thermodata.modelling.run import fit, fit_once, load_data
 from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import model_id
 from thermodata.schema.files.load import load_model
 from thermodata.schema.files.locate import located
 from thermodata.schema.words.sentences import listed
+from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.schema.answers.result import FitResult
@@ -33,6 +34,7 @@ def fit_file(store: Store, path: Path) -> FitResult:
         raise located(error, path) from error
 
 
+@again_where_data_changed
 def fit_named(store: Store, ref: str) -> FitResult:
     """Fit and save: a model file, or a model of the store again after its data changed."""
     from thermodata.store.catalogue.models import find_model
@@ -45,7 +47,7 @@ def fit_named(store: Store, ref: str) -> FitResult:
     data = load_data(store, stored.spec)
     spec = as_chosen(stored, data)
     notes = [told(stored.renamed)] if stored.renamed else []
-    return fit(store, spec, parent=stored.parent, notes=[*notes, *came_since(spec, data)])
+    return fit_once(store, spec, read=data, parent=stored.parent, notes=[*notes, *came_since(spec, data)])
 
 
 def model_named(store: Store, ref: str) -> str:

@@ -6,17 +6,19 @@ from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError
 from thermodata.modelling.model_file.resolve import term_ids
-from thermodata.modelling.run import fit, load
+from thermodata.modelling.run import fit_once, load
 from thermodata.modelling.versions.came_since import as_chosen, came_since
 from thermodata.modelling.versions.result import make_result
 from thermodata.modelling.versions.second_lag import is_lag_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
+from thermodata.store.catalogue.data_version import again_where_data_changed
 
 if TYPE_CHECKING:
     from thermodata.store import Store
 
 
+@again_where_data_changed
 def remove(store: Store, ref: str, effect: str) -> FitResult:
     """A new version with one effect less: by its id, or its name where that is one effect only; its second lag goes
     with it, and the others keep their ids. Where that takes back all that was added to an earlier version, it is fitted
@@ -53,7 +55,7 @@ def remove(store: Store, ref: str, effect: str) -> FitResult:
         notes += came_since(spec, old.data)
     # a version of its own, whatever was fitted before: it comes of this parent, and the name leads to it
     own = spec.model_copy(update={"taken_back": parent.model})
-    return fit(store, own, parent=parent.model, before=before, notes=notes)
+    return fit_once(store, own, read=old.data, parent=parent.model, before=before, notes=notes)
 
 
 def _alike(one: Model, other: Model) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,7 @@ from thermodata.modelling.versions.came_since import as_chosen
 from thermodata.modelling.versions.result import make_result, model_id
 from thermodata.schema.answers.result import FitResult, Score
 from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.store.catalogue.data_version import again_where_data_changed, refuse_changed
 from thermodata.view.grid.dataset import Dataset
 
 if TYPE_CHECKING:
@@ -37,13 +39,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Loaded:
-    """A model of the store and its data as they are now. kept: they changed, and the parameters are those stored."""
+    """A model of the store and its data as they are now. kept: they changed, and the parameters are those stored.
+    fitted_to: the version of the data that these come from."""
 
     identity: str
     parent: str | None
     fitted: FittedModel
     data: Dataset
     kept: bool = False
+    fitted_to: str = ""
 
 
 def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = False) -> Loaded:
@@ -60,7 +64,8 @@ def load(store: Store, ref: str, *, uncertainty: bool = False, anew: bool = Fals
         fitted = as_kept(stored.spec, stored.result, data, changed=stored.stale)
     else:
         fitted = fit_alone(as_chosen(stored, data), data, uncertainty=uncertainty)
-    return Loaded(stored.model, stored.parent, fitted, data, kept)
+    fitted_to = stored.data_version if kept else data.data_version
+    return Loaded(stored.model, stored.parent, fitted, data, kept, fitted_to)
 
 
 def fit_alone(spec: Model, data: Dataset, *, uncertainty: bool = True) -> FittedModel:
@@ -78,37 +83,42 @@ def load_data(store: Store, spec: Model) -> Dataset:
     return coarse_readings.drawn(load_dataset(store, list(spec.campaign_ids), spec.step))
 
 
-def fit(
+def fit_once(
     store: Store,
     spec: Model,
     *,
     base: Path | None = None,
     parent: str | None = None,
     before: list[Score] | None = None,
+    read: Dataset | None = None,
     **said: list[str],
 ) -> FitResult:
     """Fit and save. base: the folder of the model file, which `file` of an effect is relative to. said: `added` and
-    `notes` of the result, which say as well where the model's name leads to a newer version."""
+    `notes` of the result, which say as well where the model's name leads to a newer version. read: the data that its
+    caller looked at. DataChangedError where the data changed before it was kept."""
     from thermodata.store.catalogue.looks import count_locked_look
     from thermodata.store.catalogue.models import save_fit
 
     spec = self_contained(store, spec, base)
     data = load_data(store, spec)
+    check = partial(refuse_changed, campaigns=spec.campaign_ids, made_from=(read or data).data_version)
     with advised_by_names_now(store, spec.campaign_ids):
         fitted = fit_alone(spec, data)
     result = make_result(fitted, data, model_id(spec, data.data_version), parent=parent, before=before)
     terms = [term.bound for response in fitted.responses for term in response.terms]
-    read = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
+    names = {name for term in terms for test in data.tests if term.covers(test) for name in term.reads(test)}
     looked_at = opened(resolve_roles(spec, data), data)
     of_files = dict.fromkeys(note for term in terms for note in prediction.said(term.effect, data))
     notes = [
         *said.pop("notes", []),
-        *coarse_readings.said(data, read),
-        *shifted.said(data, read),
+        *coarse_readings.said(data, names),
+        *shifted.said(data, names),
         *of_files,
         *_unlocked(looked_at),
     ]
     result = result.model_copy(update={**said, "notes": notes})
+    with store.reader() as con:  # before a look is counted
+        check(con)
     if looked_at:  # first: a look that is counted for a fit that nobody kept does less harm than one that is not
         count_locked_look(store, result.model, looked_at, "the model uses it as an open test", once=True)
     save_fit(
@@ -118,8 +128,12 @@ def fit(
         parent=parent,
         predictions=prediction_tables(fitted, data),
         data_version=data.data_version,
+        check=check,
     )
     return result.model_copy(update={"notes": [*result.notes, *_led_past(store, result)]})
+
+
+fit = again_where_data_changed(fit_once)
 
 
 def _led_past(store: Store, result: FitResult) -> list[str]:

@@ -89,8 +89,10 @@ def model_command(
         _model_file(session, store, resolve(store, model), out or Path(), force)
         return
     loaded = load(store, resolve(store, model))
+    stale = stale_line(store, loaded.identity)
     left_out = tuple(n.strip() for n in without.split(",") if n.strip())
-    asked = Asked(cycle, response, name, left_out, dict(_pair(text) for text in groups), limit, rate, hold)
+    gains_of = dict(_pair(text) for text in groups)
+    asked = Asked(cycle, response, name, left_out, gains_of, limit, rate, hold, loaded.fitted_to, stale)
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
     _refuse_to_replace([folder / n for n in files_of(program, target)], force)
@@ -109,7 +111,7 @@ def model_command(
         "rate_per_min": program.limits.rate,
         "hold_s": program.limits.hold_s,
         "left_out": list(left_out),
-        "stale": stale_line(store, loaded.identity),
+        "stale": stale,
     }
     session.answer(payload, lambda: _program_text(loaded, program, written))
 

@@ -2,7 +2,8 @@
 
 Logs that stand elsewhere in some tests than in most were dated by a clock that was not right, or were switched on late
 and last as long as ever: by how much is exact, and where heat bears it out the one that the response is not in is
-moved. Logs that begin and end together have clocks that agree.
+moved. Logs that begin and end together have clocks that agree; those that stand whole hours apart in all tests are
+told.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from thermodata.schema.answers.diagnosis import Artefact, ClockMoved
 if TYPE_CHECKING:
     from thermodata.modelling.run import Loaded
     from thermodata.store import Store
+    from thermodata.store.ingest.told.whole_hours import HoursApart
 
 Key = tuple[str, str]
 
@@ -49,10 +51,12 @@ class OddEnds:
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """odd: by campaign and test. together: test -> sources whose clocks agree there with all others."""
+    """odd: by campaign and test. together: test -> sources whose clocks agree there with all others. hours: campaign ->
+    two logs each that stand whole hours apart in all tests."""
 
     odd: tuple[OddEnds, ...] = ()
     together: Mapping[Key, frozenset[str]] = field(default_factory=dict)
+    hours: Mapping[str, Sequence[HoursApart]] = field(default_factory=dict)
 
     def agree(self, tests: Iterable[Key], sources: Collection[str]) -> bool:
         """Whether the clocks of some sources agree in one of the tests, so that no heat can say that they don't."""
@@ -91,17 +95,18 @@ class Ends:
                 by = f"{move.moved_s / 60:+.3g} min"
                 then = f"The choice is made with '{move.source}' moved by {by} there, for {_BY_HEAT}. "
                 then += f"If it was right, declare at this test clocks: {{{move.source}: 0 s}}"
-            found.append(
-                Artefact(
-                    kind="clock_offset",
-                    campaign=odd.campaign,
-                    test=odd.test,
-                    at_s=None,
-                    size_um=None,
-                    why=f"{odd.said}. {then}",
-                )
-            )
-        return found
+            found.append(_told(odd.campaign, odd.test, f"{odd.said}. {then}"))
+        known = {m.source for m in moved if not m.test}
+        return found + [
+            _told(campaign, "", f"{one}. Nothing was moved for it here, for {_BY_NO_HEAT_AT_ALL}")
+            for campaign, some in self.hours.items()
+            for one in some
+            if known.isdisjoint((one.late, one.early))
+        ]
+
+
+def _told(campaign: str, test: str, why: str) -> Artefact:
+    return Artefact(kind="clock_offset", campaign=campaign, test=test, at_s=None, size_um=None, why=why)
 
 
 UNKNOWN = Ends()
@@ -109,6 +114,9 @@ _BY_HEAT = "what the commands of one log warm, by the other one, comes at the ri
 _BY_NO_HEAT = (
     "what the commands of one log warm, by the other one, does not come at a clearly better time so: too little warms "
     "in the test, or a log was switched on late"
+)
+_BY_NO_HEAT_AT_ALL = (
+    "no heat tells which of the two is off: it takes two temperatures of one log that follow the commands of the other"
 )
 _IN_NEITHER = "the response is in neither log, and nothing tells which of them is off"
 
@@ -131,6 +139,7 @@ def is_alike(some: Sequence[ClockMoved], others: Sequence[ClockMoved]) -> bool:
 def ends_of_logs(store: Store, model: Loaded) -> Ends:
     """Of the tests of a model, beside all of their campaigns; but for clocks that somebody declared."""
     from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
+    from thermodata.store.ingest.told.whole_hours import whole_hours
 
     here = {(t.campaign, t.test) for t in model.data.tests}
     declared = {
@@ -138,9 +147,12 @@ def ends_of_logs(store: Store, model: Loaded) -> Ends:
     }
     odd: list[OddEnds] = []
     agree: dict[Key, frozenset[str]] = {}
+    hours: dict[str, list[HoursApart]] = {}
     for campaign in sorted({c for c, _ in here}):
         rows = _sources(store, campaign)
-        agree |= {(campaign, test): sources for test, sources in together(rows).items()}
+        said = {test: {s for c, t, s in declared if (c, t) == (campaign, test) and s} for test in rows}
+        agree |= {(campaign, test): sources for test, sources in together(rows, said).items()}
+        hours[campaign] = whole_hours(rows, said)
         odd += [
             OddEnds(campaign, test, one.late, one.early, one.shift_s, str(one))
             for one in odd_clocks(rows)
@@ -148,7 +160,7 @@ def ends_of_logs(store: Store, model: Loaded) -> Ends:
             if (campaign, test) in here
             and declared.isdisjoint((campaign, test, source) for source in (one.late, one.early))
         ]
-    return Ends(tuple(odd), agree)
+    return Ends(tuple(odd), agree, hours)
 
 
 def _sources(store: Store, campaign: str) -> dict[str, list[dict[str, object]]]:

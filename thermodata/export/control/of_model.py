@@ -24,7 +24,9 @@ BEYOND = 1.5  # of the largest value, for what is zero at rest; of the range, fo
 
 @dataclass(frozen=True)
 class Asked:
-    """What a user asks of a program. None: as the tests say. without: ids of effects that are left out."""
+    """What a user asks of a program, and what its head says of the model. None: as the tests say. without: ids of
+    effects that are left out. fitted_to: the version of the data that the model was fitted to (default: the data's).
+    stale: what changed in them since."""
 
     cycle_s: float = 1.0
     response: str | None = None
@@ -34,6 +36,8 @@ class Asked:
     limit: float | None = None
     rate: float | None = None
     hold_s: float = 600.0
+    fitted_to: str = ""
+    stale: str | None = None
 
 
 def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> Program:
@@ -58,7 +62,8 @@ def program_of(model: str, fitted: FittedModel, data: Dataset, asked: Asked) -> 
         ("machine", ", ".join(dict.fromkeys(t.machine for t in data.tests if t.machine)) or "not named"),
         ("campaigns", ", ".join(fitted.spec.campaign_ids)),
         ("fitted on", ", ".join(key[1] for key in sorted(response.fitted_on))),
-        ("data", data.data_version[:16] or "not named"),
+        ("data", (asked.fitted_to or data.data_version)[:16] or "not named"),
+        *([] if asked.stale is None else [("stale", asked.stale.removeprefix("stale: "))]),
         ("step of the fit", f"{data.step_s:g} s"),
         ("cycle", f"{asked.cycle_s:g} s"),
         ("written by", f"thermodata {__version__}"),

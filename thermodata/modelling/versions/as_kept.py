@@ -154,11 +154,12 @@ def _term(term: BoundTerm, told: Told) -> FittedTerm:
     for group, factor in zip(groups, factors, strict=True):
         tag = f"[{group}]" if group else ""
         params = {p.name: told.get(p.name + tag, told.get(p.name, p.start)) for p in term.effect.params}
+        silent = frozenset(p for p in params if p not in told and p + tag not in told)
         gains = {
             g.name: told[g.name + tag] if g.name + tag in told else told[g.name] * factor / factors[0]
             for g in term.effect.gains
         }
-        values[group] = Values(params, gains, factor=factor)
+        values[group] = Values(params, gains, silent=silent, factor=factor)
     return FittedTerm(term, values)
 
 

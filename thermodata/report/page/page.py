@@ -196,9 +196,10 @@ def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
         return []
     step = tests[0].step_s
     whole = _rms([p.residual for p in tests])
-    means = [(p.role, block_mean(p.residual, max(1, round(SLOW_S / p.step_s)))) for p in tests]
+    sizes = [max(1, round(SLOW_S / p.step_s)) for p in tests]
     # about zero by the fit, a calibration test of few such means has none that could keep a sign: alone it tells none
-    slow = _rms([m for _, m in means]) if any(r != "calibration" or len(m) > FEW for r, m in means) else None
+    telling = any(p.role != "calibration" or len(p.residual) > FEW * size for p, size in zip(tests, sizes, strict=True))
+    slow = _rms([_slow(p.residual, size) for p, size in zip(tests, sizes, strict=True)]) if telling else None
     of = f", of {' and '.join(data.told_together)}" if len(data.responses) > 1 else ""
     noises = ((name, _noise(data, name)) for name in data.told_together)
     noisy, noise = next(((name, n) for name, n in noises if n is not None), ("", None))
@@ -209,6 +210,12 @@ def what_is_left(data: ReportData) -> list[tuple[str, str, str]]:
         ("noise", noise, f"of {noisy}: {length}" if of else length),
     ]
     return [(what, number(value), note) for what, value, note in rows if value is not None]
+
+
+def _slow(residual: np.ndarray, size: int) -> np.ndarray:
+    """At each sample the mean of its block, so that a block weighs what it holds: the last one may hold one sample."""
+    means = np.repeat(block_mean(residual, size), size)[: len(residual)]
+    return np.where(np.isfinite(residual), means, np.nan)
 
 
 def _rms(residuals: list[np.ndarray]) -> float | None:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from thermodata.errors import UsageError, nearest
 from thermodata.schema.answers.result import FitResult
 from thermodata.schema.files.model import Model
 from thermodata.store.base.connection import fetch, insert
-from thermodata.store.base.encoder import COMPRESSION
-from thermodata.store.base.files import publish, safe_name, temporary, write_error
 from thermodata.store.base.moment import utc_now
+from thermodata.store.catalogue.prediction_files import write_prediction
 from thermodata.store.catalogue.renamed import renamed, with_names
 from thermodata.store.catalogue.store import Store
 
@@ -49,19 +46,22 @@ def save_fit(
     parent: str | None,
     predictions: Mapping[tuple[str, str, str], pa.Table],
     data_version: str,
+    check: Callable[[duckdb.DuckDBPyConnection], None] = lambda con: None,
 ) -> str:
-    """Keeps a fit and its predictions ((campaign, test, response) -> table); returns the model's id.
+    """Keeps a fit and its predictions ((campaign, test, response) -> table); returns the model's id. check: is asked in
+    the turn that keeps it, and raises where it is not to be kept.
 
     The same model again replaces its figures and keeps its place in the history. Prediction columns: t_s,
     measured, predicted, residual, valid, and `c__<term>` for each effect's contribution.
     """
     now = utc_now()
     written = [
-        (key, _write_prediction(store.path, result.model, key, table), table.num_rows)
+        (key, write_prediction(store.path, result.model, key, table), table.num_rows)
         for key, table in sorted(predictions.items())
     ]
     response = result.response if isinstance(result.response, str) else ", ".join(result.response)
     with store.write() as con:
+        check(con)
         old = fetch(con, "select parent, created_at from model where model = ?", [result.model])
         for table in ("fit", "score_row", "prediction"):
             con.execute(f"delete from {table} where model = ?", [result.model])
@@ -170,24 +170,3 @@ def _stored(con: duckdb.DuckDBPyConnection, model: str) -> StoredModel:
         row["data_version"],
         names,
     )
-
-
-def _write_prediction(store: Path, model: str, key: tuple[str, str, str], table: pa.Table) -> str:
-    import pyarrow.parquet as pq
-
-    name = "__".join(safe_name(part, 50) for part in key) + ".parquet"
-    target = store / "model" / safe_name(model) / name
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise write_error(target, error) from error
-    part = temporary(target)
-    try:
-        pq.write_table(table, part, compression=COMPRESSION, row_group_size=100_000)
-        publish(part, target)
-    except OSError as error:
-        raise write_error(target, error) from error
-    finally:
-        with contextlib.suppress(OSError):
-            part.unlink()
-    return target.relative_to(store).as_posix()

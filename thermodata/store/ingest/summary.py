@@ -20,6 +20,7 @@ from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
 from thermodata.store.ingest.told.same_content import same_content
 from thermodata.store.ingest.told.spec_lines import with_lines
 from thermodata.store.ingest.told.unanswered import unanswered
+from thermodata.store.ingest.told.whole_hours import whole_hours
 
 NOTHING = "nothing changed: the store holds these files and this campaign file already"
 
@@ -112,9 +113,15 @@ def _losses(layers: Layers, notes: Mapping[str, TestNote]) -> Losses:
 def _odd_ends(layers: Layers, inventory: Inventory, looked_at: Mapping[str, list[Row]]) -> list[str]:
     """looked_at: rows of the sources of those tests that were not left alone."""
     known = {name: own for name, own in inventory.sources.items() if name in layers.left.tests}
-    sources, tests = {**known, **looked_at}, layers.files.campaign.tests
-    declared = {t.id: t.clocks for t in tests}
-    return [said for one in odd_clocks({t.id: sources.get(t.id, []) for t in tests}) for said in one.beside(declared)]
+    campaign = layers.files.campaign
+    sources = {**known, **looked_at}
+    rows = {t.id: sources.get(t.id, []) for t in campaign.tests}
+    declared = {t.id: t.clocks for t in campaign.tests}
+    of_all = {
+        name for name, s in campaign.sources.items() if s.clock.offset is not None or s.clock.align_to is not None
+    }
+    hours = whole_hours(rows, {test: of_all.union(clocks) for test, clocks in declared.items()})
+    return [*map(str, hours), *(said for one in odd_clocks(rows) for said in one.beside(declared))]
 
 
 def _left_out(path: Path, files_of_tests: Mapping[str, Sequence[str]]) -> list[str]:

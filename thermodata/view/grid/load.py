@@ -10,7 +10,6 @@ in_window False.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +20,7 @@ import numpy as np
 from thermodata.errors import UsageError, unknown_channel, unknown_name
 from thermodata.plugin import Bool1D, Float1D
 from thermodata.schema.units.quantity import MEASURED
+from thermodata.store.catalogue.data_version import joined, versions
 from thermodata.view.grid.bins import Binned, Series, bin_tests
 from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 from thermodata.view.grid.describe import channel_infos, describe_tests
@@ -47,10 +47,10 @@ def load_dataset(
         raise UsageError("a step is positive", expected="seconds, for example 30", got=str(step_s))
     wanted = [campaigns] if isinstance(campaigns, str) else list(dict.fromkeys(campaigns))
     with _opened(store).reader() as con:
-        versions = dict(con.execute("select campaign, data_version from campaign").fetchall())
+        found = versions(con)
         for campaign in wanted:
-            if campaign not in versions:
-                raise unknown_name("campaign", campaign, list(versions))
+            if campaign not in found:
+                raise unknown_name("campaign", campaign, list(found))
         infos = channel_infos(con, wanted)
         _check_channels(channels, infos)
         only = None if channels is None else set(channels)
@@ -62,14 +62,13 @@ def load_dataset(
             for row in describe_tests(con, wanted)
             if (row["campaign"], row["test"]) in binned
         )
-    return Dataset(float(step_s), tests, union_of(tests), _version([(c, versions[c]) for c in wanted]))
+    return Dataset(float(step_s), tests, union_of(tests), joined(found, wanted))
 
 
 def data_version(store: Store, campaigns: Sequence[str]) -> str:
     """Of the data of some campaigns as they are now: as their `Dataset` has it; '' where one of them is gone."""
     with store.reader() as con:
-        versions = dict(con.execute("select campaign, data_version from campaign").fetchall())
-    return _version([(c, versions[c]) for c in campaigns]) if all(c in versions for c in campaigns) else ""
+        return joined(versions(con), campaigns)
 
 
 def union_of(tests: Iterable[TestData]) -> dict[str, ChannelInfo]:
@@ -102,13 +101,6 @@ def _check_channels(channels: Collection[str] | None, infos: Mapping[tuple[str, 
     for name in channels or ():
         if name not in known:
             raise unknown_channel(name, sorted(known))
-
-
-def _version(versions: Iterable[tuple[str, str]]) -> str:
-    listed = sorted(versions)
-    if len(listed) == 1:
-        return listed[0][1]
-    return hashlib.sha256(repr(listed).encode()).hexdigest()[:32]
 
 
 def _test_data(

@@ -24,6 +24,7 @@ from thermodata.report.words.of_response import some_of
 from thermodata.schema.answers.result import FitResult
 from thermodata.store import Store
 from thermodata.store.catalogue.models import find_model, model_chain
+from thermodata.store.catalogue.stale import stale_line
 from thermodata.view.curves.contributions import Contributions, contributions, open_test, test_names
 from thermodata.view.curves.predictions import residual_courses
 from thermodata.view.curves.residuals import Key, predicted_tests, residuals
@@ -75,8 +76,8 @@ def show(request: Request) -> Response:
 @dataclass(frozen=True, slots=True)
 class _Compared:
     """models: all of the store; chosen: the pinned one first; results, courses: of each of these, in their order.
-    predicted: tests that the pinned one predicts. response: of which the page shows what it shows of one. only: what
-    differs. units: response -> unit."""
+    predicted: tests that the pinned one predicts. stale: a line on each whose data changed since its fit. response: of
+    which the page shows what it shows of one. only: what differs. units: response -> unit."""
 
     store: Store
     models: list[ModelRow]
@@ -85,6 +86,7 @@ class _Compared:
     courses: list[dict[Course, Float1D]]
     lines: list[Line]
     predicted: list[Key]
+    stale: list[str]
     response: str
     only: bool
     units: Mapping[str, str]
@@ -106,8 +108,11 @@ class _Compared:
 def _compared(store: Store, models: list[ModelRow], given: QueryParams) -> _Compared:
     chosen = _chosen(store, models, given.getlist("model"), given.get("pin", ""))
     results = [find_model(store, m.model).result for m in chosen]
-    # of all that was scored, as the errors beside them: a test that was taken out of the campaign since, too
-    courses = [residual_courses(store, m.model, _scored(r)) for m, r in zip(chosen, results, strict=True)]
+    stale = [line for m in chosen if (line := stale_line(store, m.model))]
+    # of all that was scored, as the errors beside them: a test that was taken out of the campaign since, too; but a
+    # difference to a fit to other data would be that of the data
+    of_each = zip(chosen, results, strict=True)
+    courses = [{} if stale else residual_courses(store, m.model, _scored(r)) for m, r in of_each]
     named, known = given.get("response"), chosen[0].responses
     names_of_all = list(dict.fromkeys(name for m in chosen for name in m.responses))
     return _Compared(
@@ -118,6 +123,7 @@ def _compared(store: Store, models: list[ModelRow], given: QueryParams) -> _Comp
         courses,
         with_differences(lines_of([r.scores for r in results]), courses),
         predicted_tests(store, chosen[0].model),
+        stale,
         response=named if named in known else known[0],
         only=given.get("differs") == "1",
         units=response_units(store, names_of_all, {c for m in chosen for c in m.campaigns}),
@@ -143,6 +149,7 @@ def _headline(of: _Compared) -> dict[str, Any]:
     scores = [r.scores for r in of.results]
     return {
         "unit": of.pinned.unit,
+        "stale": of.stale,
         "told_of": some_of(of.together, of.pinned.responses),
         "roles": roles(on_common(scores), of.together),
         "compared": lost_of_compared({m.label: own for m, own in zip(of.chosen, scores, strict=True)}),

@@ -15,6 +15,7 @@ from thermodata.errors import UsageError
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
+from thermodata.store.catalogue.stale import stale_line
 from thermodata.view.curves.predictions import Prediction, predictions, range_figures
 from thermodata.view.curves.rule_for import rules_for
 from thermodata.view.curves.window import Channel, Window, channels_of, read_window
@@ -60,6 +61,7 @@ def show(request: Request) -> Response:
         model=model,
         predicted=predicted,
         model_role=role,
+        stale=stale_line(store, model.model) if model else None,
         in_sample=IN_SAMPLE if role and role != base_role(role) else None,
         banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),

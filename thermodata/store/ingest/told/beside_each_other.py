@@ -6,32 +6,23 @@ elsewhere, was dated by a clock that was not right.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
 from thermodata.plugin import Float2D
 from thermodata.schema.words.sentences import listed
+from thermodata.store.ingest.told.ends import LEAST_S, Rows, ends_of, pairs
+from thermodata.store.ingest.told.whole_hours import whole_hours
 
-LEAST_S = 120.0  # by which both ends are off; people switch two loggers on within it,
-APART = 10.0  # and so many times what the ends of the other tests differ by
+APART = 10.0  # by so many times what the ends of the other tests differ by both ends are off, and by LEAST_S
 OTHERS = 3  # tests in which both stand as they always do
 BOTH = 0.1  # by how much, as a share of it, the shifts of both ends may differ
 
 
 Declared = Mapping[str, Mapping[str, float]]  # test -> source -> what its `clocks` add to the times [s]
-
-
-@dataclass(frozen=True, slots=True)
-class _Ends:
-    """Of one source in one test [s]."""
-
-    first: float
-    last: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,34 +91,27 @@ def _line(clocks: Mapping[str, float]) -> str:
     return f"clocks: {{{', '.join(f'{source}: {by_s:.0f} s' for source, by_s in clocks.items())}}}"
 
 
-def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock]:
+def odd_clocks(rows: Rows) -> list[OddClock]:
     """Each as a sentence by `str`. rows: test -> its rows of the table `source`."""
-    ends = {test: _ends(of_test) for test, of_test in rows.items()}
-    sources = sorted({source for of_test in ends.values() for source in of_test})
-    # a log that runs through all tests ends with none of them
-    sources = [s for s in sources if len({of_test[s] for of_test in ends.values() if s in of_test}) > 1]
     found = []
-    for one, other in combinations(sources, 2):
-        tests = [t for t, of_test in ends.items() if one in of_test and other in of_test]
-        if len(tests) <= OTHERS:
-            continue
-        apart = np.array(
-            [(ends[t][one].first - ends[t][other].first, ends[t][one].last - ends[t][other].last) for t in tests]
-        )
-        if (odd := _odd(apart)) is not None:
+    for one, other, apart in pairs(rows):
+        if len(apart) > OTHERS and (odd := _odd(np.array(list(apart.values())))) is not None:
             places, shift_s = odd
             late, early = (one, other) if shift_s > 0 else (other, one)
-            names = tuple(tests[i] for i in places)
-            found.append(OddClock(names, late, early, abs(shift_s), len(tests) - len(names)))
+            names = tuple(list(apart)[i] for i in places)
+            found.append(OddClock(names, late, early, abs(shift_s), len(apart) - len(names)))
     return found
 
 
-def together(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> dict[str, frozenset[str]]:
+def together(rows: Rows, declared: Mapping[str, Collection[str]] | None = None) -> dict[str, frozenset[str]]:
     """Test -> its sources that begin and end with all others of it, as they do in most tests. rows: as above.
 
-    Two logs of another hour do not begin and end together: their clocks agree to within `LEAST_S`.
+    Two logs of another hour do not begin and end together: their clocks agree to within `LEAST_S`. Where they stand
+    whole hours apart in all tests, that is what they do in most, and no sign that they agree, unless somebody said so.
+    declared: test -> the sources of whose clocks there somebody has said something.
     """
-    ends = {test: _ends(of_test) for test, of_test in rows.items()}
+    ends = {test: ends_of(of_test) for test, of_test in rows.items()}
+    hours_apart = {frozenset((told.late, told.early)) for told in whole_hours(rows, declared)}
     found = {test: set(of_test) for test, of_test in ends.items() if len(of_test) > 1}
     for one, other in combinations(sorted({s for of_test in ends.values() for s in of_test}), 2):
         tests = [t for t, of_test in ends.items() if one in of_test and other in of_test]
@@ -135,7 +119,9 @@ def together(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> dict[str, froze
             t: np.array([ends[t][one].first - ends[t][other].first, ends[t][one].last - ends[t][other].last])
             for t in tests
         }
-        usual = np.median(list(apart.values()), axis=0) if len(tests) > OTHERS else np.zeros(2)
+        usual = np.zeros(2)
+        if len(tests) > OTHERS and {one, other} not in hours_apart:
+            usual = np.median(list(apart.values()), axis=0)
         for test, by in apart.items():
             if np.abs(by).max() > LEAST_S and np.abs(by - usual).max() > LEAST_S:
                 found[test] -= {one, other}
@@ -159,13 +145,3 @@ def _odd(apart: Float2D) -> tuple[list[int], float] | None:
     alike = bool(np.ptp(off[odd]) <= BOTH * size) and len(set(np.sign(off[odd]).ravel().tolist())) == 1
     far = size >= max(LEAST_S, APART * float(np.abs(off[usual]).max()))
     return (sorted(odd.tolist()), float(off[odd].mean())) if alike and far else None
-
-
-def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:
-    """Of each source of a test that logs at even steps, on a clock: seconds from nowhere begin at 0 in every log."""
-    found: dict[str, list[_Ends]] = defaultdict(list)
-    for row in rows:
-        if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
-            first = row["start_ns"] / 1e9
-            found[row["source"]].append(_Ends(first, first + row["step_s"] * (row["rows"] - 1)))
-    return {s: _Ends(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}

@@ -1,0 +1,48 @@
+"""When the logs of a test begin and end, and how two of them stand beside each other in all tests."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+Rows = Mapping[str, Iterable[Mapping[str, Any]]]  # test -> its rows of the table `source`
+LEAST_S = 120.0  # by which two logs stand apart; people switch two loggers on within it
+
+
+@dataclass(frozen=True, slots=True)
+class LogEnds:
+    """Of one source in one test [s]."""
+
+    first: float
+    last: float
+
+
+def ends_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, LogEnds]:
+    """Of each source of a test that logs at even steps, on a clock: seconds from nowhere begin at 0 in every log."""
+    found: dict[str, list[LogEnds]] = defaultdict(list)
+    for row in rows:
+        if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
+            first = row["start_ns"] / 1e9
+            found[row["source"]].append(LogEnds(first, first + row["step_s"] * (row["rows"] - 1)))
+    return {s: LogEnds(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
+
+
+def pairs(rows: Rows) -> Iterator[tuple[str, str, dict[str, tuple[float, float]]]]:
+    """(one source, another, test -> by how much the one begins and ends later [s]); but for logs that run through all
+    tests, which end with none of them."""
+    ends = {test: ends_of(of_test) for test, of_test in rows.items()}
+    sources = sorted({source for of_test in ends.values() for source in of_test})
+    sources = [s for s in sources if len({of_test[s] for of_test in ends.values() if s in of_test}) > 1]
+    for one, other in combinations(sources, 2):
+        yield (
+            one,
+            other,
+            {
+                test: (of[one].first - of[other].first, of[one].last - of[other].last)
+                for test, of in ends.items()
+                if one in of and other in of
+            },
+        )
