@@ -13,6 +13,7 @@ from thermodata.diagnosis.locked.left_on_locked import contradicted, left_on_loc
 from thermodata.diagnosis.verdict.judge import Judgement
 from thermodata.schema.answers.diagnosis import ClockMoved, PutRight
 from thermodata.schema.files.model import EffectSpec, Model
+from thermodata.store.catalogue import findings
 from thermodata.store.catalogue import models as catalogue
 from thermodata.view.grid.dataset import ChannelInfo
 
@@ -86,7 +87,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, spec: Model, diagnoses: list[Any]) ->
     """Of a model at the end of a chain whose earlier versions, all of them the base, were given these diagnoses."""
     chain = [SimpleNamespace(model=str(i), spec=BASE) for i in range(len(diagnoses))]
     monkeypatch.setattr(catalogue, "model_chain", lambda store, model: [*chain, SimpleNamespace(model="last")])
-    monkeypatch.setattr(catalogue, "load_diagnosis", lambda store, model: diagnoses[int(model)])
+    monkeypatch.setattr(findings, "load_diagnosis", lambda store, model: diagnoses[int(model)])
     loaded: Any = SimpleNamespace(identity="last", data=DATA, fitted=SimpleNamespace(spec=spec))
     return left_on_locked(Path("store"), loaded)  # type: ignore[arg-type]
 
@@ -148,7 +149,7 @@ def test_the_error_with_a_free_level_is_known_with_it(monkeypatch: pytest.Monkey
     chain = [SimpleNamespace(model="0", spec=BASE), SimpleNamespace(model="last")]
     monkeypatch.setattr(catalogue, "model_chain", lambda store, model: chain)
     found = SimpleNamespace(response="dZ", candidates=[one], data_version="v1", put_right=None)
-    monkeypatch.setattr(catalogue, "load_diagnosis", lambda store, model: found)
+    monkeypatch.setattr(findings, "load_diagnosis", lambda store, model: found)
     loaded: Any = SimpleNamespace(identity="last", data=DATA, fitted=SimpleNamespace(spec=grown(ADDED)))
     store: Any = Path("store")
     assert (left_on_locked(store, loaded), shape_left_on_locked(store, loaded)) == ({"dZ": 3.0}, {"dZ": 1.0})

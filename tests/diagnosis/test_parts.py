@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thermodata.diagnosis.candidates.of_library import grid
+from thermodata.diagnosis.candidates.grid import grid
 from thermodata.diagnosis.question.weak import weak_spots
 from thermodata.plugin import Param
 

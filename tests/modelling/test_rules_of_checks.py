@@ -14,7 +14,7 @@ from thermodata.modelling.model_file.shaped import DEAD_TIME
 from thermodata.modelling.terms import parameters
 from thermodata.modelling.terms.fitted_response import Values
 from thermodata.modelling.terms.parameters import gain_unit
-from thermodata.modelling.trust import bound_checks, checks
+from thermodata.modelling.trust import bound_checks, checks, term_checks
 from thermodata.plugin import Drivers, Float2D, Gain, Need, Param
 from thermodata.report.text.fit import span
 from thermodata.schema.answers.result import Check
@@ -206,9 +206,11 @@ def test_a_bound_is_the_users_where_there_is_one_and_fixed_and_silent_ones_have_
 @pytest.mark.parametrize(("tau", "long"), [(600.5, True), (599.5, False)])
 def test_a_time_constant_longer_than_the_longest_test(tau: float, long: bool) -> None:
     """Ten hours are 600 min; a shorter test beside takes nothing away."""
-    found = checks._long(term(params={"tau": tau}), [a_test(10.0), a_test(1.0)])
+    found = term_checks.longer_than_record(term(params={"tau": tau}), [a_test(10.0), a_test(1.0)])
     assert names(found) == (["tau_longer_than_record:straight.tau"] if long else [])
-    assert checks._long(term(params={"tau": tau}, held=True), [a_test(1.0)]) == [], "identified on other tests"
+    assert term_checks.longer_than_record(term(params={"tau": tau}, held=True), [a_test(1.0)]) == [], (
+        "identified on other tests"
+    )
 
 
 @pytest.mark.parametrize(("gain", "named"), [(10.01, True), (-10.01, True), (9.99, False), (-9.99, False)])
@@ -276,21 +278,21 @@ def test_a_gain_without_a_known_magnitude_is_plausible(largest: float) -> None:
 def test_two_lags_are_apart_by_half_and_sure(second: float, sd: float, passed: bool) -> None:
     effect = Straight(params=(TAU, SECOND))
     for params in ({"tau": 30.0, "tau2": second}, {"tau": second, "tau2": 30.0}):
-        (found,) = checks._second_lag(term(effect, params, sd={"tau2": sd}))
+        (found,) = term_checks.lags_apart(term(effect, params, sd={"tau2": sd}))
         assert (found.name, found.passed) == ("lags_apart:straight", passed)
-    assert checks._second_lag(term()) == []
+    assert term_checks.lags_apart(term()) == []
     air = Straight(family="ambient", params=(TAU, SECOND))
-    assert checks._second_lag(term(air, {"tau": 30.0, "tau2": second})) == []
+    assert term_checks.lags_apart(term(air, {"tau": 30.0, "tau2": second})) == []
 
 
 @pytest.mark.parametrize(("resolution", "passed"), [(0.0999, True), (0.1001, False)])
 def test_one_step_of_a_coarse_sensor_moves_the_prediction_by_a_um(resolution: float, passed: bool) -> None:
     """A gain of 10 um/K times 0.1 K."""
     response: Any = SimpleNamespace(unit="um")
-    (found,) = checks._ripple(response, term(gain=-10.0), [a_test(resolution=resolution)])
+    (found,) = term_checks.ripple(response, term(gain=-10.0), [a_test(resolution=resolution)])
     assert found.passed is passed
     assert found.value == pytest.approx(10 * resolution)
-    assert checks._ripple(response, term(gain=-10.0), [a_test()]) == []
+    assert term_checks.ripple(response, term(gain=-10.0), [a_test()]) == []
 
 
 @pytest.mark.parametrize(("param", "end"), [(TAU, "bound 100 min:"), (EXPONENT, "bound 2:")])

@@ -737,7 +737,7 @@ MUTANTS = [
     ),
     Mutant(
         "thermodata/diagnosis/verdict/investigate.py",
-        "if selection is not None and not steps:",
+        "if selection is not None and not single:",
         "if selection is not None:",
         "a slip makes parameters wrong",
         ("tests/diagnosis/test_answer.py",),

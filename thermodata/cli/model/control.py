@@ -15,6 +15,9 @@ from thermodata.errors import UsageError
 from thermodata.report.text.table import fields
 
 if TYPE_CHECKING:
+    from thermodata.export.control.program import Program
+    from thermodata.export.control.write import Written
+    from thermodata.modelling.run import Loaded
     from thermodata.store import Store
 
 _TARGETS = ("st", "scl", "c", "python", "json", "mat", "yaml")
@@ -87,18 +90,9 @@ def model_command(
         return
     loaded = load(store, resolve(store, model))
     stale = stale_line(store, loaded.identity)
-    asked = Asked(
-        cycle,
-        response,
-        name,
-        tuple(n.strip() for n in without.split(",") if n.strip()),
-        dict(_pair(text) for text in groups),
-        limit,
-        rate,
-        hold,
-        loaded.fitted_to,
-        stale,
-    )
+    left_out = tuple(n.strip() for n in without.split(",") if n.strip())
+    gains_of = dict(_pair(text) for text in groups)
+    asked = Asked(cycle, response, name, left_out, gains_of, limit, rate, hold, loaded.fitted_to, stale)
     program = program_of(loaded.identity, loaded.fitted, loaded.data, asked)
     folder = out or Path()
     _refuse_to_replace([folder / n for n in files_of(program, target)], force)
@@ -116,23 +110,25 @@ def model_command(
         "limit": program.limits.correction,
         "rate_per_min": program.limits.rate,
         "hold_s": program.limits.hold_s,
-        "left_out": list(asked.without),
+        "left_out": list(left_out),
         "stale": stale,
     }
-    session.answer(
-        payload,
-        lambda: fields(
-            [
-                ("model", f"{loaded.fitted.spec.name} {loaded.identity}"),
-                ("files", list(written.files)),
-                ("cycle", f"{program.cycle_s:g} s"),
-                ("numbers", f"{written.real} ({32 if written.real == 'real' else 64} bits)"),
-                ("inputs", [f"{i.name} [{i.unit}]" for i in program.inputs]),
-                ("states", len(program.states)),
-                ("limit", f"{program.limits.correction:g} {program.unit}, {program.limits.rate:g} {program.unit}/min"),
-                ("bad readings", f"held for {program.limits.hold_s:g} s"),
-            ]
-        ),
+    session.answer(payload, lambda: _program_text(loaded, program, written))
+
+
+def _program_text(loaded: Loaded, program: Program, written: Written) -> str:
+    limits = program.limits
+    return fields(
+        [
+            ("model", f"{loaded.fitted.spec.name} {loaded.identity}"),
+            ("files", list(written.files)),
+            ("cycle", f"{program.cycle_s:g} s"),
+            ("numbers", f"{written.real} ({32 if written.real == 'real' else 64} bits)"),
+            ("inputs", [f"{i.name} [{i.unit}]" for i in program.inputs]),
+            ("states", len(program.states)),
+            ("limit", f"{limits.correction:g} {program.unit}, {limits.rate:g} {program.unit}/min"),
+            ("bad readings", f"held for {limits.hold_s:g} s"),
+        ]
     )
 
 

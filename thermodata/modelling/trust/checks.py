@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from thermodata.effect.guard import guarded_basis
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.least_squares.design import Design
 from thermodata.modelling.terms.bound import each_group_its_own
@@ -16,6 +14,7 @@ from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTer
 from thermodata.modelling.trust.apart import told_apart
 from thermodata.modelling.trust.bound_checks import at_bounds
 from thermodata.modelling.trust.memory import effective_count
+from thermodata.modelling.trust.term_checks import lags_apart, longer_than_record, own_channel, ripple
 from thermodata.plugin import Float1D, Float2D
 from thermodata.schema.answers.result import Check
 from thermodata.view.grid.dataset import TestData
@@ -23,10 +22,7 @@ from thermodata.view.grid.dataset import TestData
 CONDITION = 1000.0
 COLLINEAR = 0.98
 FEWEST = 5.0  # independent samples a parameter
-LAGS_APART = 1.5  # ratio of two time constants of one effect
-UNSURE = 1.0  # standard deviation of log(tau) that says nothing
 LOST = 0.2  # of a test's samples, to flags
-RIPPLE = 1.0  # of the prediction within a sample, in the response's unit
 
 
 def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any]:
@@ -54,11 +50,11 @@ def checks(response: FittedResponse, tests: Sequence[TestData]) -> dict[str, Any
     ]
     for term in response.terms:
         rows += [
-            *_own(response, term, tests),
+            *own_channel(response, term, tests),
             *at_bounds(response, term),
-            *_long(term, tests),
-            *_second_lag(term),
-            *_ripple(response, term, tests),
+            *longer_than_record(term, tests),
+            *lags_apart(term),
+            *ripple(response, term, tests),
         ]
     noise = float(np.sqrt(np.mean(residual**2))) if len(residual) else None
     return {"checks": tuple(rows), "noise": noise}
@@ -90,25 +86,6 @@ def _samples(residual: Float1D, design: Design, parameters: int) -> list[Check]:
             + ("" if count >= need else f"; {parameters} parameters want {need:.0f}: add tests"),
         )
     ]
-
-
-def _own(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
-    """A response among the drivers of its own effect: it explains itself, whatever the machine does."""
-    for test in tests:
-        own = response.bound.channel_of(test)
-        read = [text for text in term.bound.binding_of(test).values() if own in names_of(text)]
-        if read and term.bound.covers(test):
-            return [
-                Check(
-                    name=f"own_channel:{term.id}",
-                    value=None,
-                    threshold=None,
-                    passed=False,
-                    advice=f"'{term.id}' of '{own}' is driven by '{own}' itself, which explains it whatever the "
-                    "machine does: drive it by another channel, or say with acts_on which responses it acts on",
-                )
-            ]
-    return []
 
 
 def _lost(response: FittedResponse, tests: Sequence[TestData]) -> list[Check]:
@@ -214,80 +191,3 @@ def _warm(design: Design) -> list[Check]:
         for test, free in zip(design.tests, design.nuisance, strict=True)
         if free.free is not None
     ]
-
-
-def _long(term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
-    covered = [t for t in tests if term.bound.covers(t) and len(t.t_s)]
-    if term.held and term.bound.calibrate is not None:
-        return []
-    record = max((float(t.t_s[-1] - t.t_s[0]) for t in covered), default=0.0) / 60.0
-    rows = []
-    for param in term.effect.params:
-        if param.unit == "min" and param.name.startswith("tau") and record > 0:
-            value = term.params[param.name]
-            if value > record:
-                rows.append(
-                    Check(
-                        name=f"tau_longer_than_record:{term.id}.{param.name}",
-                        value=value,
-                        threshold=record,
-                        passed=False,
-                        advice="the time constant is longer than the longest test: only gain/tau is known",
-                    )
-                )
-    return rows
-
-
-def _second_lag(term: FittedTerm) -> list[Check]:
-    taus = [p.name for p in term.effect.params if p.name.startswith("tau")]
-    if len(taus) < 2 or term.effect.family == "ambient":
-        return []
-    values = sorted(term.params[n] for n in taus)
-    ratio = min(b / a for a, b in pairwise(values))
-    unsure = max((term.sd.get(n, 0.0) for n in taus), default=0.0)
-    passed = ratio > LAGS_APART and unsure < UNSURE
-    return [
-        Check(
-            name=f"lags_apart:{term.id}",
-            value=ratio,
-            threshold=LAGS_APART,
-            passed=passed,
-            advice="the lags are apart" if passed else "the data does not identify that many lags: take one fewer",
-        )
-    ]
-
-
-def _ripple(response: FittedResponse, term: FittedTerm, tests: Sequence[TestData]) -> list[Check]:
-    """What one step of a coarse sensor does to the prediction within a sample."""
-    rows = []
-    infos = {n: i for t in tests for n, i in t.channels.items()}
-    for role, text in term.binding.items():
-        sizes = [infos[n].resolution for n in names_of(text) if n in infos]
-        resolution = max((r for r in sizes if r), default=0.0)
-        test = next((t for t in tests if term.bound.covers(t) and term.bound.has(t)), None)
-        if resolution <= 0 or test is None:
-            continue
-        drivers = term.bound.drivers(test)
-        step = np.zeros(len(test.t_s))
-        step[len(step) // 2 :] = resolution
-        pulse = type(drivers)(
-            drivers.t_s,
-            {r: step if r == role else np.zeros_like(step) for r in drivers.values},
-            drivers.valid,
-            drivers.conditions,
-        )
-        jump = guarded_basis(term.effect, pulse, term.params) @ np.array(
-            [term.gains[g.name] for g in term.effect.gains]
-        )
-        ripple = float(np.max(np.abs(np.diff(jump)), initial=0.0))
-        rows.append(
-            Check(
-                name=f"quantisation_ripple:{term.id}",
-                value=ripple,
-                threshold=RIPPLE,
-                passed=ripple <= RIPPLE,
-                advice=f"one step of {text} ({resolution:g}) moves the prediction "
-                f"by {ripple:.2g} {response.unit} within a sample",
-            )
-        )
-    return rows

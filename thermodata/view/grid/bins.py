@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from thermodata.plugin import Float1D, Int1D
+from thermodata.plugin import Array, Float1D, Int1D
 from thermodata.schema.flag import INVALID, Flag
 from thermodata.store.base.connection import quoted
 from thermodata.store.views.catalogue import Column, Group, read_catalogue
@@ -56,17 +57,15 @@ def bin_tests(
 ) -> dict[Key, Binned]:
     """(campaign, test) -> Binned, of every test that has tidy files; histories before windows included. shifted:
     (campaign, test, channel) of sensors that are off by one number through the test: as they read."""
-    by_test: dict[Key, Binned] = {}
-    history = _histories(con)
     periods = {
         tuple(row[:4]): row[4]
         for row in con.execute("select campaign, test, source, stream, max(step_s) from source group by all").fetchall()
     }
+    binning = _Binning(con, step_s, wanted, _histories(con), periods, shifted)
     for group in read_catalogue(con).groups:
         if group.campaign in campaigns:
-            off = {(test, name) for campaign, test, name in shifted if campaign == group.campaign}
-            _bin_group(con, group, step_s, wanted, history, periods, by_test, off)
-    return by_test
+            binning.add(group)
+    return binning.binned
 
 
 def _histories(con: duckdb.DuckDBPyConnection) -> dict[tuple[str, ...], list[str]]:
@@ -79,69 +78,107 @@ def _histories(con: duckdb.DuckDBPyConnection) -> dict[tuple[str, ...], list[str
     return paths
 
 
-def _bin_group(
-    con: duckdb.DuckDBPyConnection,
-    group: Group,
-    step_s: float,
-    wanted: Callable[[str], bool],
-    history: dict[tuple[str, ...], list[str]],
-    periods: dict[tuple[str, ...], float | None],
-    binned: dict[Key, Binned],
-    shifted: Collection[tuple[str, str]],
-) -> None:
-    owners, files = [], []
-    for test, paths in group.paths.items():
-        for path in (*history.get((group.campaign, test, group.source, group.stream), ()), *paths):
-            owners.append(test)
-            files.append(path)
-    columns = [c for c in group.columns if not c.text and wanted(c.name)]
-    # file_index instead of filename: hashing a number a row instead of a text is twice as fast
-    values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)
-    off = {name for _, name in shifted}
-    values += "".join(f", {bin_value(c, _SHIFTED)} as {quoted(_as_read(c.name))}" for c in columns if c.name in off)
-    step, rows = repr(float(step_s)), f"read_parquet({file_list(files)}, hive_partitioning = false)"
-    sums = [held_sums(c, step) for c in columns if c.on_change]
-    sums += [held_sums(c, step, _SHIFTED, _as_read(c.name)) for c in columns if c.on_change and c.name in off]
-    if sums:
-        values += "".join(f", {s}" for s in sums) + ", min(r.t_s) as first__s"
-        rows = f"(select *, file_index, lead(t_s) over (partition by file_index order by t_s) as next__s from {rows})"
-    result = con.execute(
-        f"select r.file_index as file__index, {bin_index(step)} as bin__k, count(*) as rows__n, "
-        f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as zero__ns{values} "
-        f"from {rows} r group by 1, 2 order by 1, 2"
-    ).fetchnumpy()
-    numbers = {
-        name: floats(array)
-        if name not in ("file__index", "bin__k", "zero__ns")
-        else np.ma.getdata(array).astype(np.int64)
-        for name, array in result.items()
-    }
+@dataclass(frozen=True, slots=True)
+class _Binning:
+    """history: (campaign, test, source, stream) -> files before the test's window. periods: of the same -> from sample
+    to sample [s]. binned: what is made so far. wanted, shifted: as `bin_tests` has them."""
+
+    con: duckdb.DuckDBPyConnection
+    step_s: float
+    wanted: Callable[[str], bool]
+    history: Mapping[tuple[str, ...], list[str]]
+    periods: Mapping[tuple[str, ...], float | None]
+    shifted: Collection[tuple[str, str, str]]
+    binned: dict[Key, Binned] = field(default_factory=dict)
+
+    def add(self, group: Group) -> None:
+        """Every test of a group of files."""
+        owners, files = [], []
+        for test, paths in group.paths.items():
+            for path in (*self.history.get((group.campaign, test, group.source, group.stream), ()), *paths):
+                owners.append(test)
+                files.append(path)
+        columns = [c for c in group.columns if not c.text and self.wanted(c.name)]
+        off = {(test, name) for campaign, test, name in self.shifted if campaign == group.campaign}
+        numbers = self._asked(files, columns, {name for _, name in off})
+        for test, slices in _by_test(numbers["file__index"], owners).items():
+            own = {name for at, name in off if at == test}
+            self._collect(group, test, _Rows(numbers, slices, own), columns)
+
+    def _asked(self, files: Sequence[str], columns: Sequence[Column], off: Collection[str]) -> dict[str, Array]:
+        """Column -> shape (rows,), of all files in their order. off: names of sensors that are off in a test."""
+        # file_index instead of filename: hashing a number a row instead of a text is twice as fast
+        values = "".join(f", {bin_value(c)} as {quoted(c.name)}" for c in columns)
+        values += "".join(f", {bin_value(c, _SHIFTED)} as {quoted(_as_read(c.name))}" for c in columns if c.name in off)
+        step, rows = repr(float(self.step_s)), f"read_parquet({file_list(files)}, hive_partitioning = false)"
+        sums = [held_sums(c, step) for c in columns if c.on_change]
+        sums += [held_sums(c, step, _SHIFTED, _as_read(c.name)) for c in columns if c.on_change and c.name in off]
+        if sums:
+            values += "".join(f", {s}" for s in sums) + ", min(r.t_s) as first__s"
+            rows = (
+                f"(select *, file_index, lead(t_s) over (partition by file_index order by t_s) as next__s from {rows})"
+            )
+        result = self.con.execute(
+            f"select r.file_index as file__index, {bin_index(step)} as bin__k, count(*) as rows__n, "
+            f"min(epoch_ns(r.t) - cast(round(r.t_s * 1e9) as bigint)) as zero__ns{values} "
+            f"from {rows} r group by 1, 2 order by 1, 2"
+        ).fetchnumpy()
+        return {
+            name: floats(array)
+            if name not in ("file__index", "bin__k", "zero__ns")
+            else np.ma.getdata(array).astype(np.int64)
+            for name, array in result.items()
+        }
+
+    def _collect(self, group: Group, test: str, rows: _Rows, columns: Iterable[Column]) -> None:
+        k, many, zeros_ns = (rows.of(name) for name in ("bin__k", "rows__n", "zero__ns"))
+        zero_ns = int(zeros_ns.min())
+        binned = self.binned.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
+        binned.first, binned.last = min(binned.first, int(k.min())), max(binned.last, int(k.max()))
+        binned.zero_ns = min(binned.zero_ns, zero_ns)
+        period = self.periods.get((group.campaign, test, group.source, group.stream))
+        if not period:
+            period = float((k.max() - k.min() + 1) * self.step_s / many.sum())
+        for column in columns:
+            series = _series(column, k.astype(np.int64), partial(rows.told, column.name), self.step_s, period)
+            old = binned.series.get(column.name)
+            # a channel in two groups is another source's empty column in one of them
+            if old is None or series.k.size > old.k.size:
+                binned.series[column.name] = series
+
+
+def _by_test(index: Array, owners: Sequence[str]) -> dict[str, list[slice]]:
+    """Test -> the rows of its files. index: of the file of each row, increasing. owners: the test of each file."""
     by_test: dict[str, list[slice]] = {}
-    index = numbers["file__index"]
     for i, test in enumerate(owners):
         start, stop = np.searchsorted(index, [i, i + 1])
         if stop > start:
             by_test.setdefault(test, []).append(slice(int(start), int(stop)))
-    for test, slices in by_test.items():
-        _collect(
-            binned,
-            group,
-            test,
-            slices,
-            columns,
-            numbers,
-            step_s,
-            periods.get((group.campaign, test, group.source, group.stream)),
-            {name for at, name in shifted if at == test},
-        )
+    return by_test
+
+
+@dataclass(frozen=True, slots=True)
+class _Rows:
+    """Of the aggregate query the rows of one test. off: names of its sensors that are off, which are told as they
+    read."""
+
+    numbers: Mapping[str, Array]
+    slices: Sequence[slice]
+    off: Collection[str]
+
+    def of(self, name: str) -> Array:
+        """A column, shape (n,)."""
+        return np.concatenate([self.numbers[name][s] for s in self.slices])
+
+    def told(self, channel: str, name: str) -> Float1D:
+        """A column of a channel's, shape (n,)."""
+        ending = name.removeprefix(channel)
+        as_read = channel in self.off and ending in ("", "__sum", "__for")
+        return self.of(_as_read(channel) + ending if as_read else name).astype(float)
 
 
 def _as_read(name: str) -> str:
     return f"{name}__read"
-
-
-def _joined(numbers: dict[str, Float1D | Int1D], name: str, slices: Sequence[slice]) -> Float1D:
-    return np.concatenate([numbers[name][s] for s in slices]).astype(float)
 
 
 def _series(column: Column, k: Int1D, told: Callable[[str], Float1D], step_s: float, period: float) -> Series:
@@ -159,34 +196,3 @@ def _series(column: Column, k: Int1D, told: Callable[[str], Float1D], step_s: fl
     lasted = lasted + before
     mean = (total + np.nan_to_num(until_then) * before) / np.where(lasted > 0, lasted, np.nan)
     return Series(k, mean, period, stands)
-
-
-def _collect(
-    by_test: dict[Key, Binned],
-    group: Group,
-    test: str,
-    slices: Sequence[slice],
-    columns: Iterable[Column],
-    numbers: dict[str, Float1D | Int1D],
-    step_s: float,
-    period: float | None,
-    shifted: Collection[str],
-) -> None:
-    k, rows = (np.concatenate([numbers[name][s] for s in slices]) for name in ("bin__k", "rows__n"))
-    zero_ns = min(int(numbers["zero__ns"][s].min()) for s in slices)
-    binned = by_test.setdefault((group.campaign, test), Binned(int(k.min()), int(k.max()), zero_ns))
-    binned.first, binned.last = min(binned.first, int(k.min())), max(binned.last, int(k.max()))
-    binned.zero_ns = min(binned.zero_ns, zero_ns)
-    if not period:
-        period = float((k.max() - k.min() + 1) * step_s / rows.sum())
-    for column in columns:
-
-        def told(name: str, own: str = column.name) -> Float1D:
-            is_own = own in shifted and name.removeprefix(own) in ("", "__sum", "__for")
-            return _joined(numbers, _as_read(own) + name.removeprefix(own) if is_own else name, slices)
-
-        series = _series(column, k.astype(np.int64), told, step_s, period)
-        old = binned.series.get(column.name)
-        # a channel in two groups is another source's empty column in one of them
-        if old is None or series.k.size > old.k.size:
-            binned.series[column.name] = series

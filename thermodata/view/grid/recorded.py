@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     import duckdb
@@ -38,6 +38,24 @@ from raw join test t using (campaign, test) join source s using (campaign, test,
      left join tidy using (campaign, test, source, stream)"""
 
 
+class _Stream(NamedTuple):
+    """A row of these. keys, firsts, lasts: of its files, in one order; times as the files count them [ns]. to_s: where
+    its tidy samples end. cut: whether the test is a window of the recording."""
+
+    campaign: str
+    test: str
+    source: str
+    stream: str
+    keys: list[str]
+    firsts: list[Any]
+    lasts: list[Any]
+    to_s: float | None
+    cut: bool
+    clock: str
+    start_ns: int | None
+    step_s: float | None
+
+
 _CHANNELS = "select campaign, test, channel, source, stream, signal from channel where list_contains(?, campaign)"
 
 
@@ -46,12 +64,10 @@ def recorded_channels(
 ) -> dict[Key, dict[str, Recorded]]:
     """(campaign, test) -> channel -> where its samples stand. zero_ns: t_s == 0 on each test's time line."""
     streams: dict[tuple[str, ...], Recorded] = {}
-    for row in con.execute(_STREAMS, {"campaigns": list(campaigns)}).fetchall():
-        campaign, test, source, stream = row[:4]
-        if (campaign, test) in zero_ns:
-            made = _recorded(stream, zero_ns[campaign, test], *row[4:])
-            if made is not None:
-                streams[campaign, test, source, stream] = made
+    for row in map(_Stream._make, con.execute(_STREAMS, {"campaigns": list(campaigns)}).fetchall()):
+        zero = zero_ns.get((row.campaign, row.test))
+        if zero is not None and (made := _recorded(row, zero)) is not None:
+            streams[row[:4]] = made
     found: dict[Key, dict[str, Recorded]] = {}
     for campaign, test, channel, source, stream, signal in con.execute(_CHANNELS, [list(campaigns)]).fetchall():
         if (made := streams.get((campaign, test, source, stream))) is not None:
@@ -59,28 +75,19 @@ def recorded_channels(
     return found
 
 
-def _recorded(
-    stream: str,
-    zero_ns: int,
-    keys: list[str],
-    firsts: list[Any],
-    lasts: list[Any],
-    to_s: float | None,
-    cut: bool,
-    clock: str,
-    start_ns: int | None,
-    step_s: float | None,
-) -> Recorded | None:
-    if to_s is None or start_ns is None or None in (*firsts, *lasts):
+def _recorded(of: _Stream, zero_ns: int) -> Recorded | None:
+    keys, firsts, lasts = of.keys, of.firsts, of.lasts
+    if of.to_s is None or of.start_ns is None or None in (*firsts, *lasts):
         return None
-    zero = zero_ns - (start_ns - min(firsts))  # what the clock's correction added is taken off
-    if clock == "relative" and len(keys) > 1:
+    zero = zero_ns - (of.start_ns - min(firsts))  # what the clock's correction added is taken off
+    end = zero + round(of.to_s * 1e9)
+    if of.clock == "relative" and len(keys) > 1:
         # files that count from 0 are joined: where each begins stands in none of them
-        keys, firsts, lasts = ["+".join(keys)], [min(firsts)], [zero + round(to_s * 1e9)]
-    last = zero + round(to_s * 1e9) if cut else max(lasts)
+        keys, firsts, lasts = ["+".join(keys)], [min(firsts)], [end]
+    last = end if of.cut else max(lasts)
     parts = {
-        f"{key} {stream}": (max(low, zero), min(high, last))
+        f"{key} {of.stream}": (max(low, zero), min(high, last))
         for key, low, high in zip(keys, firsts, lasts, strict=True)
         if min(high, last) >= max(low, zero)
     }
-    return Recorded(zero, round((step_s or 0.0) * 1e9), parts)
+    return Recorded(zero, round((of.step_s or 0.0) * 1e9), parts)
