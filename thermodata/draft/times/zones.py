@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import named_zone, zone_in
-from thermodata.errors import ThermodataError
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.reader.times.step_back import likely_cause
-from thermodata.reader.times.zone import zone as zone_called
 
 _HOUR_NS = 3_600_000_000_000
-_DECLARED = re.compile(r"""^[^#\n]*\btimezone:\s*["']?([\w/+-]+)""", re.MULTILINE)
 _ZONES = (
     "UTC",
     "Europe/Prague",
@@ -76,17 +71,6 @@ def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> s
     return zone if all(_offset(zone, begin) == h for h, begin in _ahead(group, groups) or ()) else None
 
 
-def zone_declared_before(path: Path) -> str | None:
-    """The one zone that a campaign file declares, which need not be finished; None where it declares none, or
-    several."""
-    try:
-        text = path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return None
-    declared = {zone for zone in _DECLARED.findall(text) if _is_zone(zone)}
-    return declared.pop() if len(declared) == 1 else None
-
-
 def _shown(hours: set[int]) -> str:
     return "/".join(f"{h:+d} h" for h in sorted(hours))
 
@@ -121,11 +105,3 @@ def begin_of(files: Sequence[RawFile]) -> int | None:
 def _offset(name: str, at_ns: int) -> int | None:
     shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
     return None if shift is None else round(shift.total_seconds() / 3600)
-
-
-def _is_zone(name: str) -> bool:
-    try:
-        zone_called(name)
-    except ThermodataError:
-        return False
-    return True
