@@ -47,8 +47,8 @@ class Drafted:
 
 def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
     """force: a campaign file that is there becomes campaign.1.yaml, and the encoding and the zones that it declares
-    are kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is drafted
-    too, with what would help. progress: is told (done, of, path)."""
+    are kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is
+    drafted too, with what would help. progress: is told (done, of, path)."""
     out = folder / "campaign.yaml"
     if out.exists() and not force:
         raise UsageError(

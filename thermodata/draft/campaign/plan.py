@@ -160,9 +160,7 @@ def _sources(
             g.source,
             g.reader,
             g.template,
-            tuple(
-                filter(None, _questions(g, groups, aligned, table, found, before, known=zones[g.source] is not None))
-            ),
+            tuple(filter(None, _questions(g, groups, aligned, table, found, None if zones[g.source] else before))),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -247,13 +245,11 @@ def _questions(
     aligned: Mapping[str, Alignment],
     table: TestTable | None,
     found: Scan,
-    before: ZonesBefore,
-    *,
-    known: bool,
+    before: ZonesBefore | None,
 ) -> Iterator[str | None]:
-    """What is asked of a source. known: whether its zone is."""
+    """What is asked of a source. before: the zones that were declared; None where its own is known."""
     yield from (hinted(a, group, groups) for a in group.asks)
-    if not known and (asked := zone_question(group, groups)):
+    if before is not None and (asked := zone_question(group, groups)):
         yield asked + before.said()
     yield from _of_clocks(group, groups, aligned)
     yield from group.questions
