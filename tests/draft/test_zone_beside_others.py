@@ -90,6 +90,41 @@ def test_local_times_are_aligned_to_what_has_utc_whichever_has_the_probes(
     assert aligned == ("a_probe.csv" if local else "a_ctrl.csv").replace("a_", "{test}_")
 
 
+WINTER, SUMMER = datetime(2026, 1, 20, 5, tzinfo=UTC), datetime(2026, 6, 20, 5, tzinfo=UTC)
+
+
+def over_a_year(folder: Path, hours: tuple[int, ...], words: tuple[str, ...], beside: bool = True) -> str:
+    """The question of a control's zone whose logs of winter and summer are so many hours ahead."""
+    for k, (ahead, word) in enumerate(zip(hours, words, strict=True), 1):
+        rows = [(WINTER if k < 3 else SUMMER) + timedelta(days=k, minutes=i) for i in range(200)]
+        local = (f"{t + timedelta(hours=ahead):%d.%m.%Y %H:%M:%S};{20 + i / 50:.2f}" for i, t in enumerate(rows))
+        (folder / f"X{k}_ctrl.csv").write_text("\n".join([f"{word};T_Spindel [°C]", *local, ""]))
+        utc = (f"{t:%Y-%m-%dT%H:%M:%SZ},{i / 10:.2f}" for i, t in enumerate(rows))
+        if beside:
+            (folder / f"X{k}_probe.txt").write_text("\n".join(["time_utc,disp_z_um", *utc, ""]))
+    draft = draft_files(folder).draft
+    return next(q for s in draft.sources for q in s.questions if q.startswith("timezone?"))
+
+
+def test_logs_whose_zone_changed_are_named_with_the_day_from_which_on(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 2, 2), ("Zeit",) * 4)
+    assert "local times, +1 h/+2 h from the other sources' UTC" in said
+    assert "(+1 h in X1_ctrl.csv, X2_ctrl.csv; +2 h from 2026-06-23 on in X3_ctrl.csv, X4_ctrl.csv)" in said
+    assert "so are Europe/Prague, Europe/Berlin and others" in said
+
+
+def test_logs_of_one_offset_are_not_told_apart(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 1, 1), ("Zeit",) * 4)
+    assert "local times, +1 h from the other sources' UTC" in said
+    assert "X1_ctrl" not in said
+
+
+def test_heads_that_name_another_zone_later_are_told_with_their_file(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 2, 2), ("Zeit (MEZ)", "Zeit (MEZ)", "Zeit (MESZ)", "Zeit (MESZ)"), beside=False)
+    assert "'Zeit (MEZ)'" in said
+    assert "; 'Zeit (MESZ)' in X3_ctrl.csv from 2026-06-23 on" in said
+
+
 def of_two_clocks(folder: Path) -> None:
     """Logs of two computers, each in local times that nothing else tells."""
     for k in (1, 2):
