@@ -62,6 +62,31 @@ def test_an_in_behind_a_position_may_say_an_input_and_is_asked(header: str, high
 
 
 @pytest.mark.parametrize(
+    ("header", "low", "high"),
+    [
+        ("dX_in", 0.0, 0.03),
+        ("dX_in", -0.02, 0.0),
+        ("dX in", 0.0, 0.11),
+        ("/probes.dX_in", 0.0, 0.05),
+        ("Displacement_Z_in", 0.1, 0.12),
+    ],
+)
+def test_an_in_behind_a_displacement_is_asked_but_of_what_no_other_unit_fits(
+    header: str, low: float, high: float
+) -> None:
+    said = _said(header, low, high)
+    assert (said.quantity, said.unit, said.sure) == ("displacement", "in", False)
+    assert any(q.startswith("unit: inch, or is 'in' an input, or inside? then um, mm or V") for q in said.questions)
+
+
+@pytest.mark.parametrize("header", ["dX [in]", "Displacement Z (in)", "dX_inch", "dX_in [in]"])
+def test_an_inch_that_is_written_is_not_asked(header: str) -> None:
+    said = _said(header, 0.0, 0.03)
+    assert said.unit in ("in", "inch")
+    assert not any("input" in q for q in said.questions)
+
+
+@pytest.mark.parametrize(
     "header",
     [
         "X Position (counts/rev)",

@@ -6,6 +6,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
+import yaml
 
 from thermodata.draft.make import draft_files
 
@@ -87,3 +88,109 @@ def test_local_times_are_aligned_to_what_has_utc_whichever_has_the_probes(
     (tmp_path / "a_ctrl.csv").write_text("\n".join(["time,n [rpm],T_front [degC]", *other, ""]))
     (aligned,) = [str(s.files) for s in draft_files(tmp_path).draft.sources if s.align]
     assert aligned == ("a_probe.csv" if local else "a_ctrl.csv").replace("a_", "{test}_")
+
+
+WINTER, SUMMER = datetime(2026, 1, 20, 5, tzinfo=UTC), datetime(2026, 6, 20, 5, tzinfo=UTC)
+
+
+def over_a_year(folder: Path, hours: tuple[int, ...], words: tuple[str, ...], beside: bool = True) -> str:
+    """The question of a control's zone whose logs of winter and summer are so many hours ahead."""
+    for k, (ahead, word) in enumerate(zip(hours, words, strict=True), 1):
+        rows = [(WINTER if k < 3 else SUMMER) + timedelta(days=k, minutes=i) for i in range(200)]
+        local = (f"{t + timedelta(hours=ahead):%d.%m.%Y %H:%M:%S};{20 + i / 50:.2f}" for i, t in enumerate(rows))
+        (folder / f"X{k}_ctrl.csv").write_text("\n".join([f"{word};T_Spindel [°C]", *local, ""]))
+        utc = (f"{t:%Y-%m-%dT%H:%M:%SZ},{i / 10:.2f}" for i, t in enumerate(rows))
+        if beside:
+            (folder / f"X{k}_probe.txt").write_text("\n".join(["time_utc,disp_z_um", *utc, ""]))
+    draft = draft_files(folder).draft
+    return next(q for s in draft.sources for q in s.questions if q.startswith("timezone?"))
+
+
+def test_logs_whose_zone_changed_are_named_with_the_day_from_which_on(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 2, 2), ("Zeit",) * 4)
+    assert "local times, +1 h/+2 h from the other sources' UTC" in said
+    assert "(+1 h in X1_ctrl.csv, X2_ctrl.csv; +2 h from 2026-06-23 on in X3_ctrl.csv, X4_ctrl.csv)" in said
+    assert "so are Europe/Prague, Europe/Berlin and others" in said
+
+
+def test_logs_of_one_offset_are_not_told_apart(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 1, 1), ("Zeit",) * 4)
+    assert "local times, +1 h from the other sources' UTC" in said
+    assert "X1_ctrl" not in said
+
+
+def test_heads_that_name_another_zone_later_are_told_with_their_file(tmp_path: Path) -> None:
+    said = over_a_year(tmp_path, (1, 1, 2, 2), ("Zeit (MEZ)", "Zeit (MEZ)", "Zeit (MESZ)", "Zeit (MESZ)"), beside=False)
+    assert "'Zeit (MEZ)'" in said
+    assert "; 'Zeit (MESZ)' in X3_ctrl.csv from 2026-06-23 on" in said
+
+
+def of_two_clocks(folder: Path) -> None:
+    """Logs of two computers, each in local times that nothing else tells."""
+    for k in (1, 2):
+        rows = [BEGAN + timedelta(days=k, seconds=20 * i) for i in range(90)]
+        own = (f"{t:%Y-%m-%d %H:%M:%S},{20 + i / 90:.3f},{i}" for i, t in enumerate(rows))
+        far = (f"{t - timedelta(hours=6):%Y-%m-%d %H:%M:%S};{i / 7:.3f}" for i, t in enumerate(rows))
+        (folder / f"run{k}_ctrl.csv").write_text("\n".join(["time,T_front [degC],n [rpm]", *own, ""]))
+        (folder / f"run{k}_probe.txt").write_text("\n".join(["time;disp_z [um]", *far, ""]))
+
+
+def declare(path: Path, zones: dict[str, str]) -> None:
+    """Writes zones into the sources whose files hold a word."""
+    lines = []
+    for line in path.read_text().splitlines():
+        word = next((w for w in zones if w in line and "reader:" in line), None)
+        lines.append(line if word is None else line.replace("{reader:", f"{{timezone: {zones[word]}, reader:"))
+    path.write_text("\n".join(lines) + "\n")
+
+
+@pytest.mark.parametrize("torn", [False, True])
+def test_a_draft_made_anew_keeps_each_zone_that_was_declared(tmp_path: Path, torn: bool) -> None:
+    of_two_clocks(tmp_path)
+    draft_files(tmp_path)
+    path = tmp_path / "campaign.yaml"
+    declare(path, {"ctrl": "Europe/Prague", "probe": "America/Chicago"})
+    if torn:
+        path.write_text(path.read_text() + "  - {id: \n")
+    draft = draft_files(tmp_path, force=True).draft
+    assert {str(s.files): s.timezone for s in draft.sources} == {
+        "{test}_ctrl.csv": "Europe/Prague",
+        "{test}_probe.txt": "America/Chicago",
+    }
+    assert not any(q.startswith("timezone?") for s in draft.sources for q in s.questions)
+
+
+def test_a_zone_goes_with_the_files_whatever_their_source_is_called(tmp_path: Path) -> None:
+    of_two_clocks(tmp_path)
+    draft_files(tmp_path)
+    path = tmp_path / "campaign.yaml"
+    declare(path, {"ctrl": "Europe/Prague", "probe": "America/Chicago"})
+    names = [str(s["name"]) for s in _sources(path)]
+    text = path.read_text()
+    for name, other in zip(names, ("mine", "yours"), strict=True):
+        text = text.replace(f"  {name}: {{timezone", f"  {other}: {{timezone").replace(
+            f"source: {name},", f"source: {other},"
+        )
+    path.write_text(text)
+    draft = draft_files(tmp_path, force=True).draft
+    assert {s.timezone for s in draft.sources} == {"Europe/Prague", "America/Chicago"}
+    assert {str(s.files): s.timezone for s in draft.sources}["{test}_ctrl.csv"] == "Europe/Prague"
+
+
+def test_a_source_whose_zone_was_never_declared_is_asked_with_those_of_the_others(tmp_path: Path) -> None:
+    of_two_clocks(tmp_path)
+    rows = [BEGAN + timedelta(days=1, seconds=60 * i) for i in range(90)]
+    own = (f"{t:%d.%m.%Y %H:%M:%S}\t{18 + i / 90:.3f}" for i, t in enumerate(rows))
+    draft_files(tmp_path)
+    path = tmp_path / "campaign.yaml"
+    declare(path, {"ctrl": "Europe/Prague", "probe": "America/Chicago"})
+    (tmp_path / "run1_hall.dat").write_text("\n".join(["time\tT_hall [degC]", *own, ""]))
+    draft = draft_files(tmp_path, force=True).draft
+    (asked_of,) = [q for s in draft.sources for q in s.questions if q.startswith("timezone?")]
+    assert "; the campaign file before declares " in asked_of
+    assert "Europe/Prague of " in asked_of
+    assert "America/Chicago of " in asked_of
+
+
+def _sources(path: Path) -> list[dict[str, object]]:
+    return [{"name": n, **s} for n, s in yaml.safe_load(path.read_text())["sources"].items()]

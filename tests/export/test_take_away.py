@@ -226,6 +226,8 @@ def test_a_name_of_another_format_is_refused_with_one_of_this(view: StoreView, t
         ("warm.xlsx", "logged"),
         ("warm.mat", "30 s"),
         ("warm.mat", "logged"),
+        ("warm.mf4", "30 s"),
+        ("warm.mf4", "logged"),
     ],
 )
 def test_an_own_file_comes_back_without_questions_of_zone_and_sign(tmp_path: Path, file: str, step: str) -> None:

@@ -11,7 +11,7 @@ from thermodata.draft.campaign.parts import Draft
 from thermodata.draft.campaign.plan import plan
 from thermodata.draft.files.letters_of_files import encoding_declared_before
 from thermodata.draft.folder.scan import Progress, scan
-from thermodata.draft.times.zones import zone_declared_before
+from thermodata.draft.times.zones_before import zones_before
 from thermodata.draft.words.naming import plain
 from thermodata.draft.writing.baseline import model_text, model_text_of, responses_of
 from thermodata.draft.writing.missing import asked_of_a_displacement, asked_of_drivers, missing_for_a_model
@@ -46,9 +46,9 @@ class Drafted:
 
 
 def draft_files(folder: Path, *, force: bool = False, progress: Progress | None = None) -> Drafted:
-    """force: a campaign file that is there becomes campaign.1.yaml, and the encoding and the zone that it declares are
-    kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is drafted
-    too, with what would help. progress: is told (done, of, path)."""
+    """force: a campaign file that is there becomes campaign.1.yaml, and the encoding and the zones that it declares
+    are kept; without it that is a UsageError, as is a folder without files. One of files that no reader claims is
+    drafted too, with what would help. progress: is told (done, of, path)."""
     out = folder / "campaign.yaml"
     if out.exists() and not force:
         raise UsageError(
@@ -67,7 +67,7 @@ def draft_files(folder: Path, *, force: bool = False, progress: Progress | None 
             got="nothing",
             hint="thermodata plugins lists what the installed readers read",
         )
-    draft = plan(id_of(folder), folder, found, zone_declared_before(out))
+    draft = plan(id_of(folder), folder, found, zones_before(out))
     text, model = text_of(draft), model_text(draft)
     kept = [keep(out)]
     write_new(out, text)

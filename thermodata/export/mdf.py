@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.errors import UsageError
 from thermodata.export.content import Content, Stream
 from thermodata.export.mat import flag_bits
+from thermodata.schema.agreed.exported import SIGN
 from thermodata.schema.flag import INVALID
 
 INSTALL = "pip install 'thermodata-reader-table[mdf]'"
@@ -48,7 +49,9 @@ def _comment(content: Content) -> str:
 def _signals(make: Callable[..., Any], content: Content, stream: Stream) -> list[Any]:
     found: list[Any] = []
     for name, values in stream.values.items():
-        about = ", ".join(f"{k}: {v}" for k, v in content.channels.get(name, {}).items())
+        known = content.channels.get(name, {})
+        own = {SIGN: known["sign"]} if "sign" in known else {}  # first, where a reader finds it and no note can say it
+        about = ", ".join(f"{k}: {v}" for k, v in {**own, **known}.items())
         if values.dtype == object:
             texts = np.array([str(v).encode() for v in values] or [b""])
             found.append(make(texts, stream.t_s, name=name, comment=about, encoding="utf-8"))

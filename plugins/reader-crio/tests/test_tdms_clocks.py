@@ -155,3 +155,61 @@ def test_weeks_beside_waveforms_are_signals(tmp_path: Path) -> None:
     weeks = {"gps_week": np.floor(COUNTS / 604_800), "tow": COUNTS % 604_800}
     path = written(tmp_path / "a.tdms", {**weeks, "T": np.arange(40.0)}, **start)
     assert len(described(Reader(), path, Source()).signals) == 3
+
+
+@pytest.mark.parametrize(
+    ("day", "time", "names"),
+    [
+        ("%d.%m.%Y", "%H:%M:%S", ("Date", "Time")),
+        ("%Y-%m-%d", "%H:%M:%S.000", ("Datum", "Uhrzeit")),
+        ("%Y/%m/%d", "%H:%M", ("Tag", "Zeit")),
+    ],
+)
+def test_dates_and_times_of_day_in_two_channels_are_the_time(
+    tmp_path: Path, day: str, time: str, names: tuple[str, str]
+) -> None:
+    texts = {names[0]: stamps(day), names[1]: stamps(time)}
+    path = written(tmp_path / "a.tdms", {**texts, "T": np.arange(30.0)})
+    source = Source(timezone="Europe/Berlin", options={"block_rows": 7})
+    assert times(path, source) == [T0 + k * 60 * 10**9 for k in range(30)]
+    recording = described(Reader(), path, source)
+    assert recording.clock == "absolute"
+    assert [s.name for s in recording.signals] == ["Log/T"]
+    assert any("no time zone" in n for n in described(Reader(), path, Source()).notes)
+    declared = Source(timezone="Europe/Berlin", table={"time": {"column": list(names)}})
+    assert times(path, declared) == times(path, source)
+
+
+def test_dates_whose_day_and_month_are_open_are_asked_beside_times_too(tmp_path: Path) -> None:
+    texts = {"Date": ["03/04/2026"] * 30, "Time": stamps("%H:%M:%S")}
+    path = written(tmp_path / "a.tdms", {**texts, "T": np.arange(30.0)})
+    with pytest.raises(QuestionError) as asked:
+        times(path, Source())
+    assert "dmy or mdy?" in asked.value.ask
+    april = times(path, Source(table={"time": {"format": "dmy"}}))
+    assert april[0] == np.datetime64("2026-04-03T08:00:00", "ns").astype(np.int64)
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        {"Calibrated": ["2025-11-02"] * 30, "Shift begins": stamps("%H:%M:%S")},  # no name says time
+        {"Date": stamps("%Y-%m-%d"), "Operator": ["Novak"] * 30},
+        {"Date": ["a"] * 30, "Time": stamps("%H:%M:%S")},
+    ],
+)
+def test_other_pairs_of_texts_are_no_time(tmp_path: Path, texts: dict[str, list[str]]) -> None:
+    path = written(tmp_path / "a.tdms", {**texts, "T": np.arange(30.0)})
+    assert {"Log/T", *(f"Log/{n}" for n in texts if n not in ("Date", "Time"))} <= {
+        s.name for s in described(Reader(), path, Source()).signals
+    }
+    assert len(times(path, Source())) == 30
+
+
+def test_a_date_and_a_time_beside_a_whole_timestamp_or_a_waveform_are_signals(tmp_path: Path) -> None:
+    texts = {"Date": stamps("%Y-%m-%d"), "Time": stamps("%H:%M:%S")}
+    both = written(tmp_path / "a.tdms", {"Timestamp": stamps("%Y-%m-%d %H:%M:%S"), **texts, "T": np.arange(30.0)})
+    assert {s.name for s in described(Reader(), both, Source()).signals} >= {"Log/Time", "Log/T"}
+    start = {"wf_start_time": np.datetime64("2026-03-12T07:00:00"), "wf_increment": 1.0}
+    path = written(tmp_path / "b.tdms", {**texts, "T": np.arange(30.0)}, **start)
+    assert T0 in times(path, Source())

@@ -46,11 +46,14 @@ from thermodata.draft.times.date_order import with_orders_told
 from thermodata.draft.times.hints import hinted
 from thermodata.draft.times.named_days import over_midnight
 from thermodata.draft.times.zones import zone_as_before, zone_question
+from thermodata.draft.times.zones_before import ZonesBefore
 from thermodata.schema.words.sentences import counted
 
+NO_ZONES = ZonesBefore()
 
-def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> Draft:
-    """What the folder holds, as a campaign. zone: of local times, as the campaign file before declared it."""
+
+def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONES) -> Draft:
+    """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     found, legends = with_legends(folder, found)
@@ -64,7 +67,7 @@ def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> D
     table = find_table(folder, found.others, ids)
     of_groups = _channels(groups, of_probes)
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
-    sources = asked_once(_sources(groups, keyed, table, found, zone), groups)
+    sources = asked_once(_sources(groups, keyed, table, found, before), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
     named = {id(f): keyed[g.source] for g in groups for f in g.files}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
@@ -144,10 +147,10 @@ def _channels(groups: Sequence[Group], of_probes: Mapping[str, Sequence[JumpTest
 
 
 def _sources(
-    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan, zone: str | None
+    groups: Sequence[Group], keyed: Mapping[str, Named], table: TestTable | None, found: Scan, before: ZonesBefore
 ) -> tuple[DraftSource, ...]:
     aligned = {a.source: a for a in alignments(groups, keyed)}
-    zones = {g.source: zone_as_before(g, groups, zone) for g in groups}
+    zones = {g.source: zone_as_before(g, groups, before.of(g)) for g in groups}
 
     def told(group: Group) -> tuple[str, ...]:
         return (*group.told, *(["timezone as in the campaign file before"] if zones[group.source] else []))
@@ -157,7 +160,7 @@ def _sources(
             g.source,
             g.reader,
             g.template,
-            tuple(filter(None, _questions(g, groups, aligned, table, found, known=zones[g.source] is not None))),
+            tuple(filter(None, _questions(g, groups, aligned, table, found, None if zones[g.source] else before))),
             g.table,
             aligned.get(g.source),
             common(f.letters for f in (*g.files, *g.calibrations)),
@@ -242,12 +245,12 @@ def _questions(
     aligned: Mapping[str, Alignment],
     table: TestTable | None,
     found: Scan,
-    *,
-    known: bool,
+    before: ZonesBefore | None,
 ) -> Iterator[str | None]:
-    """What is asked of a source. known: whether its zone is."""
+    """What is asked of a source. before: the zones that were declared; None where its own is known."""
     yield from (hinted(a, group, groups) for a in group.asks)
-    yield from [] if known else [zone_question(group, groups)]
+    if before is not None and (asked := zone_question(group, groups)):
+        yield asked + before.said()
     yield from _of_clocks(group, groups, aligned)
     yield from group.questions
     yield from one_or_many(group, groups, table.rows if table else ())

@@ -146,7 +146,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
     found = _small(placed(_unit(found, text, unit, written, values), own, text), own, values)
-    inch = next(filter(None, (inch_asked(e, found.quantity) for e in (_last(name), *ends))), None)
+    inch = next(filter(None, (inch_asked(e, found.quantity, values) for e in (_last(name), *ends))), None)
     if inch and found.unit == written == "in":
         found = replace(found, sure=False, questions=(*found.questions, inch))
     if not known and (end := next(filter(None, (strange(e, found.quantity) for e in ends)), None)):

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from thermodata.draft.signals import units
+from thermodata.draft.signals.quantity import range_text
 from thermodata.draft.signals.values import Values
 from thermodata.schema.units.quantity import is_unit
 
@@ -25,6 +26,7 @@ _INPUT_AT_END = re.compile(r"(?<=[^_.,\s])(?:_|\s+)in$")
 _COLDEST_K = 250.0
 _SHARE_AT_END = re.compile(r"(?<=[^_.\s])[_.\s](pu|p\.u\.|frac|fract|fraction|ratio)$", re.IGNORECASE)
 _MOST_KW = 500.0  # of a phase W, in kW; a machine's power in W goes beyond
+_SMALL_IN = 0.004  # a tenth of a millimetre; a few micrometres if it were in mm
 _FURTHEST_M = 0.05  # no tool is displaced by more
 _SEPARATED = re.compile(
     r"[_.\s](?:(?P<above>[^\W\d_]+3?)_(?P<below>s|min|h|m|m2)|(?P<a_second>[^\W\d_]{1,3})ps|(?P<whole>[^\W\d_]{2,}))$"
@@ -54,14 +56,21 @@ def beside(name: str, quantity: str | None, values: Values | None) -> str | None
     return unit
 
 
-def inch_asked(name: str, quantity: str | None) -> str | None:
+def inch_asked(name: str, quantity: str | None, values: Values | None) -> str | None:
     """What to ask of an 'in' that may be the inch of an axis, or say where something comes in: 'X(IN)', a coolant's
-    inlet; 'axis_position_in', an input of a PLC. None of another."""
+    inlet; 'axis_position_in', an input of a PLC; 'dX_in', a probe's. None of another."""
     if units.may_be_an_inlet(name):
         return "unit: inch, or is (IN) an inlet? then quantity: temperature or flow, with its own unit"
     if quantity == "position" and _INPUT_AT_END.search(name.strip()):
         return "unit: inch, or is 'in' an input? then its own unit"
+    if quantity == "displacement" and _INPUT_AT_END.search(name.strip()) and not _is_inch(values):
+        return f"unit: inch, or is 'in' an input, or inside? then um, mm or V ({range_text(values)})"
     return None
+
+
+def _is_inch(values: Values | None) -> bool:
+    """Whether values are a displacement in inches, and too small to be one in mm or V."""
+    return values is not None and max(-values.low, values.high) <= _SMALL_IN
 
 
 def strange(name: str, quantity: str | None) -> str | None:

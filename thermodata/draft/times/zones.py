@@ -5,21 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from pathlib import Path
 from zoneinfo import ZoneInfo
 
-from thermodata.draft.files.declared_before import declared_before
 from thermodata.draft.files.raw_file import RawFile
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.times.in_repeated_hour import which_pass
 from thermodata.draft.times.zone_of_names import named_zone, zone_in
-from thermodata.errors import ThermodataError
 from thermodata.reader.text.tables.zone_named import OPEN, SAYS
 from thermodata.reader.times.step_back import likely_cause
-from thermodata.reader.times.zone import zone as zone_called
+from thermodata.schema.words.sentences import with_count
 
 _HOUR_NS = 3_600_000_000_000
-_DECLARED = re.compile(r"""^[^#\n]*\btimezone:\s*["']?([\w/+-]+)""", re.MULTILINE)
+_FILES, _RUNS = 3, 3  # that a question names
+_WORD = re.compile(rf"{SAYS} '([^']*)'")
 _ZONES = (
     "UTC",
     "Europe/Prague",
@@ -42,20 +40,63 @@ def zone_question(group: Group, groups: Sequence[Group]) -> str | None:
     if not any(f.local for f in group.files):
         return None
     head = next((n for f in group.files for n in f.recording.notes if OPEN in n or n.startswith(SAYS)), None)
-    said, likely = "" if head is None else f"; {head}", named_zone(head, [f.path for f in group.files])
+    said = "" if head is None else f"; {head}{_said_elsewhere(group)}"
+    likely = named_zone(head, [f.path for f in group.files])
     whole = _ahead(group, groups)
     if whole is None:
         asked = "timezone? it logs local times without a zone; taken as UTC. " + likely + said
         return asked + which_pass(group, groups, likely)
     asked = f"timezone? local times, {_shown({h for h, _ in whole})} from the other sources' UTC"
-    return f"{asked}{_zones_of(whole, likely, group)}{said}"
+    return f"{asked}{_changes(group, groups)}{_zones_of(whole, likely, group)}{said}"
+
+
+def _changes(group: Group, groups: Sequence[Group]) -> str:
+    """From which log on local times are another number of hours ahead than in those before; '' where all are alike."""
+    runs: list[tuple[int, list[tuple[int, str]]]] = []
+    for hours, begin, name in sorted(_each_ahead(group, groups) or (), key=lambda each: each[1]):
+        if not runs or runs[-1][0] != hours:
+            runs.append((hours, []))
+        runs[-1][1].append((begin, name))
+    if len(runs) < 2:
+        return ""
+    first, *others = (
+        f"{hours:+d} h {'' if k == 0 else f'from {_day(logs[0][0])} on '}in {with_count([n for _, n in logs], _FILES)}"
+        for k, (hours, logs) in enumerate(runs)
+    )
+    return f" ({'; '.join((first, *others[:_RUNS]))}{'; ...' if len(others) > _RUNS else ''})"
+
+
+def _day(at_ns: int) -> str:
+    return f"{datetime.fromtimestamp(at_ns / 1e9, UTC):%Y-%m-%d}"
+
+
+def _said_elsewhere(group: Group) -> str:
+    """What the heads of later logs say of their zone, where that is another one than the first says."""
+    words: dict[str, RawFile] = {}
+    for file in sorted(group.files, key=lambda f: f.start_ns or 0):
+        for note in file.recording.notes:
+            if (word := _WORD.search(note)) is not None and (OPEN in note or note.startswith(SAYS)):
+                words.setdefault(word[1], file)
+    if len(words) < 2:
+        return ""
+    others = (
+        f"'{word}' in {file.path.name}{f' from {_day(file.start_ns)} on' if file.start_ns is not None else ''}"
+        for word, file in list(words.items())[1:]
+    )
+    return f"; {with_count(others, _FILES)}"
 
 
 def _ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int]] | None:
     """(by how many hours its local times are ahead of the UTC of another source, when [ns]) of each test; None where no
     other tells it, or not of most tests."""
+    each = _each_ahead(group, groups)
+    return None if each is None else [(hours, begin) for hours, begin, _ in each]
+
+
+def _each_ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int, str]] | None:
+    """The same with the name of each test's first log."""
     pairs = [
-        (f.start_ns, begin)
+        (f.start_ns, begin, f.path.name)
         for g in groups
         if g is not group and not any(f.local for f in g.files)
         for test, files in group.tests.items()
@@ -63,8 +104,8 @@ def _ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int]] | Non
         for f in files[:1]
         if f.start_ns is not None and (begin := begin_of(g.tests[test])) is not None
     ]
-    whole = [(round(h), b) for a, b in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
-    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _ in whole) > 14:
+    whole = [(round(h), b, name) for a, b, name in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]
+    if not pairs or len(whole) < 0.6 * len(pairs) or max(abs(h) for h, _, _ in whole) > 14:
         return None
     return whole
 
@@ -75,11 +116,6 @@ def zone_as_before(group: Group, groups: Sequence[Group], zone: str | None) -> s
     if zone is None or not any(f.local for f in group.files):
         return None
     return zone if all(_offset(zone, begin) == h for h, begin in _ahead(group, groups) or ()) else None
-
-
-def zone_declared_before(path: Path) -> str | None:
-    """The one zone that a campaign file declares."""
-    return declared_before(path, _DECLARED, _is_zone)
 
 
 def _shown(hours: set[int]) -> str:
@@ -116,11 +152,3 @@ def begin_of(files: Sequence[RawFile]) -> int | None:
 def _offset(name: str, at_ns: int) -> int | None:
     shift = datetime.fromtimestamp(at_ns / 1e9, UTC).astimezone(ZoneInfo(name)).utcoffset()
     return None if shift is None else round(shift.total_seconds() / 3600)
-
-
-def _is_zone(name: str) -> bool:
-    try:
-        zone_called(name)
-    except ThermodataError:
-        return False
-    return True

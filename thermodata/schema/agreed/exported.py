@@ -3,6 +3,7 @@ file says of its channels."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 
 TIME_UTC = "time_utc"  # times in UTC, which a table has to say
@@ -10,6 +11,7 @@ OF_TEST = ("campaign", "test", "t_s")  # beside the times: of no channel
 PLAIN = " [1]"  # after the name of what has no unit
 _ABOUT = {"quantity", "unit", "sign"}  # of a channel, in the table of a workbook
 SIGN = "thermodata.sign"  # what the metadata of a Parquet column say of its sign, as the table `channel` does
+_COMMENT = re.compile(rf"{re.escape(SIGN)}: (\+|-|unknown)(?:,|$)")  # begins what an MDF channel says of itself
 UNSIGNED = " (sign unknown)"  # after the name of a displacement that nothing turned to the machine's axes
 
 
@@ -32,6 +34,8 @@ def sign_key(name: str) -> str:
 def own_sign(name: str, properties: Mapping[str, object]) -> str | None:
     """The sign that an export says of a channel: + or - where it goes along the machine's axis in the file, unknown
     where nobody knew; None where it says none."""
+    if commented := _COMMENT.match(str(properties.get("comment", ""))):
+        return commented[1]
     key = sign_key(name)
     found = (str(v) for k, v in properties.items() if k in (key, SIGN) or k.endswith(f"/{key}"))
     return next(found, None)

@@ -11,6 +11,7 @@ import numpy as np
 from thermodata.plugin import Array, Bool1D, Int1D, Source
 from thermodata_reader_crio.tdms.channel_clock import counted_clock
 from thermodata_reader_crio.tdms.channels import Channel
+from thermodata_reader_crio.tdms.date_and_time import date_and_time
 from thermodata_reader_crio.tdms.segment_index import Index
 from thermodata_reader_crio.tdms.time_channel import TimeChannel, time_channel, time_channels
 from thermodata_reader_crio.tdms.waveform_clock import Clock, runs_over
@@ -70,12 +71,12 @@ def streams_of(
     that hold a time."""
     filled = [c for c in members if c.planned or c.length]
     notes.extend(f"{c.signal.name} holds no values" for c in members if not (c.planned or c.length))
-    weeks = weeks_of_gps(filled, source, file)
-    clocks = time_channels(filled, source, file) if weeks is None else [weeks.week]
-    apart = {*map(id, clocks), *(() if weeks is None else [id(weeks.in_week)])}
+    pair = weeks_of_gps(filled, source, file) or date_and_time(filled, source, file)
+    clocks = time_channels(filled, source, file) if pair is None else [pair.members[0]]
+    apart = {*map(id, clocks), *(() if pair is None else map(id, pair.members))}
 
     def timed(time: Channel) -> TimeChannel:
-        return time_channel(time, file, source, notes, above) if weeks is None else weeks.time_channel(file)
+        return time_channel(time, file, source, notes, above) if pair is None else pair.time_channel(file, notes)
 
     late = min((int(c.columns[0].runs.piece[0]) for c in filled if c.length), default=0)
     used: set[int] = set()

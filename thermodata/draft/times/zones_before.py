@@ -1,0 +1,94 @@
+"""The zones that the campaign file before a draft declared, each for the source that it was of."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from thermodata.draft.folder.sources import Group
+from thermodata.errors import ThermodataError
+from thermodata.reader.times.zone import zone as zone_called
+from thermodata.schema.files.tests_from import pattern_of
+from thermodata.schema.strict.lines import read_document
+from thermodata.schema.words.sentences import with_count
+
+_LINE = re.compile(r"""^[^#\n]*?(?:\b(\w+):\s*\{[^#\n]*)?\btimezone:\s*["']?([\w/+-]+)""", re.MULTILINE)
+_SHOWN = 4
+
+
+@dataclass(frozen=True, slots=True)
+class ZonesBefore:
+    """zones: source -> its zone, '' where it can't be told; files: source -> its patterns, and those of its tests."""
+
+    zones: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def of(self, group: Group) -> str | None:
+        """The zone that was declared for the files of a source: by the source that they were of, whatever it is called
+        now, else by its name; of a file with one zone in all, that one. None where none was."""
+        every = set(self.zones.values())
+        if len(every) < 2:
+            return next(iter(every), None)
+        paths = [str(f.path) for f in (*group.files, *group.calibrations)]
+        had = {s: sum(any(_fits(p, path) for p in own) for path in paths) for s, own in self.files.items()}
+        most = max(had, key=lambda s: (had[s], s == group.source), default="")
+        name = most if had.get(most) else group.source
+        return self.zones.get(name)
+
+    def said(self) -> str:
+        """What a question adds where it asks for a zone though some were declared; '' where none was."""
+        if not self.zones:
+            return ""
+        each = [f"{zone} of {source}" if source else zone for source, zone in self.zones.items()]
+        return f"; the campaign file before declares {with_count(each, _SHOWN)}"
+
+
+def zones_before(path: Path) -> ZonesBefore:
+    """Those of a campaign file, which need not be finished; none where there is no file."""
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ZonesBefore()
+    try:
+        data = read_document(path).data or {}
+    except ThermodataError:  # somebody is writing it
+        found = {name: zone for name, zone in _LINE.findall(text) if is_zone(zone)}
+        return ZonesBefore(found)
+    sources = data.get("sources")
+    zones: dict[str, str] = {}
+    files: dict[str, tuple[str, ...]] = {}
+    for name, spec in (sources if isinstance(sources, dict) else {}).items():
+        if not isinstance(spec, dict):
+            continue
+        own = [*_listed(spec.get("files"))]
+        for test in _listed(data.get("tests")):
+            own += _listed(test["files"].get(name)) if isinstance(test, dict) and _is_dict(test.get("files")) else []
+        files[str(name)] = tuple(str(p) for p in own)
+        zone = spec.get("timezone")
+        if isinstance(zone, str) and is_zone(zone):
+            zones[str(name)] = zone
+    return ZonesBefore(zones, files)
+
+
+def is_zone(name: str) -> bool:
+    """Whether a zone is called so."""
+    try:
+        zone_called(name)
+    except ThermodataError:
+        return False
+    return True
+
+
+def _fits(pattern: str, path: str) -> bool:
+    return pattern == path or pattern_of(pattern).fullmatch(path) is not None
+
+
+def _listed(value: Any) -> list[Any]:
+    return [] if value is None else list(value) if isinstance(value, list) else [value]
+
+
+def _is_dict(value: Any) -> bool:
+    return isinstance(value, dict)
