@@ -106,6 +106,23 @@ def test_a_hotter_log_is_said_to_be_beyond_the_fit(ask: Say, logs: Path) -> None
     assert "run_2: spindle_bearing (T_bearing) goes to" in text
 
 
+def test_a_driver_that_is_held_beyond_its_last_reading_is_said(ask: Say, logs: Path) -> None:
+    assert json.loads(ask("predict", "baseline", logs, "--json").out)["held"] == []
+    path = logs / "run_2.csv"
+    head, *rows = csv.reader(path.open())
+    at, end_s = head.index("T_bearing [degC]"), float(rows[-1][0])
+    with path.open("w", newline="") as file:
+        cut = ([*r[:at], "" if float(r[0]) > end_s - 1200 else r[at], *r[at + 1 :]] for r in rows)
+        csv.writer(file).writerows([head, *cut])
+    answer = json.loads(ask("predict", "baseline", logs, "--json").out)
+    (one,) = answer["held"]
+    assert (one["test"], one["channel"], one["at_end"]) == ("run_2", "T_bearing", True)
+    assert one["from_s"] == pytest.approx(end_s - 1200, abs=61)
+    assert answer["tests"][0]["known"] == 1.0
+    text = ask("predict", "baseline", logs).out
+    assert "T_bearing is held at its last value where nothing measured it, and counts as known: run_2 (" in text
+
+
 def test_one_log_is_predicted_as_its_test(ask: Say, refused: Callable[..., str], logs: Path) -> None:
     whole = {t["test"]: t for t in json.loads(ask("predict", "baseline", logs, "--json").out)["tests"]}
     (one,) = json.loads(ask("predict", "baseline", logs / "run_10.csv", "--json").out)["tests"]

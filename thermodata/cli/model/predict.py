@@ -63,6 +63,7 @@ def predict_command(
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
     from thermodata.modelling.predictions.beyond import beyond
+    from thermodata.modelling.predictions.carried_on import said
     from thermodata.modelling.predictions.conditions import under
     from thermodata.modelling.run import load
     from thermodata.store.catalogue.stale import stale_line
@@ -87,6 +88,7 @@ def predict_command(
         return 3 if left_out else 0
     rows = [_row(p) for p in made]
     further = beyond(loaded.fitted, loaded.data, made)
+    held = list(dict.fromkeys(one for p in made for one in p.held))
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
@@ -95,9 +97,10 @@ def predict_command(
         "tests": [{**row, "t_s": p.t_s, "predicted": p.predicted} for row, p in zip(rows, made, strict=True)],
         "left_out": left_out,
         "beyond": further,
+        "held": held,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, further, out))
+    session.answer(payload, lambda: _text(rows, made, further, said(held), out))
     return 3 if left_out else 0
 
 
@@ -117,7 +120,9 @@ def _row(p: Predicted) -> dict[str, Any]:
     }
 
 
-def _text(rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyond], out: Path | None) -> str:
+def _text(
+    rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyond], held: list[str], out: Path | None
+) -> str:
     if not made:
         return "no test can be predicted"
     several = {key for key in ("response", "unit") if len({r[key] for r in rows}) > 1}
@@ -141,6 +146,7 @@ def _text(rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyon
     if further:
         head = "beyond the tests that the model is fitted to, where nothing says that an effect goes on in proportion"
         text += "\n".join(["", "", head, *(f"  {_beyond(one)}" for one in further)])
+    text += "".join(f"\n\n{line}" for line in held)
     return text if out is None else f"{text}\n\n{out}"
 
 

@@ -12,6 +12,7 @@ from thermodata.errors import ThermodataError, UsageError
 from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.model_file.resolve import bind, find_response
+from thermodata.modelling.predictions.carried_on import CarriedOn, carried_on
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Bool1D, Effect, Float1D
@@ -22,7 +23,8 @@ from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 class Predicted:
     """One response in one test; arrays of shape (n,), in the test's window.
 
-    predicted: from 0 at the test's start, in the response's unit. known: where every driver was measured, or nearly.
+    predicted: from 0 at the test's start, in the response's unit. t_s: where each mean begins. known: where every
+    driver was measured, or nearly; held: drivers that count as known beyond the ends of their logs.
     contributions: effect -> its share. measured: on the prediction's zero, that of the first minutes; None where the
     test has no such displacement, or is locked: a look at that is counted, and belongs to `confirm`.
     """
@@ -36,6 +38,7 @@ class Predicted:
     known: Bool1D
     contributions: Mapping[str, Float1D]
     measured: Float1D | None = None
+    held: tuple[CarriedOn, ...] = ()
 
     @property
     def rmse(self) -> float | None:
@@ -144,6 +147,7 @@ def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predic
         known[window],
         {k: v[window] for k, v in parts.items()},
         measured,
+        tuple(carried_on([t.bound for t in response.terms], test)),
     )
 
 

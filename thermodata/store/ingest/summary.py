@@ -16,6 +16,7 @@ from thermodata.store.ingest.layers import Layers
 from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
 from thermodata.store.ingest.told.beside_each_other import odd_clocks
 from thermodata.store.ingest.told.empty_channels import nothing_brought
+from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
 from thermodata.store.ingest.told.same_content import same_content
 from thermodata.store.ingest.told.spec_lines import with_lines
@@ -114,7 +115,10 @@ def _odd_ends(layers: Layers, inventory: Inventory, looked_at: Mapping[str, list
     known = {name: own for name, own in inventory.sources.items() if name in layers.left.tests}
     sources, tests = {**known, **looked_at}, layers.files.campaign.tests
     declared = {t.id: t.clocks for t in tests}
-    return [said for one in odd_clocks({t.id: sources.get(t.id, []) for t in tests}) for said in one.beside(declared)]
+    odd = odd_clocks({t.id: sources.get(t.id, []) for t in tests})
+    otherwise = {test for one in odd for test in one.tests}
+    whole = {t.id: sources.get(t.id, []) for t in tests if t.window is None and t.id not in otherwise}
+    return [*(said for one in odd for said in one.beside(declared)), *ends_apart(whole)]
 
 
 def _left_out(path: Path, files_of_tests: Mapping[str, Sequence[str]]) -> list[str]:

@@ -27,7 +27,7 @@ Declared = Mapping[str, Mapping[str, float]]  # test -> source -> what its `cloc
 
 
 @dataclass(frozen=True, slots=True)
-class _Ends:
+class Ends:
     """Of one source in one test [s]."""
 
     first: float
@@ -102,7 +102,7 @@ def _line(clocks: Mapping[str, float]) -> str:
 
 def odd_clocks(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[OddClock]:
     """Each as a sentence by `str`. rows: test -> its rows of the table `source`."""
-    ends = {test: _ends(of_test) for test, of_test in rows.items()}
+    ends = {test: ends_of(of_test) for test, of_test in rows.items()}
     sources = sorted({source for of_test in ends.values() for source in of_test})
     # a log that runs through all tests ends with none of them
     sources = [s for s in sources if len({of_test[s] for of_test in ends.values() if s in of_test}) > 1]
@@ -127,7 +127,7 @@ def together(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> dict[str, froze
 
     Two logs of another hour do not begin and end together: their clocks agree to within `LEAST_S`.
     """
-    ends = {test: _ends(of_test) for test, of_test in rows.items()}
+    ends = {test: ends_of(of_test) for test, of_test in rows.items()}
     found = {test: set(of_test) for test, of_test in ends.items() if len(of_test) > 1}
     for one, other in combinations(sorted({s for of_test in ends.values() for s in of_test}), 2):
         tests = [t for t, of_test in ends.items() if one in of_test and other in of_test]
@@ -161,11 +161,11 @@ def _odd(apart: Float2D) -> tuple[list[int], float] | None:
     return (sorted(odd.tolist()), float(off[odd].mean())) if alike and far else None
 
 
-def _ends(rows: Iterable[Mapping[str, Any]]) -> dict[str, _Ends]:
+def ends_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Ends]:
     """Of each source of a test that logs at even steps, on a clock: seconds from nowhere begin at 0 in every log."""
-    found: dict[str, list[_Ends]] = defaultdict(list)
+    found: dict[str, list[Ends]] = defaultdict(list)
     for row in rows:
         if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
             first = row["start_ns"] / 1e9
-            found[row["source"]].append(_Ends(first, first + row["step_s"] * (row["rows"] - 1)))
-    return {s: _Ends(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
+            found[row["source"]].append(Ends(first, first + row["step_s"] * (row["rows"] - 1)))
+    return {s: Ends(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
