@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+import yaml
 
 from thermodata.cli import main
 from thermodata.modelling.run import load
@@ -142,6 +143,7 @@ def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: 
     table = pq.read_table(out)
     assert table.column_names == [
         "campaign", "test", "response", "t_s", "predicted", "measured", "known", "c__spindle_bearing",
+        "predicted_low", "predicted_high",
     ]  # fmt: skip
     assert table.column("measured").null_count == table.num_rows
     rows = list(csv.DictReader(io.StringIO(ask("predict", "baseline", logs, "--csv", "--test", "run_10").out)))
@@ -150,6 +152,27 @@ def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: 
         v for v, t in zip(*(table.column(c).to_pylist() for c in ("predicted", "test")), strict=True) if t == "run_10"
     ]
     assert np.allclose([float(r["predicted [um]"]) for r in rows], wanted)
+    assert "95 %: from the parameters" in text
+    assert "it does not hold" in text
+    assert all(
+        float(r["predicted_low [um]"]) < float(r["predicted [um]"]) < float(r["predicted_high [um]"]) for r in rows
+    )
+
+
+def test_the_prediction_of_another_machine_names_it_and_has_no_band(ask: Say, campaign: Path, tmp_path: Path) -> None:
+    own = json.loads(ask("predict", "baseline", "small", "--json").out)
+    assert own["elsewhere"] == []
+    assert all(t["half_95"] > 0 for t in own["tests"])
+    text = (campaign / "campaign.yaml").read_text()
+    other = campaign / "other.yaml"
+    spec = yaml.safe_load(text)
+    other.write_text(yaml.safe_dump({**spec, "machine": {**spec["machine"], "id": "hobbing-7"}}))
+    answer = json.loads(ask("predict", "baseline", other, "--json").out)
+    other.unlink()
+    (said,) = answer["elsewhere"]
+    assert "is of machine hobbing-7, and the model was fitted to machine" in said
+    assert {t["half_95"] for t in answer["tests"]} == {None}
+    assert answer["tests"][0]["predicted_low"] is None
 
 
 def test_a_campaign_shows_its_error_but_not_that_of_a_locked_test(ask: Say, campaign: Path) -> None:

@@ -22,6 +22,7 @@ class ChannelInfo:
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
     whether the campaign file says how its source's clock stands (of a dataset: in all tests). is_mask: a state at no
     place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.
+    scale_pct: standard (k = 1) uncertainty of its calibration's gain [%]; None where none tells it.
     """
 
     name: str
@@ -38,6 +39,7 @@ class ChannelInfo:
     clock_declared: bool = False
     is_mask: bool = False
     shifted: bool = False
+    scale_pct: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
