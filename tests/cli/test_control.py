@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+import yaml
 
 from thermodata.cli import main
 from thermodata.modelling.run import load
@@ -106,6 +107,23 @@ def test_a_hotter_log_is_said_to_be_beyond_the_fit(ask: Say, logs: Path) -> None
     assert "run_2: spindle_bearing (T_bearing) goes to" in text
 
 
+def test_a_driver_that_is_held_beyond_its_last_reading_is_said(ask: Say, logs: Path) -> None:
+    assert json.loads(ask("predict", "baseline", logs, "--json").out)["held"] == []
+    path = logs / "run_2.csv"
+    head, *rows = csv.reader(path.open())
+    at, end_s = head.index("T_bearing [degC]"), float(rows[-1][0])
+    with path.open("w", newline="") as file:
+        cut = ([*r[:at], "" if float(r[0]) > end_s - 1200 else r[at], *r[at + 1 :]] for r in rows)
+        csv.writer(file).writerows([head, *cut])
+    answer = json.loads(ask("predict", "baseline", logs, "--json").out)
+    (one,) = answer["held"]
+    assert (one["test"], one["channel"], one["at_end"]) == ("run_2", "T_bearing", True)
+    assert one["from_s"] == pytest.approx(end_s - 1200, abs=61)
+    assert answer["tests"][0]["known"] == 1.0
+    text = ask("predict", "baseline", logs).out
+    assert "T_bearing is held at its last value where nothing measured it, and counts as known: run_2 (" in text
+
+
 def test_one_log_is_predicted_as_its_test(ask: Say, refused: Callable[..., str], logs: Path) -> None:
     whole = {t["test"]: t for t in json.loads(ask("predict", "baseline", logs, "--json").out)["tests"]}
     (one,) = json.loads(ask("predict", "baseline", logs / "run_10.csv", "--json").out)["tests"]
@@ -125,6 +143,7 @@ def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: 
     table = pq.read_table(out)
     assert table.column_names == [
         "campaign", "test", "response", "t_s", "predicted", "measured", "known", "c__spindle_bearing",
+        "predicted_low", "predicted_high",
     ]  # fmt: skip
     assert table.column("measured").null_count == table.num_rows
     rows = list(csv.DictReader(io.StringIO(ask("predict", "baseline", logs, "--csv", "--test", "run_10").out)))
@@ -133,6 +152,27 @@ def test_a_prediction_is_a_table_a_file_and_csv(ask: Say, logs: Path, tmp_path: 
         v for v, t in zip(*(table.column(c).to_pylist() for c in ("predicted", "test")), strict=True) if t == "run_10"
     ]
     assert np.allclose([float(r["predicted [um]"]) for r in rows], wanted)
+    assert "95 %: from the parameters" in text
+    assert "it does not hold" in text
+    assert all(
+        float(r["predicted_low [um]"]) < float(r["predicted [um]"]) < float(r["predicted_high [um]"]) for r in rows
+    )
+
+
+def test_the_prediction_of_another_machine_names_it_and_has_no_band(ask: Say, campaign: Path, tmp_path: Path) -> None:
+    own = json.loads(ask("predict", "baseline", "small", "--json").out)
+    assert own["elsewhere"] == []
+    assert all(t["half_95"] > 0 for t in own["tests"])
+    text = (campaign / "campaign.yaml").read_text()
+    other = campaign / "other.yaml"
+    spec = yaml.safe_load(text)
+    other.write_text(yaml.safe_dump({**spec, "machine": {**spec["machine"], "id": "hobbing-7"}}))
+    answer = json.loads(ask("predict", "baseline", other, "--json").out)
+    other.unlink()
+    (said,) = answer["elsewhere"]
+    assert "is of machine hobbing-7, and the model was fitted to machine" in said
+    assert {t["half_95"] for t in answer["tests"]} == {None}
+    assert answer["tests"][0]["predicted_low"] is None
 
 
 def test_a_campaign_shows_its_error_but_not_that_of_a_locked_test(ask: Say, campaign: Path) -> None:

@@ -22,6 +22,12 @@ def test_intervals_hold_the_truth_on_simulated_machines() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def test_bands_hold_a_test_that_was_locked_on_simulated_machines() -> None:
+    words = [sys.executable, str(SCRIPT), "--ahead", "--seeds", "0:2", "--only", "two effects", "--check", "0.90:1.0"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_a_share_outside_of_the_limits_is_an_exit_code() -> None:
     words = [sys.executable, str(SCRIPT), "--seeds", "0:1", "--only", "lag", "--noise", "white", "--check", "0:0.5"]
     assert subprocess.run(words, capture_output=True, check=False).returncode == 1

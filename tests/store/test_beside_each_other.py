@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
+from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.whole_hours import whole_hours
 
 DAY, MINUTE = 86_400.0, 60.0
@@ -196,3 +197,15 @@ def test_logs_that_are_whole_hours_apart_in_all_tests_do_not_agree() -> None:
     assert together(rows) == {}
     assert together(rows, {test: {"nc"} for test in rows}) == dict.fromkeys(rows, both)
     assert together(hours_apart(0.25, count=6)) == dict.fromkeys(rows, both), "people begin one of them earlier"
+
+
+def test_a_log_that_ends_or_begins_long_before_another_is_told_with_its_tests() -> None:
+    tests = {f"d{day}": [row("daq", 1.76e9 + day * DAY, 18000.0)] for day in range(4)}
+    for day, (late_s, lasts_s) in enumerate([(0.0, 18000.0), (0.0, 16680.0), (0.0, 17820.0), (900.0, 17000.0)]):
+        tests[f"d{day}"].append(row("nc", 1.76e9 + day * DAY + late_s, lasts_s))
+    ends, begins = ends_apart(tests)
+    assert ends.startswith("source 'nc' ends long before 'daq': 22 min in d1; ")
+    assert "its last value" in ends
+    assert begins.startswith("source 'nc' begins long after 'daq': 15 min in d3; ")
+    assert "its first value" in begins
+    assert ends_apart({"d0": tests["d0"], "d2": tests["d2"]}) == [], "within 5 min people switch two loggers off"

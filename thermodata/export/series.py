@@ -11,20 +11,28 @@ import numpy as np
 
 from thermodata.errors import UsageError
 from thermodata.modelling.predictions.predict import Predicted
+from thermodata.plugin import Float1D
 from thermodata.store.base.files import whole_file
 from thermodata.view.query.rows import with_units
 
 _SUFFIXES = {".parquet": "parquet", ".pq": "parquet", ".csv": "csv"}
 
 
+_ENDS = ("predicted_low", "predicted_high")
 _TEXTS, _NUMBERS = ("campaign", "test", "response"), ("t_s", "predicted", "measured")
-_COLUMNS = [*((n, "string") for n in _TEXTS), *((n, "double") for n in _NUMBERS), ("known", "bool")]
+_COLUMNS = [
+    *((n, "string") for n in _TEXTS),
+    *((n, "double") for n in _NUMBERS),
+    ("known", "bool"),
+    *((n, "double") for n in _ENDS),
+]
 """Of a table without rows."""
 
 
 def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> Any:
-    """pyarrow table, one row a test, response and time: predicted, measured (null where there is none), known, and
-    c__EFFECT, its share. unit_in_names: 'predicted [um]'."""
+    """pyarrow table, one row a test, response and time: predicted, measured (null where there is none), known,
+    c__EFFECT, its share, and predicted_low and predicted_high, the ends of the band of 95 % (null where it is not
+    known). Values are means of a step, which begins at t_s. unit_in_names: 'predicted [um]'."""
     import pyarrow as pa
 
     effects = list(dict.fromkeys(n for p in predictions for n in p.contributions))
@@ -41,6 +49,7 @@ def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> A
             "measured": pa.array(nothing if p.measured is None else p.measured, from_pandas=True),
             "known": p.known,
             **{f"c__{e}": p.contributions.get(e, nothing) for e in effects},
+            **{n: pa.array(nothing if end is None else end, from_pandas=True) for n, end in _ends(p).items()},
         }
         parts.append(pa.table(columns))
     table = pa.concat_tables(parts) if parts else pa.schema(_COLUMNS).empty_table()
@@ -52,6 +61,10 @@ def as_table(predictions: Sequence[Predicted], unit_in_names: bool = False) -> A
         table = table.replace_schema_metadata({b"thermodata.unit": json.dumps(units).encode()})
         return with_units(table, named)
     return table.rename_columns([f"{n} [{named[n]}]" if n in named else n for n in table.column_names])
+
+
+def _ends(p: Predicted) -> dict[str, Float1D | None]:
+    return dict(zip(_ENDS, p.ends, strict=True))
 
 
 def check_out(out: Path, force: bool) -> str:

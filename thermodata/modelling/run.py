@@ -21,6 +21,7 @@ from thermodata.modelling.inputs.roles import find_tests, in_full, opened, resol
 from thermodata.modelling.model_file import nested, prediction
 from thermodata.modelling.model_file.not_installed import as_stored, not_installed, refuse_not_installed
 from thermodata.modelling.model_file.transfer import NAME
+from thermodata.modelling.predictions.carried_on import said_of_fit
 from thermodata.modelling.predictions.table import prediction_tables
 from thermodata.modelling.seen.profiles import Profiles, profiles_of
 from thermodata.modelling.terms.fitted import FittedModel
@@ -113,6 +114,7 @@ def fit_once(
         *said.pop("notes", []),
         *coarse_readings.said(data, names),
         *shifted.said(data, names),
+        *said_of_fit(fitted, data),
         *of_files,
         *_unlocked(looked_at),
     ]

@@ -132,16 +132,18 @@ class Fit(Shown):
         reason in `left_out`. conditions: of all tests, as logs without a campaign file say none: {"tool": "A"}.
         UsageError where there is no test."""
         from thermodata.draft.known.to_predict import predictions_of
+        from thermodata.modelling.compare.ahead import ahead
         from thermodata.modelling.predictions.conditions import under
         from thermodata.modelling.run import load
 
         heed(self.store, [self.id])
         lost = list[str]()
-        fitted = load(self.store, self.id).fitted
+        loaded = load(self.store, self.id, uncertainty=True)
         made, left_out = predictions_of(
-            self.store, fitted, os.fspath(target), lost.append, under=lambda data: under(data, conditions or {})
+            self.store, loaded.fitted, os.fspath(target), lost.append, under=lambda data: under(data, conditions or {})
         )
-        return Predictions(self.id, made, [*left_out, *lost])
+        band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
+        return Predictions(self.id, [band.of(p) for p in made], [*left_out, *lost])
 
     def contributions(self, test: str | None = None, response: str | None = None) -> Contributions:
         """What each effect gives in a test; in the one with the largest error where none is named. UsageError with the

@@ -12,6 +12,7 @@ from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command
 from thermodata.cli.terminal.stored_model import resolve
 from thermodata.errors import UsageError
+from thermodata.report.text.band import band_text, elsewhere_text
 from thermodata.report.text.table import table
 from thermodata.report.words.glossary import PREDICTED_LEVEL
 from thermodata.report.words.numbers import duration, number
@@ -56,25 +57,33 @@ def predict_command(
     A folder of raw logs like those of the model's campaign (or with a campaign file of its own), one of these logs
     (the others of its test are read beside it), a campaign file, or a campaign of the store (campaign:ID where a
     path is called so too). In each test temperatures count from their first values, and what is zero at rest
-    (speeds, powers, switches) counts as at rest before the first sample.
+    (speeds, powers, switches) counts as at rest before the first sample. t_s is where a step of the model begins, and
+    the value its mean over that step: it belongs to the step's middle.
+
+    The band of 95 % is of the parameters, the calibration of the probe that was fitted, and what the model leaves on
+    tests that took no part in its fit; the text says what it does not hold.
     Exit code 3 says that tests were left out.
     """
     from thermodata.cli.terminal.progress import progress_line
     from thermodata.draft.known.to_predict import predictions_of
     from thermodata.export.series import as_table, check_out, write_table
+    from thermodata.modelling.compare.ahead import ahead
     from thermodata.modelling.predictions.beyond import beyond
+    from thermodata.modelling.predictions.carried_on import said
     from thermodata.modelling.predictions.conditions import under
     from thermodata.modelling.run import load
     from thermodata.store.catalogue.stale import stale_line
 
     kind = None if out is None else check_out(out, force)
     store = session.store()
-    loaded = load(store, resolve(store, model))
+    loaded = load(store, resolve(store, model), uncertainty=True)
+    band = ahead(loaded.fitted, loaded.data, kept=loaded.kept)
     given = dict(_pair(c) for c in conditions)
     with progress_line() as line:
         made, left_out = predictions_of(
             store, loaded.fitted, target, session.say, line, tests, lambda data: under(data, given)
         )
+    made = [band.of(p) for p in made]
     for reason in left_out:
         session.say(f"left out: {reason}")
     if made and out is not None and kind is not None:
@@ -87,17 +96,25 @@ def predict_command(
         return 3 if left_out else 0
     rows = [_row(p) for p in made]
     further = beyond(loaded.fitted, loaded.data, made)
+    held = list(dict.fromkeys(one for p in made for one in p.held))
+    elsewhere = elsewhere_text(loaded.identity, band, made)
     payload = {
         "model": loaded.identity,
         "name": loaded.fitted.spec.name,
         "step_s": loaded.data.step_s,
         "file": None if out is None or not made else str(out),
-        "tests": [{**row, "t_s": p.t_s, "predicted": p.predicted} for row, p in zip(rows, made, strict=True)],
+        "tests": [
+            {**row, "t_s": p.t_s, "predicted": p.predicted, "predicted_low": p.ends[0], "predicted_high": p.ends[1]}
+            for row, p in zip(rows, made, strict=True)
+        ],
         "left_out": left_out,
         "beyond": further,
+        "held": held,
+        "band": band,
+        "elsewhere": elsewhere,
         "stale": stale_line(store, loaded.identity),
     }
-    session.answer(payload, lambda: _text(rows, made, further, out))
+    session.answer(payload, lambda: _text(rows, made, further, [*elsewhere, *said(held), *band_text(band)], out))
     return 3 if left_out else 0
 
 
@@ -108,16 +125,20 @@ def _row(p: Predicted) -> dict[str, Any]:
         "test": p.test,
         "response": p.response,
         "unit": p.unit,
+        "machine": p.machine or None,
         "hours": float(p.t_s[-1] - p.t_s[0]) / 3600.0 if len(p.t_s) else 0.0,
         "low": float(known.min()) if len(known) else None,
         "high": float(known.max()) if len(known) else None,
         "end": float(known[-1]) if len(known) else None,
         "known": float(p.known.mean()) if len(p.known) else 0.0,
         "rmse": p.rmse,
+        "half_95": float(p.half[p.known].max()) if p.half is not None and p.known.any() else None,
     }
 
 
-def _text(rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyond], out: Path | None) -> str:
+def _text(
+    rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyond], more: list[str], out: Path | None
+) -> str:
     if not made:
         return "no test can be predicted"
     several = {key for key in ("response", "unit") if len({r[key] for r in rows}) > 1}
@@ -135,12 +156,14 @@ def _text(rows: list[dict[str, Any]], made: list[Predicted], further: list[Beyon
         ("end", f"at the end{unit}"),
         ("known", "drivers known"),
     ]
+    columns += [("half_95", f"95 %, at most ±{unit}")] if any(r["half_95"] is not None for r in rows) else []
     scored = any(r["rmse"] is not None for r in rows)
     columns += [("rmse", f"RMSE, where measured{unit}")] if scored else []
     text = table(shown, columns) + (f"\n\n{PREDICTED_LEVEL}" if scored else "")
     if further:
         head = "beyond the tests that the model is fitted to, where nothing says that an effect goes on in proportion"
         text += "\n".join(["", "", head, *(f"  {_beyond(one)}" for one in further)])
+    text += "".join(f"\n\n{line}" for line in more)
     return text if out is None else f"{text}\n\n{out}"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,14 +75,19 @@ class LeftOut:
     def errors(self, spec: Model) -> Errors:
         """UsageError where a fold can't be fitted, as where an effect is identified on the very test."""
         samples, squares = dict[Place, int](), dict[Place, float]()
+        for response, test in self.unseen(spec):
+            left = response.residual(test)[response.mask(test)]
+            samples[response.name, test.key] = len(left)
+            squares[response.name, test.key] = float(np.var(left))
+        return Errors(samples, squares)
+
+    def unseen(self, spec: Model) -> Iterator[tuple[FittedResponse, TestData]]:
+        """Each open test with each response as the others give it. UsageError as above."""
         for train, group in self._folds:
             for response in self._fit(self._with_orders(spec), train, group).responses:
                 for test in (self.data.test(*key) for key in group):
                     if counts(response, test):
-                        left = response.residual(test)[response.mask(test)]
-                        samples[response.name, test.key] = len(left)
-                        squares[response.name, test.key] = float(np.var(left))
-        return Errors(samples, squares)
+                        yield response, test
 
     def _fit(self, spec: Model, train: Sequence[Key], left_out: Sequence[Key]) -> FittedModel:
         roles = {"calibrate_on": in_full(train), "verify_on": in_full(left_out), "locked": in_full(self._locked)}

@@ -15,7 +15,7 @@ from thermodata.modelling.fit.places import fit_together, together
 from thermodata.modelling.fit.staged import moved_as_well, refined, stages_of
 from thermodata.modelling.inputs.counted_samples import refuse_unknown_phases
 from thermodata.modelling.inputs.overlap import overlaps
-from thermodata.modelling.inputs.roles import Key, fitted_keys
+from thermodata.modelling.inputs.roles import Key, Roles, fitted_keys
 from thermodata.modelling.model_file.resolve import resolve
 from thermodata.modelling.terms.bound import BoundResponse
 from thermodata.modelling.terms.fitted import FittedModel
@@ -69,11 +69,18 @@ def fit_model(spec: Model, data: Dataset, *, base: Path | None = None, uncertain
             for response, usable in zip(counted(bound, "responses"), open_tests, strict=True)
         ]
     responses = tuple(
-        replace(response, calibrate=frozenset(roles.calibrate), fitted_on=_read(response.bound, own, data))
+        _with_its_tests(response, roles, _read(response.bound, own, data), data)
         for response, own in zip(fitted, _shared(bound, open_tests), strict=True)
     )
     again = overlaps(data, roles, keys, [response.bound.channel_of for response in responses])
     return FittedModel(spec, roles, responses, tuple(dict.fromkeys(skipped)), overlaps=again)
+
+
+def _with_its_tests(response: FittedResponse, roles: Roles, fitted_on: frozenset[Key], data: Dataset) -> FittedResponse:
+    """Of several campaigns the least sure calibration counts: what errs in one may err in all."""
+    infos = [t.channels.get(response.bound.channel_of(t)) for t in data.tests if t.key in fitted_on]
+    scale = max((info.scale_pct or 0.0 for info in infos if info is not None), default=0.0) / 100.0
+    return replace(response, calibrate=frozenset(roles.calibrate), fitted_on=fitted_on, scale=scale)
 
 
 def _shared(bound: Sequence[BoundResponse], open_tests: Sequence[list[TestData]]) -> list[list[TestData]]:

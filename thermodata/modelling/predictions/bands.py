@@ -27,8 +27,8 @@ class Bands:
     contributions: Mapping[str, Float1D]
 
 
-def bands(response: FittedResponse, test: TestData) -> Bands:
-    """Of one response in one test."""
+def bands(response: FittedResponse, test: TestData, *, from_start: bool = False) -> Bands:
+    """Of one response in one test. from_start: of a prediction that counts from 0 at the start, without an offset."""
     slopes: dict[int, tuple[Together, Float2D]] = {}
     known: dict[str, Float1D] = {}
     complete = True
@@ -44,7 +44,7 @@ def bands(response: FittedResponse, test: TestData) -> Bands:
         slopes[id(term.spread)] = (term.spread, own if before is None else before[1] + own)
     if not complete or not slopes:
         return Bands(None, known)
-    start = response.offset_from(test)
+    start = np.zeros(len(test.t_s), bool) if from_start else response.offset_from(test)
     variance = np.zeros(len(test.t_s))
     for spread, total in slopes.values():  # fitted one after the other: independent of each other
         # the offset is a mean of measured minus predicted: it takes up what moves all samples alike

@@ -13,6 +13,8 @@ from thermodata.modelling.inputs.drivers import names_of
 from thermodata.modelling.model_file.bind import bind
 from thermodata.modelling.model_file.nested import ModelOutput
 from thermodata.modelling.model_file.responses import find_response
+from thermodata.modelling.predictions.bands import bands
+from thermodata.modelling.predictions.carried_on import CarriedOn, carried_on
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse, FittedTerm
 from thermodata.plugin import Bool1D, Effect, Float1D
@@ -23,7 +25,9 @@ from thermodata.view.grid.dataset import ChannelInfo, Dataset, TestData
 class Predicted:
     """One response in one test; arrays of shape (n,), in the test's window.
 
-    predicted: from 0 at the test's start, in the response's unit. known: where every driver was measured, or nearly.
+    predicted: from 0 at the test's start, in the response's unit. t_s: where each mean begins. known: where every
+    driver was measured, or nearly; held: drivers that count as known beyond the ends of their logs. deviation: standard
+    deviation by the parameters; half: half of the band of 95 % (`ahead`); None where they are not known.
     contributions: effect -> its share. measured: on the prediction's zero, that of the first minutes; None where the
     test has no such displacement, or is locked: a look at that is counted, and belongs to `confirm`.
     """
@@ -37,6 +41,15 @@ class Predicted:
     known: Bool1D
     contributions: Mapping[str, Float1D]
     measured: Float1D | None = None
+    held: tuple[CarriedOn, ...] = ()
+    deviation: Float1D | None = None
+    half: Float1D | None = None
+    machine: str = ""
+
+    @property
+    def ends(self) -> tuple[Float1D | None, Float1D | None]:
+        """Of the band of 95 %."""
+        return (None, None) if self.half is None else (self.predicted - self.half, self.predicted + self.half)
 
     @property
     def rmse(self) -> float | None:
@@ -145,6 +158,9 @@ def _predicted(response: FittedResponse, test: TestData, locked: bool) -> Predic
         known[window],
         {k: v[window] for k, v in parts.items()},
         measured,
+        tuple(carried_on([t.bound for t in response.terms], test)),
+        None if (spread := bands(response, test, from_start=True).predicted) is None else spread[window],
+        machine=test.machine,
     )
 
 

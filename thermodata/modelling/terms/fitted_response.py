@@ -122,7 +122,8 @@ class FittedTerm:
 @dataclass(frozen=True)
 class FittedResponse:
     """One response of the model. All arrays have the test's shape (n,). calibrate: whose offset is free; fitted_on: the
-    tests that its parameters come from, which after `add` are verification tests too."""
+    tests that its parameters come from, which after `add` are verification tests too. scale: standard uncertainty of
+    its probe's sensitivity in these, as a share, which all gains have in common."""
 
     bound: BoundResponse
     terms: tuple[FittedTerm, ...]
@@ -132,6 +133,7 @@ class FittedResponse:
     noise: float | None = None  # rms of the calibration residual
     tried: tuple[Any, ...] = ()  # orders.Tried: what was chosen from, where the file left orders open
     fitted_on: frozenset[Key] = frozenset()
+    scale: float = 0.0
 
     @property
     def name(self) -> str:

@@ -9,9 +9,11 @@ from thermodata.calibration.expression.parser import parse
 from thermodata.modelling.terms.fitted_response import FACTOR, FittedResponse, FittedTerm, Values, bounds_of
 from thermodata.modelling.terms.identified import Identified, identified
 from thermodata.plugin import Param
+from thermodata.schema.agreed.certainty import Z95
 from thermodata.schema.answers.result import SAMPLE, Parameter
 from thermodata.schema.units.quantity import difference_unit
 
+Interval = tuple[float | None, float | None]
 UNDETERMINED = "not_determined:"  # before the name of a parameter, in the name of a check
 
 
@@ -50,7 +52,8 @@ def term_parameters(response: FittedResponse, term: FittedTerm) -> dict[str, Par
             value = values.gains[gain.name]
             if function is not None:
                 value, unit = value * function.gain_at_rest, gain_unit(response, term, "um/u")
-            by_name[f"{term.id}.{gain.name}{tag}"] = _told(value, unit, interval(gain.name, values))
+            ends = _with_scale(values.gains[gain.name], interval(gain.name, values), response.scale)
+            by_name[f"{term.id}.{gain.name}{tag}"] = _told(value, unit, ends)
     if function is not None:
         by_name |= _coefficients(function, term.id, gain_unit(response, term, "um/u"))
     return by_name
@@ -118,6 +121,17 @@ def interval(
     return (
         None if low is None or low <= bounds[0] else low,
         None if high is None or high >= bounds[1] else high,
+    )
+
+
+def _with_scale(value: float, ends: Interval, scale: float) -> Interval:
+    """The interval of a gain that is as unsure, besides, as what the response was calibrated to; an end that is not
+    known stays so. scale: standard uncertainty of that, as a share."""
+    more = Z95 * scale * abs(value)
+    low, high = ends
+    return (
+        None if low is None else value - math.hypot(value - low, more),
+        None if high is None else value + math.hypot(high - value, more),
     )
 
 

@@ -29,13 +29,15 @@ class Series:
     """One channel of one test in the bins that have a valid sample.
 
     k: shape (n,), increasing bin numbers. value: shape (n,). period_s: of its source. stands: shape (n,), what stands
-    from the end of each bin until the next one, NaN where nothing does; None of what is not held.
+    from the end of each bin until the next one, NaN where nothing does; None of what is not held. on_change: it was
+    logged when it changed, so that between its rows it is known.
     """
 
     k: Int1D
     value: Float1D
     period_s: float
     stands: Float1D | None = None
+    on_change: bool = False
 
 
 @dataclass(slots=True)
@@ -195,4 +197,4 @@ def _series(column: Column, k: Int1D, told: Callable[[str], Float1D], step_s: fl
     before = np.where(np.isfinite(until_then), np.maximum(first_s - k * step_s, 0.0), 0.0)
     lasted = lasted + before
     mean = (total + np.nan_to_num(until_then) * before) / np.where(lasted > 0, lasted, np.nan)
-    return Series(k, mean, period, stands)
+    return Series(k, mean, period, stands, True)

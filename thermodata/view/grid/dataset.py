@@ -24,6 +24,7 @@ class ChannelInfo:
     in this test (of a dataset: in so many that it is no witness in any); None where it is sound. clock_declared:
     whether the campaign file says how its source's clock stands (of a dataset: in all tests). is_mask: a state at no
     place that the test's `measuring` reads (of a dataset: that of any test): when it was measured, and no cause.
+    scale_pct: standard (k = 1) uncertainty of its calibration's gain [%]; None where none tells it.
     """
 
     name: str
@@ -40,6 +41,7 @@ class ChannelInfo:
     clock_declared: bool = False
     is_mask: bool = False
     shifted: bool = False
+    scale_pct: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +53,9 @@ class TestData:
     NaN where there are none. valid: channel -> shape (n,). in_window: shape (n,), False in the history.
     conditions: numbers in canonical units or text, machine attributes included. phases: name -> (from_s, to_s).
     start_unix_s: UTC seconds of t_s == 0 (None for relative clocks), for hours of the day. recorded: channel -> where
-    its samples stand in raw files. kept: what is made of this test alone and asked again, by who made it; a changed
-    copy begins anew.
+    its samples stand in raw files. logged: channel -> the times between which its valid samples lie [s], of those at
+    even steps; beyond them its value is carried on. kept: what is made of this test alone and asked again, by who made
+    it; a changed copy begins anew.
     """
 
     __test__ = False
@@ -72,6 +75,7 @@ class TestData:
     machine: str = ""
     channels: Mapping[str, ChannelInfo] = field(default_factory=dict)
     recorded: Mapping[str, Recorded] = field(default_factory=dict)
+    logged: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property

@@ -75,14 +75,15 @@ def channel_infos(
 ) -> dict[tuple[str, str], dict[str, ChannelInfo]]:
     """(campaign, test) -> channel -> ChannelInfo, as in that test, in the campaign's order; texts left out."""
     rows = con.execute(
-        'select campaign, test, channel, quantity, unit, "at", axis, relative_to, source, sign, sensor, raw_unit '
-        "from channel where list_contains(?, campaign) and quantity <> 'label' order by rowid",
+        'select c.campaign, test, channel, quantity, unit, "at", c.axis, relative_to, source, c.sign, sensor, '
+        "raw_unit, k.uncertainty_pct from channel c left join calibration k on k.campaign = c.campaign "
+        "and k.calibration = c.calibration where list_contains(?, c.campaign) and quantity <> 'label' order by c.rowid",
         [list(campaigns)],
     ).fetchall()
     flagged, declared = flagged_channels(con, campaigns), _declared_clocks(con, campaigns)
     masks = _masks(con, campaigns)
     infos: dict[tuple[str, str], dict[str, ChannelInfo]] = {}
-    for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit in rows:
+    for campaign, test, name, quantity, unit, at, axis, relative_to, source, sign, sensor, raw_unit, scale in rows:
         resolution = _json(sensor).get("resolution")
         infos.setdefault((campaign, test), {})[name] = ChannelInfo(
             name,
@@ -96,6 +97,7 @@ def channel_infos(
             resolution_in(unit, resolution, raw_unit),
             clock_declared=not declared.isdisjoint({(campaign, "", source), (campaign, test, source)}),
             is_mask=quantity == "state" and at is None and name in masks.get((campaign, test), frozenset()),
+            scale_pct=scale,
         )
         own = flagged.get((campaign, test), {}).get(name)
         if own is not None:

@@ -141,8 +141,16 @@ def _test_data(
         start_unix_s=None if row["clock"] == "relative" else binned.zero_ns / 1e9,
         machine=row["machine"],
         channels=channels,
+        logged={name: _logged(binned.series[name], step_s) for name in names if not binned.series[name].on_change},
         recorded=recorded.get((row["campaign"], row["test"]), {}),
     )
+
+
+def _logged(series: Series, step_s: float) -> tuple[float, float]:
+    """Between which times its valid samples lie [s]."""
+    if not series.k.size:
+        return np.inf, -np.inf
+    return float(series.k.min()) * step_s, float(series.k.max() + 1) * step_s
 
 
 def _on_grid(series: Series, binned: Binned, quantity: str, size: int, step_s: float) -> tuple[Float1D, Bool1D]:
