@@ -39,10 +39,13 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
         session.answer({"report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
         return
     from thermodata.report.quality.told import by_cause, by_channel, with_reason
+    from thermodata.view.lists.not_measured import not_measured
 
     found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
     files = _files(session, campaign)
-    rows = [with_reason(row) for row in [*found, *_not_measuring(files)]]
+    said_by_log = not_measured(session.store(), campaign)
+    outside = _outside(files, {(row["campaign"], row["test"]) for row in said_by_log})
+    rows = [with_reason(row) for row in [*found, *outside, *said_by_log]]
     losses = _losses(files, _signals(session, campaign))
 
     def text() -> str:
@@ -87,18 +90,22 @@ def _files(session: Session, campaign: str | None) -> list[dict[str, Any]]:
     return files
 
 
-def _not_measuring(files: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little."""
+def _outside(files: list[dict[str, Any]], said_by_log: set[tuple[str, str]]) -> list[dict[str, Any]]:
+    """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little.
+    said_by_log: tests without `measuring`, in which a log said that nothing was measured."""
+    from thermodata.view.lists.not_measured import OUTSIDE
+
     return [
         {
             **{key: row[key] for key in ("campaign", "test", "source")},
             **dict.fromkeys(("stream", "channel", "from_s", "to_s")),
             "flag": "not_measuring",
             "n": n,
-            "detail": "outside of the test's measuring",
+            "detail": OUTSIDE,
         }
         for row in files
         if (n := row["meta"].get("flags", {}).get("not_measuring", 0))
+        and (row["campaign"], row["test"]) not in said_by_log
     ]
 
 
