@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -13,6 +14,7 @@ import pytest
 from thermodata.cli.app import COMMANDS, Commands, cli
 from thermodata.errors import StoreError
 from thermodata.store import Store
+from thermodata.store.catalogue.models import find_model, save_findings
 from thermodata.view.lists.events import about_test
 
 from .conftest import Said, write_campaign
@@ -249,3 +251,20 @@ def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp
     assert "no test 'heat9'" in say(*words, "heat1", "heat9", out, "--force").err
     assert say(*words, "heat1", "heat1", tmp_path / "once.csv").code == 0, "named twice it is one test"
     assert "try: thermodata export small heat1 heat1.csv" in say(*words, "heat1").err
+
+
+def test_quality_tells_what_a_diagnosis_told_of_the_logs_and_no_flag_does(
+    say: Say, campaign: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(campaign / "thermodata.store", tmp_path / "store")
+    store = Store(tmp_path / "store")
+    model = find_model(store, "baseline").model
+    assert "told by diagnose" not in say("--store", store.path, "quality").out
+    told = [("step", "day1", 10_410.0, 25.0), ("sensor", "day1", None, None), ("clock_offset", "", None, None)]
+    rows = [("small", test, {"kind": kind, "at_s": at, "size_um": size}) for kind, test, at, size in told]
+    save_findings(store, model, "artefact", rows)
+    save_findings(store, model, "diagnosis", [("", "", {"response": "dZ"})])
+    said = say("--store", store.path, "quality").out
+    assert f"  - step in small/day1 at 2.9 h, dZ by +25 (baseline {model[:6]})" in said
+    assert f"  - clock_offset in all tests of small (baseline {model[:6]})" in said
+    assert "sensor" not in said

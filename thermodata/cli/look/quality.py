@@ -30,7 +30,8 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
 
     Gaps, spikes, saturation, held and stuck values, sensors that stepped, suspect clocks; flagged rows are kept. One
     cause is one row, with its first place. --json always gives a row for each test and channel. --report draws it: one
-    self-contained page, each test with its channels and flags over time.
+    self-contained page, each test with its channels and flags over time. What diagnose told of the logs beside a model,
+    such as a probe that slipped, is no flag, and stands below.
     """
     if report is not None:
         from thermodata.report.quality.page import build_quality_report
@@ -55,7 +56,8 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
             parts.append(_table(shown, "detail" if events else "events"))
         elif rows:
             parts.append(_causes(by_cause(rows)))
-        return "\n\n".join([*(parts if rows else ["nothing was flagged"]), *losses])
+        told = _told_by_diagnosis(session, campaign)
+        return "\n\n".join([*(parts if rows else ["nothing was flagged"]), *losses, *told])
 
     session.answer(rows if events else by_channel(rows), text)
 
@@ -149,3 +151,20 @@ def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]
     names = {str(n) for x in once.values() for n in (*x["tests"], *x["sources"])}
     lines = losses_in_words(list(once.values()), names)
     return ["losses\n" + "\n".join(f"  - {line}" for line in lines)] if lines else []
+
+
+def _told_by_diagnosis(session: Session, campaign: str | None) -> list[str]:
+    """Faults of the logs that no flag tells, a line each, with the models beside which they were told."""
+    query = (
+        "select a.campaign, a.test, a.kind, a.at_s, a.size_um, a.response, m.name, m.model, m.stale from artefact a "
+        "join model m using (model) where not list_contains(['sensor', 'parameters'], a.kind)"
+    )  # the one is what flags say, the other no fault of a log
+    found: dict[tuple[str, ...], list[str]] = {}
+    for row in rows_of(session, f"select * from ({query})", campaign, "campaign, test, at_s, name, model"):
+        place = f"{row['campaign']}/{row['test']}" if row["test"] else f"all tests of {row['campaign']}"
+        at = "" if row["at_s"] is None else f" at {duration(row['at_s'])}"
+        size = "" if row["at_s"] is None or row["size_um"] is None else f", {row['response']} by {row['size_um']:+.3g}"
+        model = f"{row['name']} {row['model'][:6]}{', stale' if row['stale'] else ''}"
+        found.setdefault((row["kind"], place, at), [size]).append(model)
+    lines = [f"  - {kind} in {place}{at}{size} ({'; '.join(of)})" for (kind, place, at), (size, *of) in found.items()]
+    return ["told by diagnose beside these models, and flagged nowhere\n" + "\n".join(lines)] if lines else []
