@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -139,3 +140,23 @@ def test_tables_fit_80_columns(fitted: Path, say: Callable[..., Said], command: 
     tables = [line for line in out.splitlines() if "  " in line.strip()]
     assert tables
     assert [line for line in tables if len(line) > 80 and not line.startswith(("why", "  "))] == []
+
+
+@pytest.mark.parametrize("command", ["tests", "channels", "quality", "calibrations"])
+def test_a_campaign_where_a_command_takes_an_option_is_answered_with_it(
+    say: Callable[..., Said], fitted: Path, command: str
+) -> None:
+    said = say("--store", fitted / "thermodata.store", command, "small")
+    assert said.code == 2
+    assert said.err.endswith(f"try: thermodata {command} --campaign small\n")
+    assert say("gc", "small").err.endswith("try: thermodata gc --help\n")
+
+
+def test_models_that_go_stale_are_told_by_name_and_id(say: Callable[..., Said], fitted: Path, tmp_path: Path) -> None:
+    shutil.copytree(fitted, tmp_path / "lab")
+    path, store = tmp_path / "lab" / "campaign.yaml", tmp_path / "lab" / "thermodata.store"
+    path.write_text(path.read_text(encoding="utf-8").replace("gain: 1 um", "gain: 1.01 um"), encoding="utf-8")
+    said = " ".join(say("--store", store, "ingest", path).out.split())
+    rows = json.loads(say("--store", store, "models", "--json").out)
+    assert len(rows) == 2
+    assert all(f"baseline {row['version']} {row['model']}" in said for row in rows)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -12,6 +13,9 @@ import pytest
 
 from thermodata.cli.app import COMMANDS, Commands, cli
 from thermodata.errors import StoreError
+from thermodata.store import Store
+from thermodata.store.catalogue.models import find_model, save_findings
+from thermodata.view.lists.events import about_test
 
 from .conftest import Said, write_campaign
 
@@ -193,6 +197,42 @@ def test_quality_counts_what_ingest_did_not_measure(say: Callable[..., Said], tm
     assert f"not_measuring {flags['not_measuring']}" in said
 
 
+def test_what_a_log_did_not_measure_is_told_with_its_times_and_does_not_count(say: Say, tmp_path: Path) -> None:
+    """Where no `measuring` is declared it is the log that says so: here in its comments."""
+    (tmp_path / "raw").mkdir()
+    head = "LabVIEW Measurement\nSeparator\tTab\nDecimal_Separator\t.\nX_Columns\tOne\nTime_Pref\tAbsolute\n"
+    head += "Date\t2026/03/02\nTime\t08:00:00.0\n***End_of_Header***\n\nChannels\t1\nSamples\t120\nX0\t0.0\n"
+    head += "Delta_X\t60.0\n***End_of_Header***\nX_Value\tT_bed\tComment\n"
+    lost = {50, 51, 52, 90}
+    rows = [f"{60 * i}.0\t{20 + i % 7 / 10:.1f}\t{'LOST COMMUNICATION' if i in lost else ''}\n" for i in range(120)]
+    (tmp_path / "raw" / "day1.lvm").write_text(head + "".join(rows), encoding="utf-8")
+    path, store = tmp_path / "campaign.yaml", tmp_path / "store"
+    path.write_text(
+        "schema: thermodata/campaign/1\nid: small\nmachine: {id: m}\n"
+        'sources: {daq: {reader: crio, files: "raw/{test}.lvm", timezone: UTC}}\n'
+        "channels: {T_bed: {source: daq, signal: T_bed, quantity: temperature, unit: degC, at: bed}}\n"
+        "tests: [{id: day1, kind: other, role: calibration}]\n",
+        encoding="utf-8",
+    )
+    say("--store", store, "ingest", path)
+    found = json.loads(say("--store", store, "quality", "--events", "--json").out)
+    events = [e for e in found if e["flag"] == "not_measuring"]
+    assert [(e["test"], e["channel"], e["from_s"], e["to_s"], e["n"]) for e in events] == [
+        ("day1", "T_bed", 3000.0, 3120.0, 3),
+        ("day1", "T_bed", 5400.0, 5400.0, 1),
+    ]
+    assert events[0]["detail"].startswith("the log has no value there")
+    out = tmp_path / "q.html"
+    say("--store", store, "quality", "--report", out)
+    page = out.read_text(encoding="utf-8")
+    assert re.search(r"samples do not count: [a-z, ]*not measuring", page)
+    told = about_test(Store(store), "small", "day1").flagged
+    assert [(f.channel, f.flag, f.from_s) for f in told] == [
+        ("T_bed", "not_measuring", 3000.0),
+        ("T_bed", "not_measuring", 5400.0),
+    ]
+
+
 def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp_path: Path) -> None:
     words = ("--store", campaign / "thermodata.store", "export", "small")
     out = tmp_path / "new" / "{test}.csv"
@@ -211,3 +251,20 @@ def test_several_tests_are_exported_to_a_file_each(say: Say, campaign: Path, tmp
     assert "no test 'heat9'" in say(*words, "heat1", "heat9", out, "--force").err
     assert say(*words, "heat1", "heat1", tmp_path / "once.csv").code == 0, "named twice it is one test"
     assert "try: thermodata export small heat1 heat1.csv" in say(*words, "heat1").err
+
+
+def test_quality_tells_what_a_diagnosis_told_of_the_logs_and_no_flag_does(
+    say: Say, campaign: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(campaign / "thermodata.store", tmp_path / "store")
+    store = Store(tmp_path / "store")
+    model = find_model(store, "baseline").model
+    assert "told by diagnose" not in say("--store", store.path, "quality").out
+    told = [("step", "day1", 10_410.0, 25.0), ("sensor", "day1", None, None), ("clock_offset", "", None, None)]
+    rows = [("small", test, {"kind": kind, "at_s": at, "size_um": size}) for kind, test, at, size in told]
+    save_findings(store, model, "artefact", rows)
+    save_findings(store, model, "diagnosis", [("", "", {"response": "dZ"})])
+    said = say("--store", store.path, "quality").out
+    assert f"  - step in small/day1 at 2.9 h, dZ by +25 (baseline {model[:6]})" in said
+    assert f"  - clock_offset in all tests of small (baseline {model[:6]})" in said
+    assert "sensor" not in said

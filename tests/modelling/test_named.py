@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from thermodata.cli.app import cli
 from thermodata.modelling import run
 from thermodata.modelling.add import add
-from thermodata.modelling.named import fit_named, newest_model, of_which_campaign, of_which_version
+from thermodata.modelling.named import fit_named, name_taken_over, newest_model, of_which_campaign, of_which_version
 from thermodata.store.ingest.run import ingest
 from thermodata.view.grid.dataset import Dataset
 
@@ -39,6 +39,27 @@ def test_a_name_of_two_versions_alike_in_number_is_said_with_both(world: Dataset
     assert of_which_version(store, other) is None
     assert of_which_version(store, other[:6]) is None
     assert line in CliRunner().invoke(cli, ["--store", str(store.path), "history", "base"]).stderr
+
+
+def test_a_fit_that_takes_a_name_from_a_longer_chain_says_so(world: Dataset, spec: Spec, tmp_path: Path) -> None:
+    """After a change of the data the first version is fitted anew, and its name leaves out what was added."""
+    store = stored(world, tmp_path)
+    base = run.fit(store, spec("ambient_frame")).model
+    assert name_taken_over(store, base) is None
+    added = add(store, base, "feed_screw", plain=True).model
+    assert (name_taken_over(store, base), name_taken_over(store, added)) == (None, None)
+    path = tmp_path / "campaign.yaml"
+    path.write_text(path.read_text().replace("role: verification", "role: calibration"))
+    assert set(ingest(store, path).stale) == {base, added}
+    said = CliRunner().invoke(cli, ["--store", str(store.path), "fit", base])
+    again = newest_model(store)
+    line = (
+        f"'base' is {again} now, version 1, the newest of that name; the chain that was made of it before is left at "
+        f"{added}, version 2 with feed_screw"
+    )
+    assert again not in {base, added}
+    assert line in said.stderr
+    assert name_taken_over(store, again) == line
 
 
 def test_a_name_of_several_campaigns_is_said_with_the_campaign(world: Dataset, spec: Spec, tmp_path: Path) -> None:

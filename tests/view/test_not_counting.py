@@ -67,3 +67,30 @@ def test_an_event_of_a_stream_is_of_each_of_its_channels(con: duckdb.DuckDBPyCon
     told = values_that_do_not_count(con, "select value from displacement", ())
     assert told is not None
     assert "(foreign)" in told
+
+
+@pytest.mark.parametrize(
+    ("query", "said"),
+    [
+        ("select avg(residual) from residual", True),
+        ("select residual from residual where test = 'a' and campaign = 'lab3'", True),
+        ("select max(measured) from residual", True),
+        ("select avg(residual) from residual where campaign = 'lab'", False),
+        ("select avg(residual) from residual where valid", False),
+        ("select count(*) from residual", False),
+        ("select max(r.predicted) from residual r", False),
+        ("select avg(r.residual) from residual r join test using (campaign, test)", True),
+        ("pivot residual on test using avg(residual)", True),
+        ("select name as residual from model", False),
+    ],
+)
+def test_it_is_said_where_the_residuals_that_are_read_do_not_count(
+    con: duckdb.DuckDBPyConnection, query: str, said: bool
+) -> None:
+    """A sample that was not measured is NaN there, and so is the mean over it."""
+    con.execute("create table residual (campaign varchar, test varchar, measured double, residual double, valid bool)")
+    con.execute("insert into residual values ('lab', 'a', 1, 1, true), ('lab3', 'a', 'nan', 'nan', false)")
+    told = values_that_do_not_count(con, query, ())
+    assert (told is not None) == said
+    assert values_that_do_not_count(con, query, ("valid",)) is None
+    assert told is None or "'where valid'" in told

@@ -135,3 +135,20 @@ def test_a_model_file_in_another_encoding_is_shown(writer: Client, lab: Path) ->
     refused = writer.get("/start")
     assert refused.status == 400
     assert "not in UTF-8" in refused.text
+
+
+def test_a_start_beside_stored_campaigns_names_them_and_leads_there(lab: Path, tmp_path: Path) -> None:
+    """Where no campaign file lies in the folder that the workbench was started in, as above several campaigns."""
+    client, desk = client_of(lab)
+    assert "The store holds" not in client.get("/start").text
+    above = lab / "small"
+    above.mkdir()
+    (lab / "campaign.yaml").rename(above / "campaign.yaml")
+    store = Store(desk.store_path)
+    for path, there in ((above / "campaign.yaml", True), (tmp_path / "elsewhere.yaml", False)):
+        with store.write(views=False) as con:
+            con.execute("update campaign set path = ?", [str(path)])
+        text = client.get("/start").text
+        assert "The store holds 1 campaign:" in text
+        assert "Another campaign from its raw logs" in text
+        assert ("/start?file=" in text) is there

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 import traceback
 import warnings
@@ -15,6 +16,8 @@ from thermodata.cli.terminal.common import known_failure
 from thermodata.cli.terminal.interrupting import noticing_interrupts
 from thermodata.errors import INTERRUPTED, ThermodataError, nearest, unknown_name
 from thermodata.version import __version__
+
+_EXTRA = re.compile(r"Got unexpected extra argument \((\S+)\)")
 
 # Section of the help -> command -> module in its room. The order is the order of the work.
 SECTIONS: dict[str, dict[str, str]] = {
@@ -152,7 +155,7 @@ def _failed(error: Exception) -> int:
     if isinstance(error, ThermodataError):
         return _fail(str(error), error.exit_code)
     if isinstance(error, click.UsageError):
-        where = f"\ntry: {error.ctx.command_path} --help" if error.ctx else ""
+        where = f"\ntry: {_instead(error.ctx, error.format_message())}" if error.ctx else ""
         return _fail(error.format_message() + where, 2)
     if isinstance(error, click.ClickException):
         return _fail(error.format_message(), 1)
@@ -174,6 +177,13 @@ def _failed(error: Exception) -> int:
         "try: THERMODATA_DEBUG=1 shows the whole traceback",
         1,
     )
+
+
+def _instead(context: click.Context, said: str) -> str:
+    """What to type where a word stands too many: a campaign is named by its option."""
+    word = _EXTRA.fullmatch(said)
+    takes = any("--campaign" in p.opts for p in context.command.params)
+    return f"{context.command_path} --campaign {word[1]}" if word and takes else f"{context.command_path} --help"
 
 
 def _warn(message: Warning | str, category: type[Warning], *where: object, **more: object) -> None:

@@ -97,6 +97,25 @@ def of_which_version(store: Store, ref: str) -> str | None:
     return f"'{ref}': {own.model}, the newest of that name; {are}, with other effects"
 
 
+def name_taken_over(store: Store, model: str) -> str | None:
+    """Where a name leads to this model now, and a longer chain of versions has it too: what each of them is; else
+    None."""
+    from thermodata.store.catalogue.models import find_model
+    from thermodata.view.lists.models import model_rows
+
+    rows = model_rows(store)
+    own = next(m for m in rows if m.model == model)
+    longer = [m for m in rows if (m.name, m.campaigns) == (own.name, own.campaigns) and m.version > own.version]
+    if not longer or find_model(store, own.name).model != own.model:
+        return None
+    other = longer[0]
+    more = [name for name in other.effects if name not in own.effects]
+    return (
+        f"'{own.name}' is {own.model} now, version {own.version}, the newest of that name; the chain that was made of "
+        f"it before is left at {other.model}, version {other.version}" + (f" with {listed(more)}" if more else "")
+    )
+
+
 def of_which_campaign(store: Store, ref: str) -> str | None:
     """Where models of several campaigns have a name: which it leads to, and the newest of the others; else None."""
     with store.reader() as con:

@@ -30,7 +30,8 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
 
     Gaps, spikes, saturation, held and stuck values, sensors that stepped, suspect clocks; flagged rows are kept. One
     cause is one row, with its first place. --json always gives a row for each test and channel. --report draws it: one
-    self-contained page, each test with its channels and flags over time.
+    self-contained page, each test with its channels and flags over time. What diagnose told of the logs beside a model,
+    such as a probe that slipped, is no flag, and stands below.
     """
     if report is not None:
         from thermodata.report.quality.page import build_quality_report
@@ -39,10 +40,13 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
         session.answer({"report": str(page), "bytes": page.stat().st_size}, lambda: str(page))
         return
     from thermodata.report.quality.told import by_cause, by_channel, with_reason
+    from thermodata.view.lists.not_measured import not_measured
 
     found = rows_of(session, "select * from quality_event", campaign, "campaign, test, source, channel, from_s")
     files = _files(session, campaign)
-    rows = [with_reason(row) for row in [*found, *_not_measuring(files)]]
+    said_by_log = not_measured(session.store(), campaign)
+    outside = _outside(files, {(row["campaign"], row["test"]) for row in said_by_log})
+    rows = [with_reason(row) for row in [*found, *outside, *said_by_log]]
     losses = _losses(files, _signals(session, campaign))
 
     def text() -> str:
@@ -52,7 +56,8 @@ def quality_command(session: Session, campaign: str | None, events: bool, channe
             parts.append(_table(shown, "detail" if events else "events"))
         elif rows:
             parts.append(_causes(by_cause(rows)))
-        return "\n\n".join([*(parts if rows else ["nothing was flagged"]), *losses])
+        told = _told_by_diagnosis(session, campaign)
+        return "\n\n".join([*(parts if rows else ["nothing was flagged"]), *losses, *told])
 
     session.answer(rows if events else by_channel(rows), text)
 
@@ -87,18 +92,22 @@ def _files(session: Session, campaign: str | None) -> list[dict[str, Any]]:
     return files
 
 
-def _not_measuring(files: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little."""
+def _outside(files: list[dict[str, Any]], said_by_log: set[tuple[str, str]]) -> list[dict[str, Any]]:
+    """As events: what lies outside of its test's `measuring` is no event of a sensor, and counts as little.
+    said_by_log: tests without `measuring`, in which a log said that nothing was measured."""
+    from thermodata.view.lists.not_measured import OUTSIDE
+
     return [
         {
             **{key: row[key] for key in ("campaign", "test", "source")},
             **dict.fromkeys(("stream", "channel", "from_s", "to_s")),
             "flag": "not_measuring",
             "n": n,
-            "detail": "outside of the test's measuring",
+            "detail": OUTSIDE,
         }
         for row in files
         if (n := row["meta"].get("flags", {}).get("not_measuring", 0))
+        and (row["campaign"], row["test"]) not in said_by_log
     ]
 
 
@@ -142,3 +151,20 @@ def _losses(files: list[dict[str, Any]], signals: set[tuple[str, str, str, str]]
     names = {str(n) for x in once.values() for n in (*x["tests"], *x["sources"])}
     lines = losses_in_words(list(once.values()), names)
     return ["losses\n" + "\n".join(f"  - {line}" for line in lines)] if lines else []
+
+
+def _told_by_diagnosis(session: Session, campaign: str | None) -> list[str]:
+    """Faults of the logs that no flag tells, a line each, with the models beside which they were told."""
+    query = (
+        "select a.campaign, a.test, a.kind, a.at_s, a.size_um, a.response, m.name, m.model, m.stale from artefact a "
+        "join model m using (model) where not list_contains(['sensor', 'parameters'], a.kind)"
+    )  # the one is what flags say, the other no fault of a log
+    found: dict[tuple[str, ...], list[str]] = {}
+    for row in rows_of(session, f"select * from ({query})", campaign, "campaign, test, at_s, name, model"):
+        place = f"{row['campaign']}/{row['test']}" if row["test"] else f"all tests of {row['campaign']}"
+        at = "" if row["at_s"] is None else f" at {duration(row['at_s'])}"
+        size = "" if row["at_s"] is None or row["size_um"] is None else f", {row['response']} by {row['size_um']:+.3g}"
+        model = f"{row['name']} {row['model'][:6]}{', stale' if row['stale'] else ''}"
+        found.setdefault((row["kind"], place, at), [size]).append(model)
+    lines = [f"  - {kind} in {place}{at}{size} ({'; '.join(of)})" for (kind, place, at), (size, *of) in found.items()]
+    return ["told by diagnose beside these models, and flagged nowhere\n" + "\n".join(lines)] if lines else []

@@ -27,15 +27,16 @@ def fit_command(session: Session, model: str) -> None:
     MODEL is a model file, or a fitted model that is fitted again after its data changed.
     """
     from thermodata.cli.terminal.progress import counting_line
-    from thermodata.modelling.named import fit_named
+    from thermodata.modelling.named import fit_named, name_taken_over
     from thermodata.store.base.counting import watched
 
     store = session.store()
     with counting_line() as tell, watched(tell):
         result = fit_named(store, model)
     session.answer(result, lambda: in_units_of(session, result.response, fit_text(result)))
-    for note in result.notes:
-        session.say(note)
+    for note in (*result.notes, name_taken_over(store, result.model)):
+        if note is not None:
+            session.say(note)
 
 
 @command("add")

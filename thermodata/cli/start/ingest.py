@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,6 +12,9 @@ from thermodata.cli.terminal.common import Session, command, plain
 from thermodata.report.text.table import fields, table
 from thermodata.report.words.causes import said_at_ingest
 from thermodata.schema.words.sentences import with_count
+
+if TYPE_CHECKING:
+    from thermodata.store import Store
 
 _NAMED = 4
 _MOSTLY = 0.5  # of the square of an uncertainty
@@ -33,15 +37,23 @@ def ingest_command(session: Session, campaign: Path) -> int:
     store = store_for(session.store_path, campaign)
     with progress_line() as line:
         summary = plain(ingest(store, campaign, progress=line).to_json())
-    session.answer(summary, lambda: ingest_text(summary))
+    session.answer(summary, lambda: ingest_text(summary, _labels(store, summary["stale"])))
     step = next_step(store, summary, campaign, lambda: model_text_of(load_campaign(campaign)))
     if step is not None:
         session.say(step)
     return 3 if summary["losses"] else 0
 
 
-def ingest_text(summary: dict[str, Any]) -> str:
-    """The summary of an ingest for a person: counts, calibrations, flags, losses, notes."""
+def _labels(store: Store, models: list[str]) -> list[str]:
+    """Each by its name and version, with its id; without a look where there are none."""
+    from thermodata.view.lists.models import model_rows
+
+    rows = {m.model: m for m in model_rows(store)} if models else {}
+    return [f"{rows[m].name} {rows[m].version} {m}" if m in rows else m for m in models]
+
+
+def ingest_text(summary: dict[str, Any], stale: Sequence[str]) -> str:
+    """The summary of an ingest for a person: counts, calibrations, flags, losses, notes. stale: models, in words."""
     from thermodata.schema.words.sentences import counted
 
     flags = {name: n for name, n in summary["flags"].items() if n}
@@ -59,7 +71,7 @@ def ingest_text(summary: dict[str, Any]) -> str:
                     if summary["changed"]
                     else "nothing",
                 ),
-                *([("stale models", summary["stale"])] if summary["stale"] else []),
+                *([("stale models", list(stale))] if stale else []),
                 ("took", f"{summary['seconds']:.1f} s"),
             ]
         )

@@ -75,6 +75,7 @@ def _step(axes: Any, seen: Seen, looks: dict[str, dict[str, Any]]) -> None:
     if seen.paths:
         # beside the ends of the curves, which it would cover anywhere else
         axes.set_xlim(right=LEGEND_BESIDE * longest / 3600.0)
+        axes.set_xticks([at for at in axes.get_xticks() if 0.0 <= at <= longest / 3600.0])  # no curve goes on there
         axes.legend(fontsize="small", loc="center right")
 
 

@@ -12,6 +12,7 @@ from thermodata.errors import UsageError, unknown_name
 from thermodata.plugin import Array, Float1D
 from thermodata.report.collected.records import records
 from thermodata.schema.flag import INVALID, Flag
+from thermodata.view.lists.not_measured import not_measured
 
 if TYPE_CHECKING:
     from thermodata.view import StoreView
@@ -37,8 +38,8 @@ from binned group by all order by channel, bin"""
 class Trace:
     """A channel in a test, in bins of time, arrays of shape (bins,). good: mean of the samples that count, NaN where
     there are none. low, high: extremes of those that a defect rules out, NaN elsewhere. flags: of the samples taken
-    while the test measures; NOT_MEASURING where there are no others. flagged: samples that a defect rules out;
-    a sample outside the measuring phases is none."""
+    while the test measures; NOT_MEASURING where there are no others. flagged: samples that a defect rules out, or of
+    which the log says that nothing was measured; a sample outside the measuring phases is none."""
 
     name: str
     quantity: str
@@ -110,7 +111,8 @@ def _test(view: StoreView, test: dict[str, Any], bins: int) -> TestQuality:
             "width": width,
             "last": bins - 1,
             "invalid": int(INVALID),
-            "idle": int(Flag.NOT_MEASURING),
+            # where nothing is declared, a log itself says that it has no value: that does not count either
+            "idle": 0 if test["measuring"] is None else int(Flag.NOT_MEASURING),
             "campaign": own[0],
             "test": own[1],
         },
@@ -133,7 +135,9 @@ def _test(view: StoreView, test: dict[str, Any], bins: int) -> TestQuality:
         start,
         width,
         tuple(_trace(channels[name], rows[name], bins) for name in channels if name in rows),
-        tuple(events),
+        tuple(
+            sorted([*events, *not_measured(view.store, *own)], key=lambda e: (e["from_s"] or 0.0, e["channel"] or ""))
+        ),
         tuple(_losses(lost)),
     )
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from thermodata.store.base.connection import fetch
+from thermodata.view.lists.not_measured import not_measured
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -52,6 +53,7 @@ def about_test(store: Store, campaign: str, test: str) -> About:
             f"and from_s is not null order by from_s, channel limit {_MOST}",
             own,
         )
+    events = sorted([*events, *not_measured(store, campaign, test)], key=lambda e: (e["from_s"], e["channel"] or ""))
     return About(
         row,
         {p["phase"]: (p["from_s"], p["to_s"]) for p in phases},

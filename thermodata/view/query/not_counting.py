@@ -1,4 +1,4 @@
-"""Whether a query takes values of samples that do not count, and does not ask for their flags."""
+"""Whether a query takes values of samples that do not count, and asks neither for their flags nor whether they do."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import duckdb
 
 _LONG = frozenset({"sample", "signal", "displacement", "temperature", "driver"})
+_RESIDUAL = "residual"
 _OF_VIEW = {
     "displacement": "c.quantity = 'displacement'",
     "temperature": "c.quantity = 'temperature'",
@@ -24,8 +25,39 @@ _NOT_COUNTING = tuple(str(f.name).lower() for f in Flag if f & INVALID)
 
 
 def values_that_do_not_count(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:
-    """A sentence where a query takes `value` from a long view, neither it nor its answer's columns say anything of the
-    flag, and the channels, tests and campaigns that it names have samples that do not count."""
+    """A sentence where a query takes `value` from a long view, or what is left from `residual`, neither it nor its
+    answer's columns say anything of the flag (of `valid`), and the channels, tests and campaigns that it names have
+    samples that do not count."""
+    return _of_samples(con, query, columns) or _of_residuals(con, query, columns)
+
+
+def _of_residuals(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:
+    import duckdb
+
+    words = [w.lower() for w in _WORDS.findall(query)]
+    if _RESIDUAL not in words or "valid" in words or "valid" in columns:
+        return None
+    reads = what_is_read(con, query, frozenset({_RESIDUAL}))
+    if reads is None:
+        reads = [Read(_RESIDUAL)]
+    if "measured" not in words and words.count(_RESIDUAL) <= len(reads):
+        return None  # no more than the view's own name
+    held = [" and ".join(f"list_contains(${key}, {key})" for key in sorted(read.only)) or "true" for read in reads]
+    for where, read in zip(held, reads, strict=True):
+        only = {key: sorted(values) for key, values in read.only.items()}
+        try:
+            found = con.execute(f"select 1 from {_RESIDUAL} where not valid and {where} limit 1", only).fetchone()
+        except duckdb.Error:  # a file that is gone: the query itself says so
+            return None
+        if found:
+            return (
+                "the residuals are of samples too that do not count, some of them NaN, which every mean is then: "
+                "'where valid' leaves them out"
+            )
+    return None
+
+
+def _of_samples(con: duckdb.DuckDBPyConnection, query: str, columns: Collection[str]) -> str | None:
     words = {w.lower() for w in _WORDS.findall(query)}
     if not words & _LONG or "value" not in words or "flag" in words or "flag" in columns:
         return None

@@ -78,6 +78,7 @@ def show(request: Request) -> Response:
         folder=folder,
         path=path,
         there=text is not None,
+        stored=[] if text is not None or not desk.has_store else _stored(desk),
         groups=[(title, _open_first(asked, kinds), why) for title, kinds, why in GROUPS],
         open_ones=sum(q.open for q in asked),
         bodies={body: sum(q.value.startswith(body) for q in asked if q.kind == "place") for body in BODIES},
@@ -86,6 +87,18 @@ def show(request: Request) -> Response:
         what=WHAT,
         answer=_ANSWER,
     )
+
+
+def _stored(desk: Desk) -> list[tuple[str, str | None]]:
+    """(campaign, its file as the address of this page has it; None where it lies in no chosen folder, or is gone)."""
+    with desk.store().reader() as con:
+        rows = con.execute("select campaign, path from campaign order by 1").fetchall()
+    found = []
+    for name, written in rows:
+        path = Path(written) if written else None
+        near = path is not None and path.is_file() and any(path.resolve().is_relative_to(f) for f in desk.folders)
+        found.append((name, str(path) if near else None))
+    return found
 
 
 def _open_first(asked: list[Question], kinds: tuple[str, ...]) -> list[Question]:
