@@ -12,7 +12,7 @@ from thermodata.draft.campaign.orientation import calibration_of, moved_too, rea
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.campaign.wished_names import wished_name, with_series
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.legend import IN_LEGEND
+from thermodata.draft.folder.legend import IN_LEGEND, TOLD_TOO
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
@@ -238,6 +238,9 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
         # what values ask that are counts, the scale answers
         said = min(said, guess(called(signal), usual, signal.dtype, scaled), key=lambda g: len(g.questions))
     said = replace(said, sure=False) if where else said
+    if TOLD_TOO in signal.properties and said.quantity:
+        asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
+        said = replace(said, questions=(*said.questions, asked))
     if any(heads):
         said, note = with_head(said, signal, note, heads)
     said = with_scale_asked(with_text(said, next(iter(own_signals.values()), signal)), own_signals or {"": signal})
