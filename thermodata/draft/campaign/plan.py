@@ -55,6 +55,7 @@ def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> D
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
     texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, legends = with_legends(folder, found)
+    beside = [x for x in beside if not any(told.startswith(f"{x[0]} says") for told in legends)]
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups, joined = over_midnight(
@@ -67,7 +68,7 @@ def plan(campaign: str, folder: Path, found: Scan, zone: str | None = None) -> D
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
     sources = asked_once(_sources(groups, keyed, table, found, zone), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
-    named = {id(f): keyed[g.source] for g in groups for f in g.files}
+    named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
     recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
     notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)

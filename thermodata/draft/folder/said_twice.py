@@ -7,6 +7,9 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from thermodata.draft.words.naming import words
+from thermodata.draft.words.vocabulary import places_in
+
 _WHEN = re.compile(r"\W*(?:\d{1,4}[./-]\d{1,2}[./-]\d{1,4}|\d{1,2}:\d{2})(?!\d)")
 
 
@@ -37,7 +40,14 @@ def _agreed(name: str, texts: Sequence[str]) -> OfName:
     shortest = min(texts, key=len)
     if all(re.search(rf"(?<!\w){re.escape(shortest)}(?!\w)", text, re.IGNORECASE) for text in texts):
         return OfName(name, shortest)
-    return OfName(name, texts[0], tuple(texts[1:]))
+    return OfName(name, texts[0], tuple(text for text in texts[1:] if _elsewhere(text, texts[0])))
+
+
+def _elsewhere(text: str, other: str) -> bool:
+    """Whether two texts speak of different parts of the machine: 'bed' and 'column, rear', but not 'eddy probe Z' and
+    'eddy probe in a fixture'."""
+    one, two = places_in(words(text)), places_in(words(other))
+    return not (one <= two or two <= one)
 
 
 __all__ = ["OfName", "begins_with_a_time", "of_names"]
