@@ -168,3 +168,30 @@ def test_a_text_that_says_what_signals_are_says_what_tests_are_too(tmp_path: Pat
     places, text = _channels(tmp_path, say)
     assert places == {"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"}
     assert "README.txt says '02.03.2026, for fitting'" in text
+
+
+@pytest.mark.parametrize(
+    ("called", "described", "at"),
+    [
+        ("T_SpKa", "Spindelkasten oben", "headstock"),
+        ("Spdl_2", "spindle front bearing", "spindle.bearing.front"),
+        ("Spdl_3", "spindle", "spindle"),
+        ("Spdl_motor", "spindle", "spindle.motor"),
+        ("brg_f", "front bearing, ram nose", "spindle.bearing.front"),
+        ("tbl_1", "rotary table bearing", "table.bearing"),
+        ("palier_A", "palier berceau A", "rotary.a"),
+        ("B_brg", "B axis bearing", "rotary.b"),
+        ("T_Halle", "Halle, 1,5 m hoch", "hall"),
+    ],
+)
+def test_what_a_legend_says_counts_more_than_the_name(
+    tmp_path: Path, say: Say, called: str, described: str, at: str
+) -> None:
+    _logs(tmp_path)
+    for path in tmp_path.glob("t*.csv"):
+        path.write_text(path.read_text().replace("T01", f"{called} [degC]"))
+    (tmp_path / "README.txt").write_text(f"{called}: {described}\nT02: bed\nT03: hall air\n", encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places[f"{called} [degC]"] == at
+    line = next(line for line in text.splitlines() if f'signal: "{called} [degC]"' in line)
+    assert "# guess: name and unit" in line

@@ -17,7 +17,7 @@ from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joi
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
-from thermodata.draft.signals.guess import called, guess, guess_of
+from thermodata.draft.signals.guess import called, guess, guess_of, told_of
 from thermodata.draft.signals.head_said import with_head, with_text
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
@@ -233,10 +233,12 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     note: str | None = f"called '{next(iter(called_so))}' in {where or 'the file'}"
     note = note if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values, told_of(signal))
     if (scaled := as_scaled(values, own_signals.values())) is not None:
         # what values ask that are counts, the scale answers
-        said = min(said, guess(called(signal), usual, signal.dtype, scaled), key=lambda g: len(g.questions))
+        said = min(
+            said, guess(called(signal), usual, signal.dtype, scaled, told_of(signal)), key=lambda g: len(g.questions)
+        )
     said = replace(said, sure=False) if where else said
     if TOLD_TOO in signal.properties and said.quantity:
         asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
