@@ -63,6 +63,56 @@ def test_groups_that_ran_at_once_are_rates_of_one_test(tmp_path: Path, say: Say,
     assert campaign.sources["daq"].table is None
 
 
+def days_of_groups(folder: Path) -> None:
+    """A recording a day with a group a test, of which one day has one; a control's file a day; a jump test."""
+    from nptdms import TdmsFile, TdmsWriter
+
+    tests = {"heat": (0, 0), "cool": (0, 2), "axes": (1, 0), "idle": (2, 0), "mixed": (2, 2)}
+    for day in range(3):
+        parts = []
+        for test, (of, hours) in tests.items():
+            if of != day:
+                continue
+            began = BEGAN + timedelta(days=day, hours=hours)
+            signals = {"T_front": (20 + np.arange(360) / 100, "degC"), "EC_Z": (np.arange(360) / 1000, "V")}
+            tdms(folder / "part.tdms", {test: signals}, began, 10.0)
+            parts += [c for g in TdmsFile.read(folder / "part.tdms").groups() for c in g.channels()]
+        with TdmsWriter(str(folder / f"rig_2026030{2 + day}.tdms")) as writer:
+            writer.write_segment(parts)
+        began = BEGAN + timedelta(days=day, hours=1)  # of Prague
+        rows = [
+            f"{began + timedelta(seconds=30 * k):%Y-%m-%d %H:%M:%S},{4000 * (day == 0 and k < 130)}" for k in range(400)
+        ]
+        (folder / f"nc_2026030{2 + day}.csv").write_text("\n".join(["Time,S1 [rpm]", *rows, ""]), encoding="utf-8")
+    (folder / "part.tdms").unlink()
+    steps = np.repeat([1.0, 2.0, 1.0, 0.0, 1.0], 200) + np.random.default_rng(1).normal(0, 1e-3, 1000)
+    tdms(folder / "jump_Z.tdms", {"jump": {"EC_Z": (steps, "V")}}, BEGAN - timedelta(hours=1), 0.1)
+
+
+def test_a_day_of_one_group_is_a_test_beside_days_of_several(tmp_path: Path, say: Say) -> None:
+    days_of_groups(tmp_path)
+    assert say("init", tmp_path).code == 0
+    path = tmp_path / "campaign.yaml"
+    campaign, text = load_campaign(path), path.read_text()
+    assert [t.id for t in campaign.tests] == ["heat", "cool", "axes", "idle", "mixed"]
+    assert {c.signal for c in campaign.channels.values()} == {"T_front", "EC_Z", "S1 [rpm]"}
+    assert list(campaign.sources) == ["daq", "nc", "jump"]
+    assert "not used: jump_Z.tdms" not in text
+    lines = {t.id: next(line for line in text.splitlines() if f"id: {t.id}," in line) for t in campaign.tests}
+    assert all(
+        f"nc: nc_2026030{2 + d}.csv" in lines[t] for t, d in (("heat", 0), ("cool", 0), ("axes", 1), ("mixed", 2))
+    )
+    assert "speed: 4000 rpm" in lines["heat"]
+    assert "4000 rpm" not in lines["cool"]  # the control's day began with it
+    path.write_text(text.replace("moves: unknown", "moves: [50 um, -50 um, -50 um, 50 um]"))
+    store = ("--store", tmp_path / "s")
+    assert say(*store, "ingest", path).code == 0
+    asked = "select test, count(*) as n from sample where channel = 'EC_Z' group by test order by test"
+    assert json.loads(say(*store, "sql", asked, "--json").out) == [
+        {"test": t, "n": 360} for t in sorted(t.id for t in campaign.tests)
+    ]
+
+
 def ran(first_s: int, last_s: int, rows: int) -> Sample:
     return Sample(whole=True, first_ns=first_s * S, last_ns=last_s * S, rows=rows)
 

@@ -120,3 +120,78 @@ def test_a_table_of_tests_that_are_called_as_signals_is_no_legend(tmp_path: Path
     channels, text = _channels(tmp_path, say)
     assert set(channels.values()) == {None}
     assert "says what signals are" not in text
+
+
+LIST = ["Sensors:", "  T01: spindle bearing front", "  T02: bed", "  T03: hall air"]
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        ["T02: bed under the table, glued on; drifts after the first hour."],
+        ["Tests:", "  t2: 02.03.2026 08:00 to 09:00, for fitting", "  T03: 03.03.2026 08:00 to 09:00, for fitting"],
+        ["T01 = 12.05.2025 exchanged"],
+    ],
+)
+def test_a_signal_that_a_line_above_names_too_leaves_the_list_standing(
+    tmp_path: Path, say: Say, above: Sequence[str]
+) -> None:
+    _logs(tmp_path)
+    (tmp_path / "README.txt").write_text("\n".join(["Machine 4.", *above, *LIST, ""]), encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places == {"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"}
+    assert "called 'bed' in README.txt" in text
+    assert "which is it?" not in text
+
+
+def test_two_lines_that_disagree_are_asked_of_that_signal_alone(tmp_path: Path, say: Say) -> None:
+    _logs(tmp_path)
+    (tmp_path / "README.txt").write_text("\n".join([*LIST, "T02: column, rear", ""]), encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places == {"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"}
+    assert text.count("which is it? README.txt says 'bed' and 'column, rear'") == 1
+    assert text.count("which is it?") == 1
+
+
+def test_a_list_of_what_happened_to_sensors_is_no_legend(tmp_path: Path, say: Say) -> None:
+    _logs(tmp_path)
+    happened = ["T01: came loose", "T01: glued on again", "T02: cable exchanged", "T02: came loose", "T03: moved"]
+    (tmp_path / "README.txt").write_text("\n".join([*happened, ""]), encoding="utf-8")
+    _, text = _channels(tmp_path, say)
+    assert "says what signals are" not in text
+
+
+def test_a_text_that_says_what_signals_are_says_what_tests_are_too(tmp_path: Path, say: Say) -> None:
+    _logs(tmp_path)
+    plan = ["Tests:", "  t2: 02.03.2026, for fitting", "  t3: 03.03.2026, for checking"]
+    (tmp_path / "README.txt").write_text("\n".join([*plan, *LIST, ""]), encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places == {"T01": "spindle.bearing.front", "T02": "bed", "T03": "hall"}
+    assert "README.txt says '02.03.2026, for fitting'" in text
+
+
+@pytest.mark.parametrize(
+    ("called", "described", "at"),
+    [
+        ("T_SpKa", "Spindelkasten oben", "headstock"),
+        ("Spdl_2", "spindle front bearing", "spindle.bearing.front"),
+        ("Spdl_3", "spindle", "spindle"),
+        ("Spdl_motor", "spindle", "spindle.motor"),
+        ("brg_f", "front bearing, ram nose", "spindle.bearing.front"),
+        ("tbl_1", "rotary table bearing", "table.bearing"),
+        ("palier_A", "palier berceau A", "rotary.a"),
+        ("B_brg", "B axis bearing", "rotary.b"),
+        ("T_Halle", "Halle, 1,5 m hoch", "hall"),
+    ],
+)
+def test_what_a_legend_says_counts_more_than_the_name(
+    tmp_path: Path, say: Say, called: str, described: str, at: str
+) -> None:
+    _logs(tmp_path)
+    for path in tmp_path.glob("t*.csv"):
+        path.write_text(path.read_text().replace("T01", f"{called} [degC]"))
+    (tmp_path / "README.txt").write_text(f"{called}: {described}\nT02: bed\nT03: hall air\n", encoding="utf-8")
+    places, text = _channels(tmp_path, say)
+    assert places[f"{called} [degC]"] == at
+    line = next(line for line in text.splitlines() if f'signal: "{called} [degC]"' in line)
+    assert "# guess: name and unit" in line

@@ -348,7 +348,7 @@ def test_an_amplifier_is_no_axis() -> None:
 @pytest.mark.parametrize(
     ("name", "unit", "at", "axis"),
     [
-        ("MX1609_CH1 Lager A", "°C", "spindle.bearing", None),
+        ("MX1609_CH1 Lager A", "°C", None, None),
         ("MX840_CH2 Weg Z", "µm", "tcp", "Z"),
         ("MX840_CH3 Taster Y", "µm", "tcp", "Y"),
         ("MX840B_0_CH 5 Weg X", "µm", "tcp", "X"),

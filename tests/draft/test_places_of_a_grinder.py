@@ -128,3 +128,52 @@ def test_a_table_that_travels_is_a_linear_axis_and_one_that_turns_a_rotary() -> 
 def test_a_running_number_before_an_axis_is_no_temperature() -> None:
     assert said_by(["02_C"]).questions == ()
     assert "2 degC" in said_by(["2C"]).questions[0]
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "at"),
+    [
+        ("Col_R", "Col_F", "column.rear"),
+        ("Col_R", "Col_L", "column.right"),
+        ("Bett_R", "Bett_F", "bed.rear"),
+        ("brg_r", "brg_f", "spindle.bearing.rear"),
+    ],
+)
+def test_a_letter_is_a_side_by_the_one_beside_it(tmp_path: Path, say: Say, one: str, other: str, at: str) -> None:
+    found = _draft(tmp_path, f"Zeit;{one} [°C];{other} [°C]", say)
+    assert f"at: {at}}}   # {'sure' if at == 'column.right' else 'guess'}" in found[one]
+
+
+def test_a_letter_alone_is_asked(tmp_path: Path, say: Say) -> None:
+    found = _draft(tmp_path, "Zeit;Col_R [°C];Bett [°C]", say)
+    assert "# ? at: column.right or .rear?" in found["Col_R"]
+
+
+def test_the_speed_beside_a_grinding_wheels_is_asked(tmp_path: Path, say: Say) -> None:
+    found = _draft(tmp_path, "Zeit;toishi_kaiten [rpm];shujiku_kaiten [rpm]", say)
+    assert "at: spindle}   # ?" not in found["toishi_kaiten"]
+    assert "# ? at: counter_spindle or rotary.c, as a workhead, or spindle? toishi_kaiten" in found["shujiku_kaiten"]
+
+
+@pytest.mark.parametrize(
+    ("name", "at", "asked"),
+    [
+        ("Spdl_FB", "spindle.bearing.front", ""),
+        ("Spdl_RB", "spindle.bearing.rear", ""),
+        ("Spdl_wdg", "spindle.motor", ""),
+        ("tbl_brg", "table.bearing", ""),
+        ("B_brg", None, "at: rotary.b, of the B axis? or of what else"),
+        ("palier_A", None, "at: rotary.a, of the A axis? or of what else"),
+        ("knee_bearing", None, "at: which bearing?"),
+        ("Lager", "spindle.bearing", "at: spindle.bearing.front or .rear?"),
+    ],
+)
+def test_what_a_bearing_is_of_is_not_put_into_a_mouth(name: str, at: str | None, asked: str) -> None:
+    said = guess(name, "degC")
+    assert said.at == at
+    assert " ".join(said.questions).startswith(asked)
+
+
+def test_a_word_that_nobody_knows_makes_a_spindle_a_guess() -> None:
+    assert guess("T_spindle", "degC").sure
+    assert not guess("spindle_qfx", "degC").sure

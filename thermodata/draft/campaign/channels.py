@@ -12,12 +12,12 @@ from thermodata.draft.campaign.orientation import calibration_of, moved_too, rea
 from thermodata.draft.campaign.parts import DraftChannel, DraftJump
 from thermodata.draft.campaign.wished_names import wished_name, with_series
 from thermodata.draft.files.raw_file import RawFile
-from thermodata.draft.folder.legend import IN_LEGEND
+from thermodata.draft.folder.legend import IN_LEGEND, TOLD_TOO
 from thermodata.draft.folder.one_signal import OneSignal, joined_over_heads, joined_over_units
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.probes.jumps import JumpTest
 from thermodata.draft.probes.same_probe import own_name
-from thermodata.draft.signals.guess import called, guess, guess_of
+from thermodata.draft.signals.guess import called, guess, guess_of, told_of
 from thermodata.draft.signals.head_said import with_head, with_text
 from thermodata.draft.signals.other_units import unit_question
 from thermodata.draft.signals.own_scale import scale_note
@@ -233,11 +233,16 @@ def _said(one: OneSignal) -> tuple[Guess, str | None]:
     note: str | None = f"called '{next(iter(called_so))}' in {where or 'the file'}"
     note = note if len(called_so) == 1 and "" not in called_so else None
     # a scaling that stands in the file is applied at ingest: the numbers seen here are not yet in the unit
-    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values)
+    said = guess(called(signal), usual, signal.dtype, None if signal.scaling else values, told_of(signal))
     if (scaled := as_scaled(values, own_signals.values())) is not None:
         # what values ask that are counts, the scale answers
-        said = min(said, guess(called(signal), usual, signal.dtype, scaled), key=lambda g: len(g.questions))
+        said = min(
+            said, guess(called(signal), usual, signal.dtype, scaled, told_of(signal)), key=lambda g: len(g.questions)
+        )
     said = replace(said, sure=False) if where else said
+    if TOLD_TOO in signal.properties and said.quantity:
+        asked = f"which is it? {where} says '{signal.properties['description']}' and '{signal.properties[TOLD_TOO]}'"
+        said = replace(said, questions=(*said.questions, asked))
     if any(heads):
         said, note = with_head(said, signal, note, heads)
     said = with_scale_asked(with_text(said, next(iter(own_signals.values()), signal)), own_signals or {"": signal})

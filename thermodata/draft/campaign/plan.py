@@ -56,7 +56,9 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     """What the folder holds, as a campaign. before: the zones of local times that the campaign file before declared."""
     found, beside = _table_apart(folder, found)
     found = replace(found, logs=with_their_sensors(with_orders_told(folder, found.logs)))
+    texts = [p for p, _ in found.ignored]  # one that says what signals are may say what tests are, too
     found, legends = with_legends(folder, found)
+    beside = [x for x in beside if not any(told.startswith(f"{x[0]} says") for told in legends)]
     recorded = [j for f in found.logs if (j := jump_of(f)) is not None and (j.named or _short(j, found.logs))]
     jumps = each_its_own(recorded)
     groups, joined = over_midnight(
@@ -69,11 +71,10 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
     calibrations, keyed = of_groups.calibrations, of_groups.keyed
     sources = asked_once(_sources(groups, keyed, table, found, before), groups)
     jumps_drafted, every_source = with_their_sources(calibrations, sources)
-    named = {id(f): keyed[g.source] for g in groups for f in g.files}
+    named = {id(f): keyed[g.source] for g in groups for f in (*g.files, *(x for own in g.tests.values() for x in own))}
     versions = {t: v for g in groups for t, v in other_versions(g.tests).items()}
     recordings = {t: [f for g in groups for f in g.tests.get(t, ())] for t in ids}
-    beside_them = [p for p, _ in found.ignored if table is None or p != table.file]
-    notes = notes_of(folder, beside_them, recordings)
+    notes = notes_of(folder, [p for p in texts if table is None or p != table.file], recordings)
     warm = warm_starts(recordings, named)
     used = {j.file for j in calibrations}
     idle = [str(j.file.path) for j in jumps if str(j.file.path) not in used]

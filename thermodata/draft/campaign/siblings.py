@@ -12,6 +12,8 @@ from thermodata.draft.words.place import asked_of
 from thermodata.draft.words.vocabulary import places_in
 from thermodata.reader.text import split_unit
 
+_END = re.compile(r"(?:.* )?(\S+) ([frl])")
+_WITH_SIDES = ("column", "bed", "ram", "crossbeam")
 _ORDER = {2: "second", 3: "third", 4: "fourth"}
 
 
@@ -26,16 +28,28 @@ def _own(channel: DraftChannel) -> str:
 
 
 def _sides(channels: list[DraftChannel]) -> list[DraftChannel]:
-    """R beside F is rear beside front, where no L is there: right has its left."""
-    ends = [(c.source, m[1]) if (m := re.search(r"column ([frl])$", _own(c))) else None for c in channels]
+    """R beside F is rear beside front, and right beside L; alone it may be either, and is asked."""
+    ends = [(c.source, *m.groups()) if (m := _END.fullmatch(_own(c))) and _has_sides(c) else None for c in channels]
     made = []
     for channel, end in zip(channels, ends, strict=True):
-        letters = {e[1] for e in ends if e and end and e[0] == end[0]}
-        if end and letters == {"f", "r"} and channel.said.at in ("column", "column.right"):
-            side = "front" if end[1] == "f" else "rear"
-            channel = replace(channel, said=replace(channel.said, at=f"column.{side}", sure=False))
+        letters = {e[2] for e in ends if e and end and e[:2] == end[:2]}
+        part, _, side = (channel.said.at or "").removesuffix(".right").partition(".")
+        part = f"{part}.{side}" if side == "bearing" else part
+        if end and letters == {"f", "r"}:
+            said = replace(channel.said, at=f"{part}.{'front' if end[2] == 'f' else 'rear'}", sure=False)
+            asked = tuple(q for q in said.questions if q != f"at: {part}.front or .rear?")
+            channel = replace(channel, said=replace(said, questions=asked))
+        elif end and letters == {"r"} and channel.said.at == f"{part}.right" and not channel.said.questions:
+            asked = (f"at: {part}.right or .rear?",)
+            channel = replace(channel, said=replace(channel.said, sure=False, questions=asked))
         made.append(channel)
     return made
+
+
+def _has_sides(channel: DraftChannel) -> bool:
+    """Whether a letter behind a name may be a side of its part, and nothing says which."""
+    at = channel.said.at
+    return at == "spindle.bearing" or (at or "").removesuffix(".right").removesuffix(".left") in _WITH_SIDES
 
 
 def _spindles(channels: list[DraftChannel]) -> list[DraftChannel]:
@@ -87,15 +101,20 @@ def _count(channel: DraftChannel) -> int | None:
 
 
 def _speeds(channels: list[DraftChannel]) -> list[DraftChannel]:
-    """A speed whose name does not say spindle is asked where another one of its source stands there."""
+    """A speed whose name does not say spindle is asked where another one of its source stands there; so is one that
+    does beside the speed of a grinding wheel, whose spindle is the machine's."""
     turning = [c for c in channels if c.said.quantity == "rotational_speed" and c.said.at == "spindle"]
+    wheels = [c for c in turning if "grinding wheel" in places_in(_own(c))]
     made = []
     for channel in channels:
         others = [c.name for c in turning if c is not channel and c.source == channel.source]
-        if channel in turning and others and "spindle" not in places_in(_own(channel)) and not channel.said.questions:
+        wheel = [c.name for c in wheels if c is not channel] if channel not in wheels else []
+        of_spindle = channel in wheels or ("spindle" in places_in(_own(channel)) and not wheel)
+        if channel in turning and (others or wheel) and not of_spindle and not channel.said.questions:
             where = "counter_spindle or rotary.c, as a workhead, or spindle"
-            where = where if "workpiece" in places_in(_own(channel)) else "spindle, rotary.c or table"
-            asked = f"at: {where}? {', '.join(others[:3])} is drafted at the spindle, too"
+            of_part = wheel or "workpiece" in places_in(_own(channel))
+            asked = f"at: {where if of_part else 'spindle, rotary.c or table'}? "
+            asked += f"{', '.join((wheel or others)[:3])} is drafted at the spindle, too"
             channel = replace(channel, said=replace(channel.said, sure=False, questions=(asked,)))
         made.append(channel)
     return made

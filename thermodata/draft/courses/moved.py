@@ -82,13 +82,14 @@ def moved_in(files: Sequence[RawFile]) -> Moved:
             if said.quantity == "position" and said.questions:
                 continue  # it may be a probe's, and shows no axis that stands still
             factor = _factor(said.quantity, said.unit)
+            low, high = file.sample.extents.get(key, (seen.low, seen.high))
             course = None if course is None else _read(course, said.quantity or "")
             _add(
                 found,
                 said.quantity,
                 said.at or "",
-                factor * max(abs(seen.low), abs(seen.high)),
-                factor * (seen.high - seen.low),
+                factor * max(abs(low), abs(high)),
+                factor * (high - low),
                 None if course is None else Course(course.t_ns, factor * course.values),
             )
             if course is not None and course.t_ns.size:

@@ -4,14 +4,14 @@ A workbook whose sheets are tests is as many files."""
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from thermodata.draft.files.letters_of_files import common, letters_of
 from thermodata.draft.files.sample import Sample, sample_of
-from thermodata.draft.files.sheets import sheets_of
+from thermodata.draft.files.sheets import sheet_like, sheets_of
 from thermodata.errors import QuestionError
 from thermodata.plugin import Reader, Recording, Signal, Source
 from thermodata.reader.contract.guard import described
@@ -157,8 +157,20 @@ def described_files(
 def sheet_by_sheet(who: Reader, full: Path, whole: RawFile) -> list[RawFile]:
     """A workbook whose sheets, or a recording whose groups, are alike, as that many files; any other as it is."""
     names, besides = sheets_of(whole.recording)
-    if not names:
-        return [whole]
+    return _by_sheets(who, full, whole, names, besides) if names else [whole]
+
+
+def of_one_sheet(full: Path, whole: RawFile, others: Sequence[RawFile]) -> RawFile:
+    """A recording of one group, or a workbook of one sheet, as that, where it is of the kind of others whose sheets are
+    tests; any other as it is."""
+    alike = [o for o in others if (o.reader, o.path.suffix.lower()) == (whole.reader, whole.path.suffix.lower())]
+    home = sheet_like(whole.recording, [o.recording for o in alike])
+    if home is None:
+        return whole
+    return _by_sheets(reader(whole.reader), full, replace(whole, sample=Sample()), [home], [])[0]
+
+
+def _by_sheets(who: Reader, full: Path, whole: RawFile, names: Sequence[str], besides: Sequence[str]) -> list[RawFile]:
     found = []
     left = [f"its sheet '{n}' is not like the {len(names)} others: a list of tests, or notes?" for n in besides]
     left += [f"its {note}" for note in whole.recording.notes if re.match(r"sheet '.*' is not read", note)]

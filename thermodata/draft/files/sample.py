@@ -68,7 +68,8 @@ class Sample:
     """Of a file's values. whole: to its end; hurried: for want of time fewer of them than there would have been rows
     for; first_ns, last_ns: of what was read, where a clock was set ahead by years as if it had been right before;
     failed: what ended the reading of it; repeats: of times; set_back: the clock, within the file;
-    mended: what an ingest will say that it mended of the clock."""
+    mended: what an ingest will say that it mended of the clock; extents: the lowest and highest value in the part of
+    the file that the courses are of, where that is not all of it."""
 
     values: Mapping[tuple[str, str], Values] = field(default_factory=dict)
     courses: Mapping[tuple[str, str], Course] = field(default_factory=dict)
@@ -82,6 +83,7 @@ class Sample:
     repeats: RepeatedTimes = RepeatedTimes()
     set_back: SetBack | None = None
     mended: tuple[str, ...] = ()
+    extents: Mapping[tuple[str, str], tuple[float, float]] = field(default_factory=dict)
 
 
 def sample_of(path: Path, who: Reader, source: Source, recording: Recording, size: int) -> Sample:

@@ -39,6 +39,15 @@ def sheets_of(recording: Recording) -> tuple[list[str], list[str]]:
     return (alike, others) if enough else ([], [])
 
 
+def sheet_like(recording: Recording, others: Sequence[Recording]) -> str | None:
+    """The one sheet or group that a recording has, with mostly the signals of another recording's sheet; else None."""
+    homes = {_home(s) for s in recording.signals}
+    home = homes.pop() if len(homes) == 1 else None
+    own = {s.name.removeprefix(f"{home}/") for s in recording.signals}
+    alike = any(len(own & {s.name for s in o.signals}) * 2 >= min(len(own), len(o.signals)) for o in others)
+    return home if home is not None and alike else None
+
+
 def _home(signal: Signal) -> str | None:
     """The sheet or group of a signal, whose name begins with it; None where it does not. A group of several rates has
     a stream of each: group, group@2."""

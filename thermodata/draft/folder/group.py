@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from thermodata.draft.files.on_one_clock import on_one_clock
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.over_tests import over_tests
 from thermodata.draft.folder.sources import Group
 from thermodata.draft.words.filenames import Naming, matches, namings, normal
 from thermodata.schema.words.sentences import counted
@@ -196,6 +197,11 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
     own = [f for f in group.files if f.start_ns is not None]
     if not begins or len(own) < len(group.files):
         return group
+    local = any(f.local for f in (*own, *(x for v in main.tests.values() for x in v)))
+    if len(own) > 1 and len(begins) == len(main.tests) and all(f.sample.whole for f in own):
+        ran = {t: (begins[t], max(max(x.sample.last_ns or 0, begins[t]) for x in f)) for t, f in main.tests.items()}
+        if parts := over_tests(own, ran, local):
+            return replace(group, tests=parts, questions=("each file is of the tests that ran during it?",))
     spans = [(f.start_ns or 0, max(f.sample.last_ns or 0, f.start_ns or 0)) for f in own]
     inside = {
         t: [f for f, (a, b) in zip(own, spans, strict=True) if a - _NEAR_NS <= begin <= b + _NEAR_NS]
@@ -205,7 +211,7 @@ def _by_time(group: Group, others: Sequence[Group]) -> Group:
         return replace(group, shared=True, tests={}, questions=("one log for many tests?",))
     best: dict[str, RawFile] = {}
     for shift in sorted(range(-13, 15), key=abs):
-        if shift and not any(f.local for f in (*own, *(x for v in main.tests.values() for x in v))):
+        if shift and not local:
             continue
         paired: dict[str, RawFile] = {}
         # where summer time began or ended between the tests, the others are an hour further

@@ -4,11 +4,13 @@ CH3 the tool along X."""
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.said_twice import begins_with_a_time, of_names
 from thermodata.draft.folder.scan import Scan
 from thermodata.draft.folder.table import LARGEST, SUFFIXES, WORKBOOKS, grids_of, there
 from thermodata.draft.words.filenames import normal
@@ -20,8 +22,10 @@ from thermodata.schema.units.quantity import is_unit
 from thermodata.schema.words.sentences import with_count
 
 IN_LEGEND = "described_in"  # the property of a signal that says where its description stands
+TOLD_TOO = "described_there_too"  # that says what else stands there
 _MOST_ROWS, _FEWEST, _SHORTEST = 400, 3, 3
 _SHOWN = 4
+_ONCE = 3  # of so many names one may be named again: a list of what happened names most
 _LISTED = re.compile(r"\W*(?P<name>[\w.]+)\s*(?:->|=>|→|=|:)\s*(?P<text>\S.*)")  # a line of 'CH1 -> bearing [degC], X'
 _AXES = frozenset("XYZUVWABC")
 _EITHER = frozenset("ABC")
@@ -31,13 +35,14 @@ _AXIS = re.compile(r"^(?P<text>.*?)[\s,;]+(?:(?:axis|achse|osa|axe|asse|eje)\s+)
 @dataclass(frozen=True, slots=True)
 class Said:
     """Of a signal. name: as it stands there; text: what it is; unit, axis: None where nothing is said. sign:
-    that a workbook of our own says."""
+    that a workbook of our own says. others: what more lines say of it that is something else."""
 
     name: str
     text: str
     unit: str | None = None
     axis: str | None = None
     sign: str | None = None
+    others: tuple[str, ...] = ()
 
     @property
     def described(self) -> str:
@@ -90,17 +95,21 @@ def _legend(file: str, rows: Sequence[Sequence[str]], names: set[str], tests: Se
     if (heads := next((r for r in full if is_own_about(r)), None)) is not None:
         return Legend(file, _of_our_own(heads, [r for r in full if r[0].casefold() in names]))
     for key in range(max(map(len, full), default=0)):
-        named = [r for r in full if key < len(r) and r[key].casefold() in names]
-        if len({r[key].casefold() for r in named}) < len(named) or len(named) < max(_FEWEST, (len(full) - 1) / 2):
+        own = [r for r in full if key < len(r)]
+        named = [r for r in own if r[key].casefold() in names]
+        among = [r for r in own if r in named or not (normal(r[key]) in tests or any(map(begins_with_a_time, r)))]
+        words = {r[key].casefold() for r in named}
+        again = {w for w, n in Counter(r[key].casefold() for r in named).items() if n > 1}
+        if len(words) < max(_FEWEST, (len(among) - 1) / 2) or len(again) * _ONCE > len(words):
             continue
         if all(normal(r[key]) in tests for r in named):
             continue
         for column in range(max(map(len, named))):
-            said = {r[key].casefold(): (r[key], r[column]) for r in named if column < len(r) and _is_words(r[column])}
-            if column != key and len(said) >= _FEWEST and len({text for _, text in said.values()}) * 2 > len(said):
+            said = of_names([(r[key], r[column]) for r in named if column < len(r)], _is_words)
+            if column != key and len(said) >= _FEWEST and len({s.text for s in said.values()}) * 2 > len(said):
                 beside = [c for c in range(max(map(len, named))) if c not in (key, column)]
                 units, axes = _column(named, key, beside, _is_unit), _column(named, key, beside, _AXES.__contains__)
-                found = {word: _parted(*of) for word, of in said.items()}
+                found = {word: replace(_parted(of.name, of.text), others=of.others) for word, of in said.items()}
                 return Legend(
                     file,
                     {
@@ -175,6 +184,7 @@ def _described(file: RawFile, legend: Legend) -> RawFile:
             return signal
         of = {**signal.properties, "description": said.described, IN_LEGEND: legend.file}
         of |= {sign_key(signal.name): said.sign} if said.sign else {}
+        of |= {TOLD_TOO: "', '".join(said.others)} if said.others else {}
         # words of a switch have none, and what the log says of its numbers counts more
         return replace(signal, properties=of, unit=signal.unit or (said.unit if signal.dtype != "str" else None))
 

@@ -12,7 +12,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from thermodata.draft.files.blocks import by_tests, is_of_series, not_as_series
-from thermodata.draft.files.raw_file import RawFile, claimant, described_file, sample_of_file, sheet_by_sheet
+from thermodata.draft.files.raw_file import (
+    RawFile,
+    claimant,
+    described_file,
+    of_one_sheet,
+    sample_of_file,
+    sheet_by_sheet,
+)
 from thermodata.draft.files.sample import SMALL, Watch, short
 from thermodata.draft.folder.file_copies import beginnings_in, copies_in, unfinished_in
 from thermodata.draft.folder.lent_names import with_lent_names
@@ -60,6 +67,7 @@ def scan(folder: Path, progress: Progress | None = None, encoding: str | None = 
     logs = look.logs
     for one, whole in in_every_file(look.apart).items():
         logs = {key: made for key, made in logs.items() if str(made.path) != one} | {one: whole}
+    logs = _with_single_sheets(folder, logs)
     sampled = _sampled(folder, logs, tell)
     damaged = list(dict.fromkeys((str(f.path), _damage(f)) for f in sampled if _damage(f)))
     position = {str(p): i for i, p in enumerate(paths)}
@@ -168,6 +176,16 @@ class _Look:
         if str(path) in self.logs and not self.logs[str(path)].signals:
             del self.logs[str(path)]
             self.ignored.append((str(path), f"{who.name}: it holds no signal"))
+
+
+def _with_single_sheets(folder: Path, logs: Mapping[str, RawFile]) -> dict[str, RawFile]:
+    """The logs, those of one sheet as that where the sheets of others of their kind are tests."""
+    apart = [f for f in logs.values() if f.sheet]
+    found = {}
+    for key, file in logs.items():
+        made = of_one_sheet(folder / file.path, file, apart) if apart and file.part is None and not file.like else file
+        found[key if made is file else f"{key}/{made.part}"] = made
+    return found
 
 
 def _as_like(like: RawFile, path: PurePosixPath, full: Path) -> RawFile:

@@ -85,14 +85,22 @@ def called(signal: Signal) -> str:
     return "/".join(filter(None, (group, said, name)))
 
 
+def told_of(signal: Signal) -> str:
+    """What its file says of a signal beside its name."""
+    return signal.properties.get("description", "")
+
+
 def guess_of(signal: Signal, values: Values | None = None) -> Guess:
     """The same of a signal, as all that its file says of it has it."""
-    return guess(called(signal), signal.unit, signal.dtype, values)
+    return guess(called(signal), signal.unit, signal.dtype, values, told_of(signal))
 
 
 @lru_cache(maxsize=50_000)
-def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | None = None) -> Guess:
-    """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one."""
+def guess(
+    name: str, unit: str | None, dtype: str = "float64", values: Values | None = None, described: str = ""
+) -> Guess:
+    """Quantity, unit, place and axis of a signal. unit: as the file writes it; values: of a sample, if there is one;
+    described: what the file says of it, which counts more than its own name, and stands in `name` too."""
     if _OF_ITSELF.fullmatch(name):
         return Guess(None, unit, why_not=f"{NO_READING}: WinCC's mark of where its own logging stopped or lost rows")
     if _OF_ROWS.fullmatch(name):
@@ -101,7 +109,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         name = ""  # the reader's own name for a column that has none says nothing: 'column 7' is no machine's column
     bare, rate = units.rate_at_end(split_unit(name)[0])  # the 'min' of 'n [1/min]' is no limit
     bare = "/".join(without_amplifier(part) for part in parts_of(bare))
-    own, text = words(_last(bare)), words(bare)
+    own, text, told = words(_last(bare)), words(bare), words(described)
     ends = dict.fromkeys(
         (_last(bare), _field(bare), _last(units.without_value(bare)), units.without_labels(_last(bare)))
     )
@@ -130,14 +138,14 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
     if counts or (known and not is_unit(known)):
         found = quantity_of(what, text, None, dtype, values)
         if _digital(dtype, values):
-            return placed(found, own, text)
+            return placed(found, own, text, told)
         asked = f"{encoding_hint(known or '')}the file says '{known}', which is no unit known here"
         if counts:
             asked = f"the file says '{counts}': is each count one of these, or is that a range? ({range_text(values)})"
         if found.quantity is None or found.basis == ("values",):  # of which nobody knows what they count
             why = found.why_not if found.quantity is None and foreign_in(what) else f"quantity and unit? {asked}"
             return Guess(None, why_not=why)
-        return replace(placed(replace(found, unit=None), own, text), sure=False, questions=(f"unit: {asked}",))
+        return replace(placed(replace(found, unit=None), own, text, told), sure=False, questions=(f"unit: {asked}",))
     found = quantity_of(what, text, known, dtype, values)
     if dtype == "str" and found.quantity in ("label", "state") and _STATUS.fullmatch(_last(bare).strip()):
         return replace(found, quantity="label", basis=("text",), sure=False, questions=(_ASK_STATUS,))
@@ -145,7 +153,7 @@ def guess(name: str, unit: str | None, dtype: str = "float64", values: Values | 
         return found
     if found.quantity in _RATES:
         own = words(units.without_rate(_last(bare), known))
-    found = _small(placed(_unit(found, text, unit, written, values), own, text), own, values)
+    found = _small(placed(_unit(found, text, unit, written, values), own, text, told), own, values)
     inch = next(filter(None, (inch_asked(e, found.quantity, values) for e in (_last(name), *ends))), None)
     if inch and found.unit == written == "in":
         found = replace(found, sure=False, questions=(*found.questions, inch))

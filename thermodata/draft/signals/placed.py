@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from thermodata.draft.signals.quantity import Guess
 from thermodata.draft.words.axis import axis_of
-from thermodata.draft.words.place import place_of
+from thermodata.draft.words.place import described_place, place_of
 from thermodata.draft.words.place_rules import Place
 from thermodata.draft.words.vocabulary import DIFFERENCE, LIMIT, SETPOINT, places_in, says
 
@@ -27,13 +27,14 @@ _NEEDS_PLACE = (
 )
 
 
-def placed(found: Guess, own: str, text: str) -> Guess:
-    """With its place and axis, and what these leave open. own: the name; text: with the names of the groups above."""
+def placed(found: Guess, own: str, text: str, told: str = "") -> Guess:
+    """With its place and axis, and what these leave open. own: the name; text: with the names of the groups above;
+    told: what its file says of it."""
     if found.quantity == "position" and (axis_of(own) or "") in ("a", "b", "c") and "unit" not in found.basis:
         # a rotary axis stands at an angle, whatever length was taken for its unit
         found = replace(found, quantity="angle", unit="deg", sure=False, questions=("unit: deg?",))
     quantity = found.quantity or ""
-    place, axis = place_of(own, quantity), axis_of(own)
+    place, axis = described_place(own, told, quantity) if told else place_of(own, quantity), axis_of(own)
     nowhere = not places_in(own) and axis is None and quantity != "displacement"
     if place.at is None or (quantity in _NEEDS_PLACE and nowhere):
         wider = place_of(text, quantity)

@@ -8,12 +8,23 @@ from dataclasses import replace
 
 from thermodata.draft.words.axis import axis_of
 from thermodata.draft.words.place_rules import RULES, Place
-from thermodata.draft.words.vocabulary import OF_CONTROL, QUANTITY_WORDS, beyond, places_in, says
+from thermodata.draft.words.vocabulary import (
+    DIFFERENCE,
+    LIMIT,
+    OF_CONTROL,
+    PLACE_WORDS,
+    QUANTITY_WORDS,
+    SETPOINT,
+    beyond,
+    places_in,
+    says,
+)
 
 # a control counts its spindles; a sensor that is counted so has a temperature
 _SPINDLE_1 = re.compile(r"(?<!\S)s [1-4](?!\S)")
 _BY_DRIVE = ("rotational_speed", "power", "load", "current", "torque")
-_HEIGHT = re.compile(r"(?<!\S)\d+ (?:\d+ )?m(?!\S)")  # 'air 6 m'
+_HEIGHT = re.compile(r"(?<!\S)(\d+) (?:(\d+) )?m(?!\S)")  # 'air 6 m'
+_OF_MACHINES_M = (1.0, 2.0)  # of 'Halle, 1,5 m hoch'
 # a feed that is no axis's own
 _OF_PATH = (
     "path. bahn. drahy. tool. tcp. f. v. rate. rates. speed. act. actual. ist. soll. set. cmd. value. nc. cnc. mcs. "
@@ -21,6 +32,13 @@ _OF_PATH = (
     "velocity. velocidad. velocidade. velocita. vitesse. geschwindigkeit. rychlost. predkosc. snelheid. hastighet. "
     "sebesseg. hizi. de. di. do. del. d. roboczy. robocza. pracovni. working. machining."
 )
+# of a wire or a sensor, whatever it is at
+_WIRES = "ch. chan. channel. kanal. canal. tc. pt. ni. sensor sond mess meas. act. ist. degc. no. nr. the. of. at. am."
+_EVERY = " ".join((*PLACE_WORDS.values(), *QUANTITY_WORDS.values(), SETPOINT, LIMIT, DIFFERENCE, _WIRES))
+_LETTER = re.compile(r"(?<!\S)([abc])(?!\S)")
+_PLACED = ("table", "workhead", "motor", "tool", "front", "rear", "screw", "nut", "air")
+_OF_LETTER = "at: rotary.{}, of the {} axis? or of what else, e.g. spindle.bearing.front"
+_OF_WHAT_BEARING = "at: which bearing? e.g. spindle.bearing.front, axis.z.bearing, table.bearing"
 _TURNING = re.compile(r"(?:^| )n ([abc])(?: |$)")
 
 
@@ -32,6 +50,10 @@ def place_of(text: str, quantity: str) -> Place:
         said |= {"screw"}
     if "workhead" in said:
         said -= {"spindle"}  # a grinder turns its part by a spindle of its own
+    elif "grinding wheel" in said and (quantity in _BY_DRIVE or said & {"bearing", "motor"}):
+        said |= {"spindle"}
+    trunnion = "trunnion" in said
+    said -= {"grinding wheel", "trunnion"}
     if said & {"counter spindle", "milling spindle", "main spindle"}:
         said |= {"spindle"}
     if "turret" in said:
@@ -53,16 +75,45 @@ def place_of(text: str, quantity: str) -> Place:
     # what turns is the spindle, but for n_B and n_C beside it
     turning = _TURNING.search(text) if quantity == "rotational_speed" and axis is None else None
     axis = turning[1] if turning else axis
+    letter = _LETTER.search(text) if {"bearing"} == said & {"bearing", "spindle", *_PLACED} and axis is None else None
+    if letter and trunnion:
+        axis = letter[1]
+    elif letter and quantity == "temperature":
+        return Place(None, question=_OF_LETTER.format(letter[1], letter[1].upper()))
     rule: Callable[[set[str], str | None], Place] | None = RULES.get(quantity)
     found = rule(said, axis) if rule else Place(None)
+    found = _as_far_as_known(found, text, said) if quantity == "temperature" else found
     if counter and found.at is not None and found.at.partition(".")[0] == "spindle":
         asked = found.question and asked_of(found.question, "counter")
         return replace(found, at=f"counter_{found.at}", question=asked)
     if counter and found.at == "headstock":
         return Place("counter_spindle")  # the one with no other name is the main spindle's
-    if found.at == "hall" and quantity == "temperature" and _HEIGHT.search(text):
+    height = _HEIGHT.search(text) if found.at == "hall" and quantity == "temperature" else None
+    if height and not _OF_MACHINES_M[0] <= float(f"{height[1]}.{height[2] or 0}") <= _OF_MACHINES_M[1]:
         return Place("hall", question="at: hall.top, hall.bottom, or hall, at the height of the machine?")
     return found
+
+
+def _as_far_as_known(found: Place, text: str, said: set[str]) -> Place:
+    """The place of a spindle, less sure where the name has a word that nobody knows: 'spindle wdg', 'knee bearing'."""
+    known = found.at != ("spindle.bearing" if "spindle" not in said else "spindle" if found.sure else "")
+    if known or not any(map(str.isalpha, (w for w in beyond(_EVERY, text) if len(w) > 1))):
+        return found
+    return replace(found, sure=False) if "spindle" in said else Place(None, question=_OF_WHAT_BEARING)
+
+
+def described_place(own: str, told: str, quantity: str) -> Place:
+    """The place by a name and by what a file says of it: by the name where that says more of the same part. own, told:
+    as words()."""
+    place, said, both = (place_of(text, quantity) for text in (own, told, f"{told} {own}"))
+    if not places_in(told) and axis_of(told) is None:
+        return place
+    if said.at is None:
+        within = both.at is not None and (place.at is None or both.at.startswith(place.at))
+        return both if within else said if "workhead" in places_in(told) else place
+    if place.at is not None and place.at.startswith(f"{said.at}."):
+        return place
+    return both if both.at is not None and both.at.startswith(f"{said.at}.") else said
 
 
 def asked_of(question: str, name: str) -> str:

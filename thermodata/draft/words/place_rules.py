@@ -150,6 +150,8 @@ def _bearing(said: set[str], axis: str | None) -> Place:
         return Place("table.bearing", "spindle" not in said)
     if axis and axis in "xyz" and "spindle" not in said and not side:
         return Place(f"axis.{axis}.bearing")
+    if axis and axis in "abc" and "spindle" not in said:
+        return Place(f"rotary.{axis}")
     if "motor" in said:
         return Place("spindle.motor" if "spindle" in said else None, question="at: the motor's bearing?")
     if side:

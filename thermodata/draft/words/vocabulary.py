@@ -18,8 +18,7 @@ _QUANTITY_WORDS: dict[str, str] = {
     "temperature": "temper temp teplot ^tepl tmp. t. theta. pt~100 pt~1000 rtd. rtds. thermocouple thermoel thermistor "
     "^thermo. ntc. tc. celsius degc. waerme. temperatura 温度 溫度 温 溫",
     "rotational_speed": "drehzahl drehz. otack otacek otac. rpm. rpm rotat~speed rotation~speed spindle~speed "
-    "spindlespeed "
-    "spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
+    "spindlespeed spindle~velocity spindel~speed umdrehung revolution n~act n~ist n~actual n~spindle n~soll "
     "s~act~speed acts. sspeed. srpm. spd. act~speed actspeed speed.~act speed. ^speed rpms. "
     "tacho. tachometer tachogenerator tachometr 转速 轉速 回转速度 主轴速度 vact~spindle "
     "n. rotvel ot~vret ot~vretene ot~vreteno ot~vretena ot~prac~vret ot~prac~vretene",
@@ -31,11 +30,9 @@ _QUANTITY_WORDS: dict[str, str] = {
     "spindleload servoload loadmeter last.",
     "torque": "torque drehmoment moment. momente. krout trq. 扭矩 转矩 轉矩 力矩 mdreh m~act",
     "current": "current. currents. ^current motorstrom strom. stroms. strom ^proud 电流 電流 curr. curr ampere amps. "
-    "amp. "
-    "i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
+    "amp. i~act i~ist i~actual i~nom iact. imot. irms. iq. courant",
     "position": "position ^pos. pos. ^poloh 位置 坐标 坐標 coordinate koordinat encoder. enc. istpos actm. actw. "
-    "xpos. ypos. zpos. "
-    "xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
+    "xpos. ypos. zpos. xabs. yabs. zabs. xact. yact. zact. s~act s~actual abspos mcs. wcs. machinecoord",
     "flow": "flow. ^flow~ flowrate durchfluss durchfl. prutok 流量 volumenstrom volume~flow throughput. flowmeter",
     "pressure": "pressure press. ^druck. druck. hydraulikdruck oldruck luftdruck druck~ tlak 压力 壓力 压强 气压 "
     "油压 液压力",
@@ -45,10 +42,8 @@ _QUANTITY_WORDS: dict[str, str] = {
     "displacement": "messuhr feinzeiger millesimaltaster induktivtaster messtaster dial~gauge dial~indicator dial~test "
     "comparator comparador comparateur uchylkomer 千分表 百分表 杠杆表 ダイヤルゲージ 다이얼게이지 "
     "eddy displac verlager verschieb posunut posuv~vretene vychylk deformac deform. deformation "
-    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. "
-    "vzdalenost "
-    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth "
-    "dilatac "
+    "wirbelstrom wegsens wegaufnehmer wegmess messtaster lvdt. lvdts. gap. gapsensor abstand. vzdalenost "
+    "位移 热误差 熱誤差 热变形 变形 热伸长 伸长 热漂移 thermal~error thermal~drift thermal~growth dilatac "
     "ausdehn capacitive~s kapazitiv elongat prodlouz nci. d~x d~y d~z dx. dy. dz. ex. ey. ez. "
     "delta~x delta~y delta~z err~x err~y err~z error~x error~y error~z deltax. deltay. deltaz. "
     "disp. tcp~x tcp~y tcp~z snimac~x snimac~y snimac~z growth. drop. weg. wege. drift.",
@@ -57,11 +52,9 @@ _QUANTITY_WORDS: dict[str, str] = {
     "voltage": "voltage spannung napeti 电压 電壓 volt. volts. uzk. u~zk u~dc udc. dc~link zwischenkreis dcvolt",
     "resistance": "resistanc widerstand odpor. 电阻 電阻",
     "state": "on. off. ein. zap. vyp. zapnut. vypnut. open. opened. closed. offen. geschlossen. active. aktiv. "
-    "aktivni. "
-    "status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
-    "fault. mode. "
-    "modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ok. ready. freigabe. execution. otevren. "
-    "zavren.",
+    "aktivni. status. state. ^state. stav. stavu. zustand. enabled. enable. running. run. flag. alarm. alarms. "
+    "fault. mode. modus. rezim. 状态 狀態 开关 运行 报警 启动 停止 is~on isopen. ok. ready. freigabe. execution. "
+    "otevren. zavren.",
 }
 
 _PLACE_WORDS: dict[str, str] = {
@@ -79,16 +72,23 @@ _PLACE_WORDS: dict[str, str] = {
     "turret": "turret revolver. revolverkopf werkzeugrevolver driven~tool driven~tools live~tool live~tools livetool "
     "tourelle torretta torreta revolverov. revolverova nozova~hlava glowica~rewolwer револьвер 刀塔 动力刀 "
     "タレット 回転工具 터렛 angetriebene~werkzeuge motorizzat outil~tournant outils~tournants",
+    # of a grinder, whose spindle turns it
+    "grinding wheel": "grinding~wheel wheel~spindle wheel~speed wheel~power schleifscheibe schleifspindel "
+    "brusny~kotouc brusneho~vretene brusne~vreteno 砂轮 砂輪 砥石 toishi",
+    # what tilts a table, on bearings of its own
+    "trunnion": "trunnion cradle. berceau wiege. schwenkbrucke schwenkbruecke kolebk 摇篮",
     "workhead": "workhead werkstuckspindel werkstueckspindel wss. prac~vret prac~vretene prac~vreteno prac~vretenik "
     "pracovni~vreteno pracovni~vretene pracovniho~vretene pracovniho~vretena pracovnim~vretenu pracovnim~vreteni "
     "pracovni~vretenik pracovniho~vreteniku pracovnim~vreteniku workspindle work~spindle",
     "not spindle": "gewindespindel kugelspindel spindelmutter kugelgewinde leadspindle",
     # a 'Verlagerung' is a displacement, and no bearing
     "bearing": "bearing bearings. (?<!ve[r])lager ^lozis ^loz. 轴承 軸承 brg. brng. bear. roulement cuscinett palier. "
-    "paliers. screw~support ballscrew~support support~of~screw",
-    "front": "front vorn vorder ^predni pred. predn. vpredu. zepredu. predek. vorderseite 前 fr. frt~b nose. "
+    "spdl~fb spdl~rb spindle~fb spindle~rb sp~fb sp~rb paliers. screw~support ballscrew~support support~of~screw",
+    "front": "spdl~fb spindle~fb sp~fb "
+    "front vorn vorder ^predni pred. predn. vpredu. zepredu. predek. vorderseite 前 fr. frt~b nose. "
     "spindlenose nase. vl. avant. ant. anteriore.",
-    "rear": "rear back. hinten hinter ^zadni zad. zadn. vzadu. zezadu. zadek. ruckseite rueckseite 后 後 tail. rr. "
+    "rear": "spdl~rb spindle~rb sp~rb "
+    "rear back. hinten hinter ^zadni zad. zadn. vzadu. zezadu. zadek. ruckseite rueckseite 后 後 tail. rr. "
     "arriere. post. posteriore.",
     "upper": "upper top. ^ober oben. obere ^horni nahore nahoru shora. 上 up. haut. haute. alto. alta. superieur "
     "^superiore",
@@ -98,8 +98,8 @@ _PLACE_WORDS: dict[str, str] = {
     "right": "right rechts. recht. rechte pravy. prava. prave. pravo. vpravo. napravo. 右 r. dx. destra. destro. "
     "droit. droite.",
     "middle": "middle. mitte. mittl stredni. stred. center. centre. 中间 中部",
-    "motor": "motor mot. mtr. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick motors. "
-    "stator. statore.",
+    "motor": "motor mot. mtr. wdg. wndg. servo. servomotor 电机 電機 马达 伺服 wicklung winding vinuti 绕组 statorwick "
+    "motors. stator. statore.",
     # whose winding warms, and which stands still where the tool turns
     "stator": "stator. statore. estator. statoru. 定子 ステータ",
     "nut": "nut. mutter ^matic matka. 螺母 丝母 螺帽 ballnut nuts.",
@@ -115,11 +115,10 @@ _PLACE_WORDS: dict[str, str] = {
     "column": "column stander staender saule. saeule. maschinensaule stojan sloup 立柱 col. montante. "
     "montanti. montant. colonna. colonne.",
     "bed": "bed. bett. maschinenbett ^loze. lozi. 床身 底座 machinebase base. bedplate podstav machine~base",
-    "table": "table. tables. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable tab. "
-    "tavola. plateau.",
+    "table": "table. tables. tbl. tisch ^stul. ^stol. stolu. stole. 工作台 转台 轉台 drehtisch rotarytable worktable "
+    "tab. tavola. plateau.",
     "headstock": "headstock spindelstock spindelkasten spindelgehaus spindelgehaeus spindelkopf schleifkopf "
-    "schleifspindelkopf wheelhead wheel~head "
-    "vretenik 主轴箱 床头箱 spindle~head "
+    "schleifspindelkopf wheelhead wheel~head vretenik 主轴箱 床头箱 spindle~head "
     "spindlehead spindle~housing spindle~box head~stock 主轴头",
     "tailstock": "tailstock reitstock konik. koniku. tail~stock 尾座",
     "ram": "ram. z~schieber frasschieber fraesschieber pinole traghuls traghuels ^smykadl 滑枕 quill.",
@@ -134,23 +133,22 @@ _PLACE_WORDS: dict[str, str] = {
     "probe": "probe. probes. taster. messtaster sonda. sondy. 测头 touchprobe",
     "coolant": "coolant kuhlm kuehlm kss. kuhlschm kuehlschm chladici ^chlaz chladiv emulz emulsion 冷却液 冷卻液 "
     "切削液 冷却 "
-    "mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen. "
+    "grinding~fluid mql. mms. cooling kuhlung kuehlung cool. kuhlflu kuhlkreis cutting~fluid cutfluid kuhlen. "
     "cutting~oil schneidol schneidoel bearbeitungsol bearbeitungsoel rezny~olej rezneho~oleje 切削油",
     # of the cut, or of a bearing that runs on oil and air
     "mist": "mist. oil~mist mist~coolant nebel. olnebel oelnebel niebla brouillard nebbia nevoa mlha mgla~olej "
     "mgielka 油雾 喷雾 ミスト",
     "chiller": "chiller chladic. chladice. kuhler. kuehler. spindelkuhler spindelkuehler 冷却机 "
-    "ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 "
-    "oilcooler oil~cooler oelkuhler water. wasser "
+    "ruckkuhl rueckkuhl kuhlaggregat 冷水机 水冷机 油冷机 oilcooler oil~cooler oelkuhler water. wasser "
     "^vod[ay]. kuhlwasser 冷却水 chlazeni~vretene",
     # the way out of the device that cools is the way into the machine
     "out of the chiller": "chiller~out chiller~outlet chiller~output chiller~ausgang chiller~austritt chiller~vystup "
-    "冷却机出 冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 "
-    "sortie~groupe uscita~chiller chiller~uscita chiller~saida "
+    "冷却机出 冷水机出 水冷机出 油冷机出 チラー出口 冷却装置出口 칠러~출구 칠러출구 sortie~groupe uscita~chiller "
+    "chiller~uscita chiller~saida "
     "salida~enfriadora salida~enfriador chiller~wylot chiller~cikis чиллера~выход выход~чиллера",
     "into the chiller": "chiller~in chiller~inlet chiller~input chiller~eingang chiller~eintritt chiller~vstup "
-    "冷水机进 水冷机进 油冷机进 チラー入口 冷却装置入口 칠러~입구 칠러입구 "
-    "entree~groupe ingresso~chiller chiller~ingresso chiller~entrada "
+    "冷水机进 水冷机进 油冷机进 チラー入口 冷却装置入口 칠러~입구 칠러입구 entree~groupe ingresso~chiller "
+    "chiller~ingresso chiller~entrada "
     "entrada~enfriadora entrada~enfriador chiller~wlot chiller~giris чиллера~вход вход~чиллера",
     # a cooler is the device to one lab, and what is cooled to the next
     "in or out of a cooler": "kuhler~ausgang kuhler~austritt kuehler~austritt kuhlgerat~austritt ruckkuhler~austritt "
@@ -164,9 +162,8 @@ _PLACE_WORDS: dict[str, str] = {
     "lubrication": "lubric schmier mazan mazac 润滑 潤滑 lube. lub.",
     "cabinet": "cabinet schaltschrank schrank rozvade 电柜 电气柜 控制柜 電櫃 elektroschrank switch~box e~cabinet",
     "hall": "hall. ^halle. ^hallen hala. haly. hale. ^ambi amb. umgeb okoli. okoln. okolni raum. raumt raumluft room. "
-    "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ "
-    "env. prostred "
-    "indoor",
+    "workshop shop. shopfloor luft. lufttemp air. vzduch 室温 环境 環境 车间 車間 气温 室内 空气 environ env. "
+    "prostred indoor",
     "pneumatics": "druckluft compressed~air pneumat stlacen 压缩空气 气源 airpressure",
     "outside": "outdoor outside aussen. aussent ^venk[uo] ^vnejs 室外",
     "air": "luft. lufttemp raumluft hallenluft air. vzduch 空气 室温 气温",
@@ -177,15 +174,13 @@ _PLACE_WORDS: dict[str, str] = {
     "pracovni~prostor",
     # the air in which the part is cut: of the machine, and not of the hall
     "workspace": "enclosure. machine~interior workspace. work~space working~space working~area machining~area "
-    "arbeitsraum pracovni~prostor ws~air "
-    "air~ws "
+    "arbeitsraum pracovni~prostor ws~air air~ws "
     "zona~lavoro zona~di~lavoro vano~lavoro enceinte~machine enceinte~de~travail zone~travail zone~de~travail "
     "espace~de~travail",
     # a chamber: the working space, or one that is tempered and holds the whole machine
     "chamber": "chamber. enceinte.",
     "climate chamber": "climate~chamber climatic~chamber klimakammer klimaraum klimatizovana~komora "
-    "enceinte~climatique "
-    "chambre~climatique camera~climatica camara~climatica",
+    "enceinte~climatique chambre~climatique camera~climatica camara~climatica",
     "frame": "frame. frames. machineframe rahmen. maschinenrahmen maschinengestell gestell. ram~stroje ramu~stroje "
     "bati. telaio. bastidor. rama. 机架",
     "granite": "granite. granit. granito. zula. 花岗岩 大理石 グラナイト",
@@ -235,8 +230,7 @@ FOREIGN = tuple((what, in_all_languages(what, own)) for what, own in _FOREIGN)
 
 SETPOINT = in_all_languages(
     "setpoint",
-    "soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. "
-    "pozadov "
+    "soll. ^soll. sollwert set. setpoint. setp. cmd. command. commanded. nominal. nom. target. zadan ziel. pozadov "
     "设定 目标 指令 给定 demand. desired. reference. ref. programmed. prog.",
 )
 LIMIT = in_all_languages(

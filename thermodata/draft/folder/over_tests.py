@@ -1,0 +1,53 @@
+"""Logs that go on over several tests of another source: a control's file a day, beside a recording a test."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.files.sample import Course
+
+_HOUR_NS = 3_600_000_000_000
+_NEAR_NS = 60_000_000_000  # by which a log may begin after the test, or end before it
+
+
+def over_tests(
+    files: Sequence[RawFile], spans: Mapping[str, tuple[int, int]], local: bool
+) -> dict[str, tuple[RawFile, ...]]:
+    """Test -> the one file that runs from its beginning to its end, its courses being those of the test; empty where
+    another than one does for any test, or for each test another one. spans: test -> its first and last time [ns];
+    local: whether times of one of the two may be whole hours ahead."""
+    for hours in sorted(range(-13, 15) if local else (0,), key=abs):
+        found: dict[str, tuple[RawFile, ...]] = {}
+        for test, (begin, end) in spans.items():
+            first, last = begin + hours * _HOUR_NS, end + hours * _HOUR_NS
+            running = [f for f in files if _runs(f, first, last)]
+            if len(running) != 1:
+                break
+            found[test] = (_within(running[0], first, last),)
+        if len(found) == len(spans) and len({f.path for own in found.values() for f in own}) < len(found):
+            return found
+    return {}
+
+
+def _runs(file: RawFile, first: int, last: int) -> bool:
+    begin, end = file.start_ns, file.sample.last_ns
+    return begin is not None and end is not None and begin - _NEAR_NS <= first and last <= end + _NEAR_NS
+
+
+def _within(file: RawFile, first: int, last: int) -> RawFile:
+    """The file with the courses of a part of it. first, last: of that [ns]."""
+    courses, extents = {}, {}
+    for key, course in file.sample.courses.items():
+        inside = (course.t_ns >= first) & (course.t_ns <= last)
+        courses[key] = Course(course.t_ns[inside], course.values[inside])
+        if (part := course.values[inside][np.isfinite(course.values[inside])]).size:
+            extents[key] = (float(part.min()), float(part.max()))
+    begin, end = max(file.sample.first_ns or first, first), min(file.sample.last_ns or last, last)
+    return replace(file, sample=replace(file.sample, courses=courses, extents=extents, first_ns=begin, last_ns=end))
+
+
+__all__ = ["over_tests"]
