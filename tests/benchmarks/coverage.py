@@ -14,8 +14,8 @@ of the share itself, by Wilson's score. `--check` counts an open interval as one
 
 `--ahead` asks the bands of predictions instead: of each machine one more test is locked, the probe of the others errs
 by a factor that its calibration says (0.2 %, k = 1), and what counts is the share of the locked test's samples inside
-of the band of 95 %, from its first minutes as measured by a right probe. `lacking`: the same with the hall left out of a model
-of two effects, so that the machine has what the model has not.
+of the band of 95 %, from its first minutes as measured by a right probe. `lacking`: the same with the hall left out of
+a model of two effects, so that the machine has what the model has not.
 """
 
 from __future__ import annotations

@@ -204,15 +204,13 @@ def whitened(problem: Problem, noise: Noise) -> Whitened:
 
 
 def _free_of_all(problem: Problem) -> tuple[Float2D, list[int]]:
-    """(what is free in all tests, one after the other, shape (rows, most columns), how many columns each test has);
-    kept with the problem, for it is the same under every noise."""
-    kept = problem.kept.setdefault("free", {})
+    """(what is free in all tests, shape (rows, most columns), how many columns each has); the same under every noise."""
+    kept: dict[str, tuple[Float2D, list[int]]] = problem.kept.setdefault("free", {})
     if "whole" not in kept:
         members = [free_of(b) for b in problem.blocks]
         counts = [m.shape[1] for m in members]
         kept["whole"] = np.vstack([np.pad(m, ((0, 0), (0, max(counts) - m.shape[1]))) for m in members]), counts
-    found: tuple[Float2D, list[int]] = kept["whole"]
-    return found
+    return kept["whole"]
 
 
 def _orthogonal(columns: Float2D) -> tuple[Float2D, Float1D]:
