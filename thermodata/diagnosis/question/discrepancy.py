@@ -204,7 +204,7 @@ def whitened(problem: Problem, noise: Noise) -> Whitened:
 
 
 def _free_of_all(problem: Problem) -> tuple[Float2D, list[int]]:
-    """(what is free in all tests, shape (rows, most columns), how many columns each has); the same under every noise."""
+    """(what is free in all tests, shape (rows, most columns), how many columns each has); of every noise the same."""
     kept: dict[str, tuple[Float2D, list[int]]] = problem.kept.setdefault("free", {})
     if "whole" not in kept:
         members = [free_of(b) for b in problem.blocks]
