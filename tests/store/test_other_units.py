@@ -49,3 +49,33 @@ def test_fahrenheit_among_degrees_is_told_where_all_stand_so(
     losses = other_units([levels(f"t{i}", T_b=b, T_hall=h) for i, (b, h) in enumerate(zip(bearing, hall, strict=True))])
     assert [x["test"] for x in losses] == told
     assert all("channels: {T_b: {unit: degF}}" in str(x["reason"]) for x in losses)
+
+
+@pytest.mark.parametrize(
+    ("readings", "told"),
+    [
+        ([22.0, 24.0, 73.0], ["t2"]),
+        ([22.0, 24.0, 41.0], []),  # a hot day
+        ([22.0, 24.0, 110.0], []),
+        ([73.0, 75.0], []),
+        ([22.0], []),
+    ],
+)
+def test_a_single_temperature_that_stands_so_is_told_with_what_else_it_may_be(
+    readings: list[float], told: list[str]
+) -> None:
+    losses = other_units([levels(f"t{i}", T_b=b) for i, b in enumerate(readings)])
+    assert [x["test"] for x in losses] == told
+    assert all("if it was warm before its test: start_state: warm" in str(x["reason"]) for x in losses)
+
+
+def test_a_single_temperature_that_is_said_to_be_warm_before_is_not_told() -> None:
+    t = np.linspace(0.0, 3600.0, 10)
+    warm = Levels("t2", None, None, {"T_b": Course(t, 73 + np.linspace(-1, 1, 10))}, warm=True)
+    assert other_units([levels("t0", T_b=22.0), levels("t1", T_b=24.0), warm]) == []
+
+
+def test_one_of_several_temperatures_that_alone_has_others_to_compare_is_left() -> None:
+    """The other sensors of that test are of it alone, and may tell of a machine that was warm."""
+    tests = [levels("t0", T_b=22.0), levels("t1", T_b=24.0), levels("t2", T_b=73.0, T_hall=21.0)]
+    assert other_units(tests) == []

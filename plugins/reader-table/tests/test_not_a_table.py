@@ -53,12 +53,12 @@ def test_a_few_times_or_times_that_stand_still_are_no_table_on_its_side(tmp_path
 def test_an_archive_of_files_is_no_workbook(tmp_path: Path, packing: int, name: str) -> None:
     inside = workbook(tmp_path / "x.xlsx", {"a": sheet(seconds(30))})
     assert Reader().sniff(head(inside)) is not None
-    path = tmp_path / "old.zip"
+    path = tmp_path / "old.dat"  # whose name does not say that it is one
     with zipfile.ZipFile(path, "w", packing) as archive:
         archive.write(inside, name)
     assert Reader().sniff(head(path)) is None
     said = explain(path)
-    how = "python -m zipfile -e old.zip ."
+    how = "python -m zipfile -e old.dat ."
     assert (said.kind, said.advice) == (f"a ZIP archive of files ({name}, ...): unpack it first: {how}", None)
     with pytest.raises(FormatError, match="not a readable workbook") as caught:
         Reader().describe(path, Source())
@@ -73,11 +73,11 @@ def test_a_workbook_may_begin_with_any_of_its_parts(first: str) -> None:
 
 
 def test_a_packed_log_says_the_command_that_unpacks_it(tmp_path: Path) -> None:
-    import gzip
+    import lzma
 
     text = "".join(f"{k};{20 + k / 10}\n" for k in range(40)).encode()
-    path = tmp_path / "run 1.csv.gz"
-    path.write_bytes(gzip.compress(text))
-    assert explain(path).kind == 'gzip: unpack it first: python -m gzip -d "run 1.csv.gz"'
+    path = tmp_path / "run 1.csv.xz"
+    path.write_bytes(lzma.compress(text))
+    assert explain(path).kind == 'xz: unpack it first: xz -dk "run 1.csv.xz"'
     (tmp_path / "run.7z").write_bytes(b"7z\xbc\xaf\x27\x1c\0\4" + bytes(200))
     assert explain(tmp_path / "run.7z").kind == "7-Zip: unpack it first: 7z x run.7z"

@@ -15,7 +15,7 @@ ZERO_K = 273.15
 APART_K = 60.0  # two tests of one place differ by less, but for that
 NO_HALL_C, _ICE_C = 45.0, 0.0  # no hall is warmer, in which a machine stood before its test, or colder
 _ALIKE_F = 12.0  # so far apart are the coldest moments of two tests [degF]
-_FEWEST = 2  # one alone may have been warm before its test
+_FEWEST = 2  # one of several alone may have been warm before its test
 NOT_HERE_C = (-150.0, 200.0)  # beyond these no part of a machine is all through a test
 
 
@@ -51,7 +51,7 @@ def other_units(tests: Sequence[Levels]) -> Losses:
 
 def _warmer_throughout(tests: Sequence[Levels]) -> list[tuple[str, list[str]]]:
     """(test, its temperatures) where all of them stand as Fahrenheit's do to degrees in other tests: a part that was
-    warm before leaves the air around it as it is."""
+    warm before leaves the air around it as it is. Of a single one nothing but `start_state: warm` says that."""
     coldest: dict[str, dict[str, float]] = {}
     for levels in tests:
         for name, course in levels.series.items():
@@ -61,7 +61,8 @@ def _warmer_throughout(tests: Sequence[Levels]) -> list[tuple[str, list[str]]]:
     told = []
     for levels in tests:
         own = [name for name in found if levels.test in coldest[name]]
-        if len(own) >= _FEWEST and all(levels.test in found[name] for name in own):
+        alone = len(own) == 1 and sum(c.quantity == "temperature" for c in levels.series.values()) == 1
+        if (len(own) >= _FEWEST or alone) and all(levels.test in found[name] for name in own):
             told.append((levels.test, own))
     return told
 
@@ -71,6 +72,7 @@ def _in_fahrenheit(test: str, names: Sequence[str]) -> str:
     return (
         f"{shown}: in {test} the coldest readings are to those of the other tests as degF are to degC. If that file is "
         f"in degF, write its unit into the file, or under the test: channels: {{{names[0]}: {{unit: degF}}}}"
+        + ("; if it was warm before its test: start_state: warm" if len(names) == 1 else "")
     )
 
 
