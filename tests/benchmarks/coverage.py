@@ -12,10 +12,10 @@ truth, and say nothing: what is `held` less what is `open` are those that hold i
 that is open at one end the other counts. `where told`: without those that are open. In brackets: the interval of 95 %
 of the share itself, by Wilson's score. `--check` counts an open interval as one that misses.
 
-`--ahead` asks the bands of predictions instead: of each machine one more test is locked, the probe of the others errs by
-a factor that its calibration says (0.2 %, k = 1), and what counts is the share of the locked test's samples inside of the
-band of 95 %, from its first minutes as measured by a right probe. `lacking`: the same with the hall left out of a model
-of two effects, so that the machine has what the model has not.
+`--ahead` asks the bands of predictions instead: of each machine one more test is locked, the probe of the others errs
+by a factor that its calibration says (0.2 %, k = 1), and what counts is the share of the locked test's samples inside
+of the band of 95 %, from its first minutes as measured by a right probe. `lacking`: the same with the hall left out of
+a model of two effects, so that the machine has what the model has not.
 """
 
 from __future__ import annotations
@@ -199,7 +199,7 @@ def intervals(case: str, noise: str, seed: int, tests: int | None = None, hours:
 
 @dataclass(frozen=True)
 class Foretold:
-    """A locked test. inside: share of its samples in the band; half: median half width, and rmse: of what is left [um]."""
+    """A locked test. inside: share of its samples in the band; half: median half width; rmse: of what is left [um]."""
 
     case: str
     noise: str
