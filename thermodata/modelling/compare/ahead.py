@@ -4,7 +4,7 @@
 
 sd: of the parameters, carried to the prediction (`predictions.bands`). u: of the probe's sensitivity, a factor on all.
 s: root mean square of what is left on unseen tests, each from its first samples, as a prediction is; t: of Student's
-distribution with as many degrees of freedom as there are such tests, for within one all errors hang together. Y: the
+distribution with as many degrees of freedom as what is left there has independent values, one a test at least. Y: the
 largest that the model predicted in them: beyond it what is left is taken to grow in proportion.
 
 Source: docs/model.md#the-band-of-a-prediction
@@ -22,6 +22,7 @@ from thermodata.modelling.compare.left_out_error import LeftOut, counts
 from thermodata.modelling.predictions.predict import Predicted
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
+from thermodata.modelling.trust.uncertainty import effective_count
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.view.grid.dataset import Dataset, TestData
@@ -33,20 +34,21 @@ FEWEST = 2  # tests that say what is left
 @dataclass(frozen=True, slots=True)
 class Left:
     """What is left of a response on unseen tests. rms: in its unit, each test alike; reach: the largest prediction in
-    them; refitted: they were left out in turn, else they are verification tests."""
+    them; refitted: they were left out in turn, else they are verification tests; worth: independent values."""
 
     unit: str
     rms: float
     reach: float
     tests: tuple[str, ...]
     refitted: bool
+    worth: float
 
     @property
     def times(self) -> float:
-        """Half of an interval of 95 %, in standard deviations that are known from so many tests."""
+        """Half of an interval of 95 %, in standard deviations that are known from so many values."""
         from scipy.special import stdtrit
 
-        return float(stdtrit(len(self.tests), 0.975))
+        return float(stdtrit(self.worth, 0.975))
 
     def half(self, predicted: Float1D) -> Float1D:
         return self.times * self.rms * np.maximum(1.0, np.abs(predicted) / max(self.reach, 1e-9))
@@ -112,17 +114,23 @@ def _left(unseen: Sequence[tuple[FittedResponse, TestData]], refitted: bool) -> 
     found = [*_errors(unseen)]
     return Left(
         unseen[0][0].unit,
-        float(np.sqrt(np.mean([square for _, square, _ in found]))),
-        max(reach for _, _, reach in found),
-        tuple(name for name, _, _ in found),
+        float(np.sqrt(np.mean([square for _, square, _, _ in found]))),
+        max(reach for _, _, reach, _ in found),
+        tuple(name for name, _, _, _ in found),
         refitted,
+        sum(worth for _, _, _, worth in found),
     )
 
 
-def _errors(unseen: Iterable[tuple[FittedResponse, TestData]]) -> Iterator[tuple[str, float, float]]:
-    """(test, mean square of what is left, largest prediction), each from the test's first samples."""
+def _errors(unseen: Iterable[tuple[FittedResponse, TestData]]) -> Iterator[tuple[str, float, float, float]]:
+    """(test, mean square of what is left, largest prediction, independent values), each from its first samples."""
     for response, test in unseen:
         mask = response.mask(test)
         predicted = response.predict(test)
         gap = (response.measured(test) - predicted - response.offset(test, "zero"))[mask]
-        yield test.test, float(np.mean(gap**2)), float(np.abs(predicted[mask]).max())
+        yield (
+            test.test,
+            float(np.mean(gap**2)),
+            float(np.abs(predicted[mask]).max()),
+            effective_count(gap, [slice(0, len(gap))]),
+        )
