@@ -160,3 +160,15 @@ def test_models_that_go_stale_are_told_by_name_and_id(say: Callable[..., Said], 
     rows = json.loads(say("--store", store, "models", "--json").out)
     assert len(rows) == 2
     assert all(f"baseline {row['version']} {row['model']}" in said for row in rows)
+
+
+def test_two_names_of_one_model_are_told(fitted: Path, say: Callable[..., Said]) -> None:
+    store = fitted / "thermodata.store"
+    newest = StoreView(store).sql("select model from model order by created_at desc").fetchall()[0][0]
+    said = say("--store", store, "compare", "baseline", newest)
+    assert said.code == 0
+    assert f"baseline and {newest} are one model, {newest}: 'baseline' is the newest version of that name" in said.err
+    assert "the version before it is " in said.err
+    assert "are one model" not in say("--store", store, "compare", "baseline").err
+    against = say("--store", store, "compare", "baseline", "--against", newest)
+    assert "is compared with itself" in against.err

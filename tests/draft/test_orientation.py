@@ -30,6 +30,7 @@ def test_the_sign_of_a_displacement_in_micrometres_is_asked(tmp_path: Path) -> N
     (asked,) = [q for c in made.channels if c.name == "dZ" for q in c.said.questions]
     assert "which way does it count?" in asked
     assert "axis: Z, gain: 1 um/um, facing: ?, increases_with: ?" in asked
+    assert "the machine's sign already, + where the tool goes towards +Z: facing: +Z, increases_with: gap" in asked
 
 
 def test_no_axis_is_offered_to_a_displacement_whose_name_has_none(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import click
 
 from thermodata.cli.terminal import completing
 from thermodata.cli.terminal.common import Session, command, in_units_of, plain
-from thermodata.cli.terminal.stored_model import resolve
+from thermodata.cli.terminal.stored_model import resolve, tell_same
 from thermodata.errors import UsageError
 from thermodata.report.text.fit import (
     compare_text,
@@ -71,7 +71,9 @@ def compare_command(
     """
 
     def named(store: Store) -> list[str]:
-        return [resolve(store, ref, session) for ref in models or (None,)]
+        found = [resolve(store, ref, session) for ref in models or (None,)]
+        tell_same(store, models, found)
+        return found
 
     if against is not None and test_shown is not None:
         raise UsageError("--against and --contributions print two tables", hint="ask for one of them")
@@ -85,7 +87,9 @@ def compare_command(
         from thermodata.cli.model.besides import answer_against
 
         store = session.store()
-        answer_against(session, store, named(store), resolve(store, against), layout, tests)
+        beside, reference = named(store), resolve(store, against)
+        tell_same(store, [beside[-1], against], [beside[-1], reference])
+        answer_against(session, store, beside, reference, layout, tests)
         return
     if tests:
         raise UsageError("--test chooses rows of the table that --against prints", hint="add --against MODEL")

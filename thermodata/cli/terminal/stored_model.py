@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from thermodata.cli.terminal.common import Session, plain
+from thermodata.schema.words.sentences import listed
 
 if TYPE_CHECKING:
     from thermodata.store import Store
@@ -29,6 +31,22 @@ def resolve(store: Store, ref: str | None, session: Session | None = None) -> st
         if said is not None:
             click.echo(said, err=True)
     return found
+
+
+def tell_same(store: Store, refs: Sequence[str], models: Sequence[str]) -> None:
+    """Says on stderr which of several names are of one model, and by what its versions before are called: a name is of
+    its newest version. models: what each of refs was resolved to."""
+    from thermodata.store.catalogue.models import find_model, model_chain
+
+    ids = [find_model(store, m).model for m in models]
+    for model in dict.fromkeys(m for m in ids if ids.count(m) > 1):
+        names = list(dict.fromkeys(ref for ref, m in zip(refs, ids, strict=True) if m == model))
+        what = f"{listed(names)} are one model, {model}" if len(names) > 1 else f"{names[0]} is named twice"
+        stored = find_model(store, model)
+        before = [m.model for m in model_chain(store, model) if m.model != model]
+        newest = f": '{stored.name}' is the newest version of that name" if stored.name in names else ""
+        earlier = f"; the version before it is {before[-1]}" if before else ""
+        click.echo(f"{what}{newest}{earlier}; it is compared with itself", err=True)
 
 
 def with_stale(store: Store, model: str, answer: Any) -> dict[str, Any]:

@@ -23,11 +23,14 @@ _SHOWN_STEPS = 12
 def which_way(said: Guess) -> str:
     """The question for the sign of a displacement that no calibration turns to the machine's axes."""
     axis, name = said.axis or "?", f"sign_{said.axis.lower()}" if said.axis else "sign"
+    along = f"+{said.axis}" if said.axis else "+ of its axis"
     looks = f"+{axis} or -{axis}" if said.axis else "+X, -X, +Y, -Y, +Z or -Z"
     return (
         f"{ASKED} its sign is unknown until 'calibration: {name}' stands here, and {name}: "
         f"{calibration_for(axis, '?', '?')} under calibrations; facing: {looks}, where a probe that stands on the "
-        "table looks, and the opposite of where one in the spindle does; increases_with: gap or approach"
+        "table looks, and the opposite of where one in the spindle does; increases_with: gap or approach; a "
+        f"reading that has the machine's sign already, + where the tool goes towards {along}: facing: {along}, "
+        "increases_with: gap"
     )
 
 

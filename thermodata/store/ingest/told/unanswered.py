@@ -57,7 +57,8 @@ def _sign(axes: Sequence[str | None]) -> str:
     more = "".join(f", and {name(a)} with axis: {a or '?'}" for a in others)
     return (
         f"calibrations: {{{name(first)}: {{kind: scale, axis: {first or '?'}, gain: 1 um/um, facing: ?, "
-        f"increases_with: ?}}}}{more} ({f'+{first} or -{first}' if first else '+ or - of its axis'}; gap or approach)"
+        f"increases_with: ?}}}}{more} ({f'+{first} or -{first}' if first else '+ or - of its axis'}; gap or approach; "
+        f"a reading that has the machine's sign already: {f'+{first}' if first else '+ of its axis'}, gap)"
     )
 
 
