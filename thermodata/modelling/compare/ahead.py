@@ -22,7 +22,7 @@ from thermodata.modelling.compare.left_out_error import LeftOut, counts
 from thermodata.modelling.predictions.predict import Predicted
 from thermodata.modelling.terms.fitted import FittedModel
 from thermodata.modelling.terms.fitted_response import FittedResponse
-from thermodata.modelling.trust.uncertainty import effective_count
+from thermodata.modelling.trust.memory import effective_count
 from thermodata.plugin import Float1D
 from thermodata.schema.agreed.certainty import Z95
 from thermodata.view.grid.dataset import Dataset, TestData
