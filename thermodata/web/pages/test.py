@@ -15,7 +15,6 @@ from thermodata.errors import UsageError
 from thermodata.report.words.glossary import IN_SAMPLE
 from thermodata.report.words.numbers import base_role
 from thermodata.store import Store
-from thermodata.store.catalogue.stale import stale_line
 from thermodata.view.curves.predictions import Prediction, predictions, range_figures
 from thermodata.view.curves.rule_for import rules_for
 from thermodata.view.curves.window import Channel, Window, channels_of, read_window
@@ -61,7 +60,7 @@ def show(request: Request) -> Response:
         model=model,
         predicted=predicted,
         model_role=role,
-        stale=stale_line(store, model.model) if model else None,
+        stale=_stale(store, model),
         in_sample=IN_SAMPLE if role and role != base_role(role) else None,
         banded=any(p.deviations for p in predicted),
         chart=script_json(chart.as_json()),
@@ -153,6 +152,14 @@ def _model(store: Store, models: list[ModelRow], given: Mapping[str, str]) -> Mo
     """models: those of the test's campaign, which alone predict it."""
     named = given.get("model", "")
     return None if named == WITHOUT else model_in(store, models, named)
+
+
+def _stale(store: Store, model: ModelRow | None) -> str | None:
+    if model is None or not model.stale:
+        return None
+    from thermodata.store.catalogue.stale import stale_line  # it loads model files, which no plot needs
+
+    return stale_line(store, model.model)
 
 
 def _order(models: list[ModelRow], model: ModelRow | None) -> list[str]:
