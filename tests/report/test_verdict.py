@@ -693,3 +693,10 @@ def test_the_error_as_fitted_is_told_once_and_levels_that_make_little_of_it_are_
 def test_what_is_called_the_likeliest_is_though_what_the_locked_tests_refused_stands_first() -> None:
     text = verdict_sentence(found("unknown", [one("axis", probability=0.55), one("part", probability=0.6)]))
     assert "the likeliest that was logged is part (T), probability 60 %" in text
+
+
+@pytest.mark.parametrize(("p", "after", "seen"), [(0.005, 0.43, True), (0.02, 0.43, False), (0.005, 0.47, False)])
+def test_none_above_a_candidate_that_is_seen_says_that_none_may_be_named(p: float, after: float, seen: bool) -> None:
+    first = one("lag", p_value=p, rmse_um_before=0.54, rmse_um_after=after)
+    text = verdict_sentence(found("none", [first], rmse_um=0.54))
+    assert text.startswith(f"the open tests show no missing effect{' that may be named' if seen else ''}: ")

@@ -8,6 +8,7 @@ import pytest
 
 from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
 from thermodata.store.ingest.told.ends_apart import ends_apart
+from thermodata.store.ingest.told.offset_apart import offsets_apart
 from thermodata.store.ingest.told.whole_hours import whole_hours
 
 DAY, MINUTE = 86_400.0, 60.0
@@ -209,3 +210,40 @@ def test_a_log_that_ends_or_begins_long_before_another_is_told_with_its_tests() 
     assert begins.startswith("source 'nc' begins long after 'daq': 15 min in d3; ")
     assert "its first value" in begins
     assert ends_apart({"d0": tests["d0"], "d2": tests["d2"]}) == [], "within 5 min people switch two loggers off"
+
+
+def apart(by_s: float, count: int = 3, late_s: float = 0.0, longer_s: float = 0.0) -> dict[str, Any]:
+    """A test a day, in each of which the control's log stands by_s later than the recorder's."""
+    starts = [1.76e9 + day * DAY for day in range(count)]
+    return {
+        f"d{i}": [row("daq", t, 18000.0), row("nc", t + by_s + late_s * i, 18000.0 + longer_s)]
+        for i, t in enumerate(starts)
+    }
+
+
+@pytest.mark.parametrize(
+    ("logged_s", "offset_s", "fits_s"),
+    [
+        (-37 * MINUTE, -37 * MINUTE, 37 * MINUTE),  # slow, and declared the wrong way
+        (37 * MINUTE, 37 * MINUTE, -37 * MINUTE),
+        (0.0, 37 * MINUTE, 0.0),  # right as logged
+        (-37 * MINUTE, 37 * MINUTE, None),  # right as declared
+        (-20 * MINUTE, 37 * MINUTE, None),  # neither none nor the opposite sets it right
+        (-37 * MINUTE, -35 * MINUTE, 35 * MINUTE),
+    ],
+)
+def test_an_offset_of_the_wrong_sign_is_told(logged_s: float, offset_s: float, fits_s: float | None) -> None:
+    said = offsets_apart(apart(logged_s + offset_s), {"nc": offset_s})
+    assert [one.fits_s for one in said] == ([] if fits_s is None else [fits_s])
+    if fits_s == 37 * MINUTE:
+        assert "begins and ends 74 min earlier than 'daq' in all 3 tests" in str(said[0])
+        assert "with clock: {offset: 2220 s} both ends agree" in str(said[0])
+        assert "of a clock that is slow is positive" in str(said[0])
+
+
+@pytest.mark.parametrize(
+    "rows", [apart(-74 * MINUTE, count=1), apart(-74 * MINUTE, late_s=300.0), apart(-74 * MINUTE, longer_s=900.0)]
+)
+def test_logs_that_do_not_stand_alike_in_all_tests_tell_of_no_offset(rows: dict[str, Any]) -> None:
+    assert offsets_apart(rows, {"nc": -37 * MINUTE}) == []
+    assert offsets_apart(apart(-74 * MINUTE), {}) == []

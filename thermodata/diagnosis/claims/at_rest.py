@@ -40,20 +40,20 @@ def at_rest(
     for name, info in channels.items():
         if info.quantity not in MOVING or info.is_mask:
             continue
-        does = [_does(t, name, info.quantity) for t in others]
-        most = max(does, default=0.0)
-        if most <= 0 or max((_does(t, name, info.quantity) for t in open_tests), default=0.0) > STANDS * most:
+        sizes = [does(t, name, info.quantity) for t in others]
+        most = max(sizes, default=0.0)
+        if most <= 0 or max((does(t, name, info.quantity) for t in open_tests), default=0.0) > STANDS * most:
             continue
         heats = info.quantity != "position"
         warms = tuple(n for n, c in channels.items() if heats and c.quantity == "temperature" and _is_of(info.at, c.at))
         effects = [o.effect.name for o in named if {name, *warms}.intersection(o.channels)]
-        moves_in = tuple(t for t, size in zip(others, does, strict=True) if size > STANDS * most)
+        moves_in = tuple(t for t, size in zip(others, sizes, strict=True) if size > STANDS * most)
         if effects:
             found.append(AtRest(name, warms, tuple(dict.fromkeys(effects)), moves_in))
     return found
 
 
-def _does(test: TestData, name: str, quantity: str) -> float:
+def does(test: TestData, name: str, quantity: str) -> float:
     """How far it goes from rest; a position has none, and goes from end to end."""
     values = test.values.get(name)
     seen = values[np.isfinite(values)] if values is not None else np.empty(0)

@@ -10,6 +10,7 @@ from thermodata.diagnosis.claims.detection import LARGE, of_each_effect
 from thermodata.diagnosis.claims.rules import rules
 from thermodata.diagnosis.locked.confirm import Confirmation
 from thermodata.diagnosis.tell import next_test
+from thermodata.diagnosis.tell.worked import worked
 from thermodata.diagnosis.verdict.investigate import Investigation
 from thermodata.diagnosis.verdict.judge import Judged, Judgement, equivalents
 from thermodata.diagnosis.weigh.scored import Scored
@@ -54,8 +55,9 @@ def advice(
         return next_test.to_bear_out(resting, data.channels)
     if first is not None and (only := _only_test(first, investigation)) is not None:
         return next_test.to_repeat(first.candidate, only, data.channels)
-    tests = len({b.test.key for b in investigation.problem.blocks})
-    return next_test.to_find(tests, investigation.spots, data.channels, first)
+    took_part = {b.test.key: b.test for b in investigation.problem.blocks}
+    sources = worked(list(took_part.values()), data.channels)
+    return next_test.to_find(len(took_part), investigation.spots, data.channels, first, sources)
 
 
 def _rests(j: Judged) -> bool:

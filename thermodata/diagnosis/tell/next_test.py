@@ -8,6 +8,7 @@ from thermodata.diagnosis.candidates.of_library import CandidateEffect
 from thermodata.diagnosis.candidates.unread import reads
 from thermodata.diagnosis.claims.probability import elsewhere
 from thermodata.diagnosis.question.problem import MIN_ROWS
+from thermodata.diagnosis.tell.worked import Worked
 from thermodata.diagnosis.weigh.scored import Scored
 from thermodata.schema.answers.diagnosis import WeakSpot
 from thermodata.schema.words.places import heat_at, is_around
@@ -165,17 +166,23 @@ def to_repeat(first: CandidateEffect, test: str, channels: Mapping[str, ChannelI
 
 
 def to_find(
-    tests: int, spots: Sequence[WeakSpot], channels: Mapping[str, ChannelInfo], first: Scored | None = None
+    tests: int,
+    spots: Sequence[WeakSpot],
+    channels: Mapping[str, ChannelInfo],
+    first: Scored | None = None,
+    sources: Worked | None = None,
 ) -> str:
     """The advice where nothing could be claimed. tests: those that took part; spots: where the model fails most.
-    first: the candidate that ranks first, whose channels are logged and are no advice to log."""
+    first: the candidate that ranks first, whose channels are logged and are no advice to log; sources: what the tests
+    work by itself."""
+    sources = sources or Worked()
     if tests == 0:
         return (
             f"no test took part, for none has {MIN_ROWS} samples at the model's step: longer tests, or a shorter step "
             "in the model"
         )
     if tests < ENOUGH_TESTS:
-        add = "add tests that each heat one source alone (spindle, one axis, table, hall air), until each acts in two"
+        add = _one_source_each(sources)
         if tests > FEW_TESTS:
             return f"{counted(tests, 'test')} took part; {add} at least: no other test foretells what acts in one alone"
         all_at_once, one_each = (listed([f"{share} with {n}" for n, share in some]) for some in (ALL_AT_ONCE, ONE_EACH))
@@ -196,7 +203,10 @@ def to_find(
         are, rank, them = ("is", "ranks", "it") if len(of) == 1 else ("are", "rank", "them")
         closed = first.looked is None
         opened = f", or open the locked tests for {first.candidate.id} (thermodata confirm)" if closed else ""
+        there = sources.tests_of([channels[c] for c in of if c in channels])
         alone = f"run a test that moves {them} alone{opened}"
+        if there:
+            alone = f"repeat {listed(there, 'or')}, where what moves {them} works alone, or run it longer{opened}"
         logged = f"{listed(of)} {are} logged and {rank} first, so {alone}; if it is not that, "
     if not logged and spots and spots[0].after_warm_start:
         return (
@@ -208,6 +218,21 @@ def to_find(
         "yet near the "
         f"parts that work where the model fails most ({worst})"
     )
+
+
+def _one_source_each(sources: Worked) -> str:
+    """What tests to add, where there are few."""
+    each = "add tests that each heat one source alone"
+    lacking = sources.lacking()
+    if not sources.acts:
+        return f"{each} (spindle, one axis, table, hall air), until each acts in two"
+    if not lacking:
+        worked = listed([s for s in sources.acts if sources.alone.get(s)])
+        return f"{worked} are worked alone in a test already, so add tests that work several, until each acts in two"
+    once = [s for s in lacking if sources.alone.get(s)]
+    never = [s for s in lacking if s not in once]
+    lacks = [f"none is of {listed(never, 'or')} yet" if never else "", f"{listed(once)} in one only" if once else ""]
+    return f"{each} ({'; '.join(filter(None, lacks))}), until each acts in two"
 
 
 def _places(candidate: CandidateEffect, channels: Mapping[str, ChannelInfo]) -> set[str | None]:

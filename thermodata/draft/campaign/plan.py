@@ -19,10 +19,11 @@ from thermodata.draft.campaign.speeds_told import with_told_speeds
 from thermodata.draft.courses.warm import warm_starts
 from thermodata.draft.files.letters_of_files import common
 from thermodata.draft.files.raw_file import RawFile
+from thermodata.draft.folder.clock_said import clocks_said
 from thermodata.draft.folder.file_copies import other_versions
 from thermodata.draft.folder.group import counted_on, tests_of
 from thermodata.draft.folder.legend import with_legends
-from thermodata.draft.folder.notes import notes_of
+from thermodata.draft.folder.notes import described_in, notes_of
 from thermodata.draft.folder.one_or_many import one_or_many
 from thermodata.draft.folder.one_signal import joined_over_units
 from thermodata.draft.folder.packed_pieces import packed_pieces
@@ -99,6 +100,7 @@ def plan(campaign: str, folder: Path, found: Scan, before: ZonesBefore = NO_ZONE
             *joined,
             *mended_clocks(groups),
             *legends,
+            *clocks_said(folder, described_in(folder, texts)),
             *of_groups.notes,
             *closed_workbooks(found.others),
             *_hardly_looked_at(found.logs),

@@ -40,8 +40,7 @@ class Note:
 def notes_of(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[RawFile]]) -> dict[str, Note]:
     """Test -> what is said of it. texts: files beside the logs, which no reader takes; of a test that several
     lines name nothing is taken from them."""
-    described = sorted(p.name for p in folder.glob("*.md") if p.is_file() and not p.is_symlink())
-    found = _by_lines(folder, [*described, *texts], tests)
+    found = _by_lines(folder, described_in(folder, texts), tests)
     for test, files in tests.items():
         if test in found:
             continue
@@ -55,10 +54,8 @@ def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[R
     called = {name: test for test, files in tests.items() for name in _names(test, files)}
     lines: dict[str, list[Note]] = {}
     for path in texts:
-        if PurePosixPath(path).suffix.lower() not in _NOTES or not (said := _read(folder / path, _LARGEST + 1)):
-            continue
         head: list[str] = []
-        for line in said.splitlines() if len(said) <= _LARGEST else ():
+        for line in text_of_notes(folder, path).splitlines():
             cells = [c.strip() for c in line.strip(" |").split("|")] if "|" in line else []
             first, rest = _first(line) if len(cells) < 2 else (cells[0].casefold(), ", ".join(cells[1:]))
             test = called.get(first)
@@ -70,6 +67,17 @@ def _by_lines(folder: Path, texts: Sequence[str], tests: Mapping[str, Sequence[R
                 more = {k: v for k, v in said_by(pieces).conditions.items() if k in _TAKEN}
                 lines.setdefault(test, []).append(Note(path, {**more, **tool_and_coolant(pieces)}, rest[:_SHOWN]))
     return {test: notes[0] for test, notes in lines.items() if len(notes) == 1}
+
+
+def text_of_notes(folder: Path, path: str) -> str:
+    """What stands in a text that somebody may have written; '' of other files, and of large ones."""
+    said = _read(folder / path, _LARGEST + 1) if PurePosixPath(path).suffix.lower() in _NOTES else ""
+    return said if len(said) <= _LARGEST else ""
+
+
+def described_in(folder: Path, texts: Sequence[str]) -> list[str]:
+    """The texts in which somebody may have described the tests."""
+    return [*sorted(p.name for p in folder.glob("*.md") if p.is_file() and not p.is_symlink()), *texts]
 
 
 def _names(test: str, files: Sequence[RawFile]) -> set[str]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 NOT_EXCLUDED = 0.1
 """A cause of this probability is named though none is said to be missing."""
 _UNNAMED = ("lag", "control_compensation")  # which say no more than the channels that they read
+_NO_CHANCE, _MUCH = 0.01, 0.3  # a p-value, and a share of the squared error, with which a candidate is seen
 _MOST_TWINS = 2
 _MOST_STEPS = 3
 UNLIKELY = 0.05
@@ -125,7 +126,7 @@ def _verdict(found: Diagnosis) -> str:
         return "; ".join(filter(None, [f"{NO_MORE}{clock_in_doubt(found)}", told_with_errors(found), open_still]))
     if found.verdict == "none" or any(c.as_modelled for c in refined):
         doubt = clock_in_doubt(found)
-        named = " that may be named" if _is_likely(_not_excluded_one(found)) else ""
+        named = " that may be named" if _is_likely(_not_excluded_one(found)) or _one_is_seen(found) else ""
         colon = "; " if doubt else ": "
         mend = offered(found)
         beside = "where its effects may act otherwise, " if mend else ""
@@ -136,6 +137,14 @@ def _verdict(found: Diagnosis) -> str:
         "refine": f"{NO_MORE}, but an effect that is there acts otherwise than modelled",
         "not_testable": "these tests can't tell which effect is missing",
     }[found.verdict]
+
+
+def _one_is_seen(found: Diagnosis) -> bool:
+    """Whether the list begins with what is no chance and takes much of the error away."""
+    first = next((c for c in found.candidates if not c.refinement), None)
+    if first is None or first.p_value is None or first.rmse_um_after is None or not first.rmse_um_before:
+        return False
+    return first.p_value <= _NO_CHANCE and 1 - (first.rmse_um_after / first.rmse_um_before) ** 2 >= _MUCH
 
 
 def clock_in_doubt(found: Diagnosis) -> str:

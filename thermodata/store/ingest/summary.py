@@ -18,6 +18,7 @@ from thermodata.store.ingest.told.beside_each_other import odd_clocks
 from thermodata.store.ingest.told.empty_channels import nothing_brought
 from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
+from thermodata.store.ingest.told.offset_apart import offsets_apart
 from thermodata.store.ingest.told.same_content import same_content
 from thermodata.store.ingest.told.spec_lines import with_lines
 from thermodata.store.ingest.told.unanswered import unanswered
@@ -122,11 +123,16 @@ def _odd_ends(layers: Layers, inventory: Inventory, looked_at: Mapping[str, list
         name for name, s in campaign.sources.items() if s.clock.offset is not None or s.clock.align_to is not None
     }
     hours = whole_hours(rows, {test: of_all.union(clocks) for test, clocks in declared.items()})
+    offsets = {name: by_s for name, s in campaign.sources.items() if (by_s := s.clock.offset)}
+    dated = {
+        t.id: [{**r, "clock": "absolute"} if t.start is not None else r for r in rows[t.id]] for t in campaign.tests
+    }
+    moved = offsets_apart(dated, offsets)
     odd = odd_clocks(rows)
     otherwise = {test for one in odd for test in one.tests}
     whole = {t.id: rows[t.id] for t in campaign.tests if t.window is None and t.id not in otherwise}
-    apart = [] if hours else ends_apart(whole)  # logs whole hours apart do not end early
-    return [*map(str, hours), *(said for one in odd for said in one.beside(declared)), *apart]
+    apart = [] if hours or moved else ends_apart(whole)  # logs whole hours apart do not end early
+    return [*map(str, moved), *map(str, hours), *(said for one in odd for said in one.beside(declared)), *apart]
 
 
 def _left_out(path: Path, files_of_tests: Mapping[str, Sequence[str]]) -> list[str]:

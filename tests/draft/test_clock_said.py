@@ -1,0 +1,44 @@
+"""A text that says that a clock is slow gets the offset, with its sign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from thermodata.draft.folder.clock_said import offset_of
+
+from .conftest import Said
+
+
+@pytest.mark.parametrize(
+    ("sentence", "offset"),
+    [
+        ("Control clock is 37 min SLOW against the PC all week", "37 min"),
+        ("the clock of the NC was 2,5 s fast", "-2.5 s"),
+        ("NC clock 1 h ahead", "-1 h"),
+        ("Die Uhr der Steuerung geht 4 Minuten nach", "4 min"),
+        ("Die Uhr der Steuerung geht 4 min vor", "-4 min"),
+        ("hodiny CNC o 12 min pozadu", "12 min"),
+        ("Nach 4 min die Uhr gestellt", None),
+        ("clock set 5 min before", None),
+        ("the clock is slow", None),
+        ("the spindle was 30 s slow", None),
+        ("clock 5 min slow, later 3 min slow", None),
+    ],
+)
+def test_the_offset_of_a_sentence(sentence: str, offset: str | None) -> None:
+    assert offset_of(sentence) == offset
+
+
+def test_the_draft_says_it(tmp_path: Path, say: Callable[..., Said]) -> None:
+    rows = "".join(f"2026-03-02 08:{k:02d}:00,{20 + k / 10}\n" for k in range(60))
+    (tmp_path / "a.csv").write_text(f"Time,T_bed [degC]\n{rows}")
+    (tmp_path / "README.txt").write_text("Lab 3. Control clock is 37 min SLOW against the PC. Nice weather.\n")
+    assert say("init", tmp_path).code == 0
+    text = (tmp_path / "campaign.yaml").read_text()
+    assert (
+        "says 'Control clock is 37 min SLOW against the PC': at the source of that clock, clock: {offset: 37 min}"
+        in text
+    )
