@@ -25,6 +25,7 @@ from ..benchmarks.makes.truth import Plan, channels
 HERE = "tests.benchmarks.makes"
 ORDINARY = {"one": 13, "two": 4, "none": 3, "not_logged": 2, "outside": 1, "fault": 1}
 KINDS = {  # of a block of cases of each make
+    "examiner_mill": ORDINARY | {"one": 15},
     "heavy_lathe": ORDINARY,
     "horizontal_centre": ORDINARY,
     "long_lathe": {"one": 10, "two": 2, "half": 2, "none": 3, "not_logged": 1},
@@ -129,6 +130,19 @@ def test_what_acts_in_half_of_the_tests_of_the_long_lathe_rests_in_the_others() 
         assert not any(r.inputs[name].any() for r in runs[1::2] for name in driven)
 
 
+def test_on_the_examiner_mill_a_case_asks_for_a_tilt_and_logs_what_goes_with_its_cause_and_is_none(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    truth = written(monkeypatch, "examiner_mill", tmp_path, 1)
+    campaign, model = load_campaign(tmp_path / "campaign.yaml"), load_model(tmp_path / "model.yaml")
+    assert truth["axis"] == "T"
+    assert campaign.channels[model.response.channel].derive == "(dY_high - dY_low) / 160 mm"
+    decoy, place, _ = truth["lab"]["decoy"]
+    assert campaign.channels[decoy].at == place
+    (hidden,) = truth["hidden"]
+    assert decoy not in channels(" ".join([*hidden["right"], *hidden["twins"]]))
+
+
 def test_a_fault_begins_where_it_is_told() -> None:
     d, slip = slipped(np.zeros(6), 5.0, 3, 1800.0, "t1")
     assert d.tolist() == [0, 0, 0, 5, 5, 5]
@@ -136,6 +150,8 @@ def test_a_fault_begins_where_it_is_told() -> None:
     x, loose = come_loose(np.full(4, 40.0), np.full(4, 20.0), 2, 1800.0, "T_brg", "t1")
     assert x.tolist() == [40, 40, 25, 25]
     assert loose == "T_brg comes loose in t1 at 1.00 h"
+    x, _ = come_loose(np.full(4, 40.0), np.full(4, 20.0), 2, 1800.0, "T_brg", "t1", share=0.5)
+    assert x.tolist() == [40, 40, 30, 30]
 
 
 def test_every_make_is_tested() -> None:

@@ -13,10 +13,12 @@ def slipped(d: Array, um: float, at: int, dt_s: float, test: str) -> tuple[Array
     return d + um * (np.arange(len(d)) >= at), told
 
 
-def come_loose(x: Array, air: Array, at: int, dt_s: float, sensor: str, test: str) -> tuple[Array, str]:
-    """What a sensor reads that comes loose, shape (n,): three quarters of the air. at: the first sample after."""
+def come_loose(
+    x: Array, air: Array, at: int, dt_s: float, sensor: str, test: str, share: float = 0.75
+) -> tuple[Array, str]:
+    """What a sensor reads that comes loose, shape (n,). at: the first sample after. share: of the air in it."""
     told = f"{sensor} comes loose in {test} at {at * dt_s / 3600:.2f} h"
-    return np.where(np.arange(len(x)) < at, x, 0.25 * x + 0.75 * air), told
+    return np.where(np.arange(len(x)) < at, x, (1 - share) * x + share * air), told
 
 
 def behind(minutes: int, test: str) -> str:

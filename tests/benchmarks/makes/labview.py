@@ -17,12 +17,14 @@ Signals = Mapping[str, tuple[str, Array]]  # by name: unit and samples, shape (n
 
 @dataclass(frozen=True)
 class Spelling:
-    """How one version writes LVM: before decimals, digits of a sample, the first X, cells after a header's end."""
+    """How one version writes LVM: before decimals, digits of a sample, the first X, cells after a header's end, the
+    fraction of a second in its head."""
 
     mark: str
     digits: int
     zero: str
     padded: bool
+    fraction: str = "0"
 
 
 def lvm(path: Path, start: datetime, dt_s: float, signals: Signals, spelling: Spelling) -> None:
@@ -30,7 +32,7 @@ def lvm(path: Path, start: datetime, dt_s: float, signals: Signals, spelling: Sp
     units, mark = [unit for unit, _ in signals.values()], spelling.mark
     columns = [x for _, x in signals.values()]
     count, n = len(units), len(columns[0])
-    day, time = f"{start:%Y/%m/%d}", f"{start:%H:%M:%S}{mark}0"
+    day, time = f"{start:%Y/%m/%d}", f"{start:%H:%M:%S}{mark}{spelling.fraction}"
     head = [
         "LabVIEW Measurement\t",
         "Writer_Version\t2",

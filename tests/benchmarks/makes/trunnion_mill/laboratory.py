@@ -174,7 +174,8 @@ class Laboratory:
         end, export = CONTROLS[self.control]
         export(self.raw / f"{r.id}{end}", r.start + late, nc)
         times = [r.start - timedelta(hours=1) + timedelta(minutes=k) for k in range(0, r.steps, 2)]
-        RECORDERS[self.recorder](self.raw / f"{r.id}.{self.recorder}", times, {c: x[::2] for c, x in air.items()})
+        recorded = {SENSORS[c].signal: x[::2] for c, x in air.items()}
+        RECORDERS[self.recorder](self.raw / f"{r.id}.{self.recorder}", times, recorded)
 
     def _jumps(self, first: Run) -> None:
         level = np.repeat(np.cumsum([0, *MOVES_UM]), 60)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from mcap.writer import Writer
 
 from ..bodies import Array
+from ..recorder import mcap
 from .sensors import SENSORS, UNITS
-
-EPOCH = datetime(1970, 1, 1)
 
 
 def heidenhain(path: Path, start: datetime, data: Mapping[str, Array]) -> None:
@@ -43,25 +40,10 @@ def fanuc(path: Path, start: datetime, data: Mapping[str, Array]) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def parquet(path: Path, times: list[datetime], data: Mapping[str, Array]) -> None:
-    """times: in UTC, without a zone."""
-    columns = {SENSORS[c].signal: pa.array(x) for c, x in data.items()}
+def parquet(path: Path, times: Sequence[datetime], data: Mapping[str, Array]) -> None:
+    """times: in UTC, without a zone. data: by signal, shape (n,)."""
+    columns = {signal: pa.array(x) for signal, x in data.items()}
     pq.write_table(pa.table({"time": pa.array(times, pa.timestamp("us", tz="UTC")), **columns}), path)
-
-
-def mcap(path: Path, times: list[datetime], data: Mapping[str, Array]) -> None:
-    """Messages of JSON, one each time, with all channels. times: in UTC, without a zone."""
-    numbers = {SENSORS[c].signal: {"type": "number"} for c in data}
-    said = json.dumps({"type": "object", "properties": numbers}).encode()
-    with path.open("wb") as file:
-        log = Writer(file)
-        log.start()
-        topic = log.register_channel("/air", "json", log.register_schema("air", "jsonschema", said))
-        for i, t in enumerate(times):
-            ns = round((t - EPOCH).total_seconds()) * 10**9
-            values = {SENSORS[c].signal: round(float(x[i]), 3) for c, x in data.items()}
-            log.add_message(topic, ns, json.dumps(values).encode(), ns)
-        log.finish()
 
 
 CONTROLS = {"heidenhain": (".sco", heidenhain), "fanuc": ("_nc.csv", fanuc)}  # how their exports end, who writes them
