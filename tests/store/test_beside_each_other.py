@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from thermodata.store.ingest.told.beside_each_other import odd_clocks, together
+from thermodata.store.ingest.told.ends import with_pauses
 from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.offset_apart import offsets_apart
 from thermodata.store.ingest.told.whole_hours import whole_hours
@@ -204,12 +205,14 @@ def test_a_log_that_ends_or_begins_long_before_another_is_told_with_its_tests() 
     tests = {f"d{day}": [row("daq", 1.76e9 + day * DAY, 18000.0)] for day in range(4)}
     for day, (late_s, lasts_s) in enumerate([(0.0, 18000.0), (0.0, 16680.0), (0.0, 17820.0), (900.0, 17000.0)]):
         tests[f"d{day}"].append(row("nc", 1.76e9 + day * DAY + late_s, lasts_s))
-    ends, begins = ends_apart(tests)
+    ends, begins = ends_apart(tests, {"daq"})
     assert ends.startswith("source 'nc' ends long before 'daq': 22 min in d1; ")
     assert "its last value" in ends
     assert begins.startswith("source 'nc' begins long after 'daq': 15 min in d3; ")
     assert "its first value" in begins
-    assert ends_apart({"d0": tests["d0"], "d2": tests["d2"]}) == [], "within 5 min people switch two loggers off"
+    assert ends_apart({"d0": tests["d0"], "d2": tests["d2"]}, {"daq"}) == [], (
+        "within 5 min people switch two loggers off"
+    )
 
 
 def apart(by_s: float, count: int = 3, late_s: float = 0.0, longer_s: float = 0.0) -> dict[str, Any]:
@@ -247,3 +250,14 @@ def test_an_offset_of_the_wrong_sign_is_told(logged_s: float, offset_s: float, f
 def test_logs_that_do_not_stand_alike_in_all_tests_tell_of_no_offset(rows: dict[str, Any]) -> None:
     assert offsets_apart(rows, {"nc": -37 * MINUTE}) == []
     assert offsets_apart(apart(-74 * MINUTE), {}) == []
+
+
+def test_only_what_ends_before_the_displacement_does_is_told_and_a_pause_is_no_end() -> None:
+    day = {"d0": [row("daq", 1.76e9, 18000.0), row("hall", 1.76e9 - 2 * DAY, 7 * DAY)]}
+    assert ends_apart(day, {"daq"}) == [], "a log of the whole week lasts longer than any test"
+    begun = {"d0": [row("daq", 1.76e9 + 900.0, 17000.0), row("nc", 1.76e9, 18000.0)]}
+    assert ends_apart(begun, {"daq"}) == [], "no model holds a response"
+    short = {"d0": [{**row("daq", 1.76e9, 18000.0), "stream": ""}, {**row("nc", 1.76e9, 16200.0), "stream": ""}]}
+    gap = {"source": "nc", "stream": "", "flag": "gap", "from_s": 3600.0, "to_s": 5400.0}
+    assert len(ends_apart(short, {"daq"})) == 1
+    assert ends_apart(with_pauses(short, {"d0": [gap, gap]}), {"daq"}) == []

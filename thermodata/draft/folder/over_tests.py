@@ -20,17 +20,21 @@ def over_tests(
     """Test -> the one file that runs from its beginning to its end, its courses being those of the test; empty where
     another than one does for any test, or for each test another one. spans: test -> its first and last time [ns];
     local: whether times of one of the two may be whole hours ahead."""
-    for hours in sorted(range(-13, 15) if local else (0,), key=abs):
-        found: dict[str, tuple[RawFile, ...]] = {}
+    fits: list[dict[str, tuple[RawFile, RawFile]]] = []  # for each number of hours: the file, and the part of it
+    for hours in range(-13, 15) if local else (0,):
+        found: dict[str, tuple[RawFile, RawFile]] = {}
         for test, (begin, end) in spans.items():
             first, last = begin + hours * _HOUR_NS, end + hours * _HOUR_NS
             running = [f for f in files if _runs(f, first, last)]
             if len(running) != 1:
                 break
-            found[test] = (_within(running[0], first, last),)
-        if len(found) == len(spans) and len({f.path for own in found.values() for f in own}) < len(found):
-            return found
-    return {}
+            found[test] = running[0], _within(running[0], first, last)
+        if len(found) == len(spans) and len({whole.path for whole, _ in found.values()}) < len(found):
+            fits.append(found)
+    if len({tuple(whole.path for whole, _ in found.values()) for found in fits}) != 1:
+        return {}
+    # a day's file holds a test at many hours: which part of it is the test's nobody knows before its zone
+    return {test: (part if len(fits) == 1 else whole,) for test, (whole, part) in fits[0].items()}
 
 
 def _runs(file: RawFile, first: int, last: int) -> bool:

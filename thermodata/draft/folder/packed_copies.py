@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Collection, Mapping, Sequence
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 from thermodata.errors import FormatError
@@ -26,26 +28,30 @@ def packed_copies(folder: Path, paths: Sequence[PurePosixPath]) -> dict[PurePosi
         else:
             loose.setdefault(path.name, []).append(path)
     found = {}
+    digest, size = cache(_digest), cache(size_of)  # a log of one length lies in the folder of each test
     for path in packed:
-        of = next((o for o in loose.get(as_unpacked(path).name, ()) if _equal(folder / path, folder / o)), None)
+        others = loose.get(as_unpacked(path).name, ())
+        if archive_of(folder / path) is not None:
+            others = [o for o in others if size(folder / o) == _size(folder / path)]
+        of = next((o for o in others if digest(folder / path) == digest(folder / o) is not None), None)
         if of is not None:
             found[path] = of
     return found
 
 
-def _equal(packed: Path, other: Path) -> bool:
+def _size(path: Path) -> int | None:
     try:
-        if archive_of(packed) is not None and size_of(packed) != size_of(other):
-            return False
-        with held(packed) as real, real.open("rb") as a, other.open("rb") as b:
-            if real.stat().st_size != size_of(other):
-                return False
-            while part := a.read(_PART):
-                if part != b.read(_PART):
-                    return False
+        return size_of(path)
     except (FormatError, OSError):
-        return False
-    return True
+        return None
+
+
+def _digest(path: Path) -> bytes | None:
+    try:
+        with held(path) as real, real.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").digest()
+    except (FormatError, OSError):
+        return None
 
 
 def by_archive(
@@ -66,7 +72,7 @@ def by_archive(
         archive = next((a for a in whole if path.startswith(f"{a}/")), None)
         if archive is None:
             out[path] = why
-        else:
+        elif archive not in out:
             named = with_count([p.removeprefix(f"{archive}/") for p, _ in whole[archive]], _SHOWN)
             out[archive] = f"no file in it is read as a log ({named}): {whole[archive][0][1]}"
     return list(out.items())

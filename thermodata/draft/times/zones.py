@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from zoneinfo import ZoneInfo
@@ -95,6 +96,7 @@ def _ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int]] | Non
 
 def _each_ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int, str]] | None:
     """The same with the name of each test's first log."""
+    of = Counter(f.path for files in group.tests.values() for f in files[:1])
     pairs = [
         (f.start_ns, begin, f.path.name)
         for g in groups
@@ -102,6 +104,7 @@ def _each_ahead(group: Group, groups: Sequence[Group]) -> list[tuple[int, int, s
         for test, files in group.tests.items()
         if test in g.tests
         for f in files[:1]
+        if of[f.path] == 1  # that of several tests begins with none of them
         if f.start_ns is not None and (begin := begin_of(g.tests[test])) is not None
     ]
     whole = [(round(h), b, name) for a, b, name in pairs if abs((h := (a - b) / _HOUR_NS) - round(h)) < 0.25]

@@ -42,7 +42,7 @@ class ZonesBefore:
         """What a question adds where it asks for a zone though some were declared; '' where none was."""
         if not self.zones:
             return ""
-        each = [f"{zone} of {source}" if source else zone for source, zone in self.zones.items()]
+        each = [f"{zone} of {source}" if source.strip() else zone for source, zone in self.zones.items()]
         return f"; the campaign file before declares {with_count(each, _SHOWN)}"
 
 
@@ -55,7 +55,7 @@ def zones_before(path: Path) -> ZonesBefore:
     try:
         data = read_document(path).data or {}
     except ThermodataError:  # somebody is writing it
-        found = {name: zone for name, zone in _LINE.findall(text) if is_zone(zone)}
+        found = {name or " " * k: zone for k, (name, zone) in enumerate(_LINE.findall(text), 1) if is_zone(zone)}
         return ZonesBefore(found)
     sources = data.get("sources")
     zones: dict[str, str] = {}

@@ -139,7 +139,7 @@ def _listed(archive: str, mark: tuple[int, ...]) -> Listed:
         )
     found = Listed(name)
     for m in members:
-        path = m.filename.replace("\\", "/")
+        path = m.filename.replace("\\", "/").removeprefix("./")
         parts = path.split("/")
         if any(p.startswith((".", "~$")) and p != ".." for p in parts) or "__MACOSX" in parts:
             continue

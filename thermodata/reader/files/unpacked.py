@@ -18,8 +18,9 @@ import zipfile
 import zlib
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, closing, contextmanager
+from contextlib import AbstractContextManager, closing, contextmanager, suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from io import BufferedReader
 from pathlib import Path
 from typing import IO, Any
@@ -36,6 +37,7 @@ _OPEN: dict[str, Callable[[BufferedReader], Any]] = {
     "gzip": lambda file: gzip.GzipFile(fileobj=file),
     "bzip2": bz2.BZ2File,
 }
+_UNNAMED, _PREFIX, _IN_USE = "thermodata-unpacking-", "thermodata-unpacked-", "in-use"
 _SUFFIXES = (".gz", ".bz2")
 PACKED = (SUFFIX, *_SUFFIXES)
 
@@ -123,22 +125,28 @@ def _copy(archive: Path, name: str) -> _Copy:
     if key in _copies:
         _copies.move_to_end(key)
         return _copies[key]
+    _drop(lambda: len(_copies) < _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES)
     made = _made(archive, name, status)
     _copies[key] = made
-    for old, copy in list(_copies.items())[:-8]:
-        if len(_copies) <= _KEPT and sum(c.size for c in _copies.values()) <= _KEPT_BYTES:
+    return made
+
+
+def _drop(enough: Callable[[], bool]) -> None:
+    """Drops what nobody reads, from what was asked for longest ago on, until it is enough."""
+    for old, copy in list(_copies.items()):
+        if enough():
             break
         if not copy.held:
             shutil.rmtree(copy.path.parent, ignore_errors=True)
             del _copies[old]
-    return made
 
 
 def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
     """Unpacks a file, under the name that it had, with the time of what it was packed in."""
     global _folder, _count
     if _folder is None:
-        _folder = Path(tempfile.mkdtemp(prefix="thermodata-unpacked-"))
+        _drop_left()
+        _folder = _own_folder()
     _count += 1
     place = _folder / str(_count)
     place.mkdir()
@@ -165,12 +173,39 @@ def _made(archive: Path, name: str, status: os.stat_result) -> _Copy:
     return _Copy(target, size)
 
 
+def _own_folder() -> Path:
+    """A folder that goes with the process. It has its name once its lock is held: before, nobody looks at it."""
+    made = Path(tempfile.mkdtemp(prefix=_UNNAMED))
+    with suppress(ImportError, OSError):
+        import fcntl
+
+        lock = os.open(made / _IN_USE, os.O_CREAT | os.O_RDWR)
+        fcntl.flock(lock, fcntl.LOCK_EX)  # for as long as this process
+    return made.rename(made.with_name(made.name.replace(_UNNAMED, _PREFIX)))
+
+
+def _drop_left() -> None:
+    """Deletes what processes that were killed left: nobody holds the lock of their folders."""
+    for left in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
+        with suppress(ImportError, OSError):
+            import fcntl
+
+            lock = os.open(left / _IN_USE, os.O_RDWR)
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(left, ignore_errors=True)
+            finally:
+                os.close(lock)
+
+
 def _written(source: AbstractContextManager[IO[bytes]], target: Path, where: str, most: int) -> int:
     size = 0
     try:
         with source as stream, target.open("wb") as out:
             while part := stream.read(_PART):
                 size += len(part)
+                if no_room(target):
+                    _drop(lambda: not no_room(target))
                 if size > most or no_room(target):
                     raise FormatError(
                         "unpacks to more than a log does" if size > most else "no room to unpack it",
@@ -203,5 +238,11 @@ def _stream(archive: Path, name: str) -> Iterator[IO[bytes]]:
                 yield stream
         return
     member = listed(archive).member(name)
-    with zipfile.ZipFile(archive) as zipped, zipped.open(member) as stream:
+    with _zipped(str(archive), same(archive.stat())).open(member) as stream:
         yield stream
+
+
+@lru_cache(maxsize=4)
+def _zipped(archive: str, mark: tuple[int, ...]) -> zipfile.ZipFile:
+    """An archive, whose directory is read once."""
+    return zipfile.ZipFile(archive)

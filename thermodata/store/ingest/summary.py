@@ -16,6 +16,7 @@ from thermodata.store.ingest.layers import Layers
 from thermodata.store.ingest.told.bare_conditions import conditions_without_unit
 from thermodata.store.ingest.told.beside_each_other import odd_clocks
 from thermodata.store.ingest.told.empty_channels import nothing_brought
+from thermodata.store.ingest.told.ends import with_pauses
 from thermodata.store.ingest.told.ends_apart import ends_apart
 from thermodata.store.ingest.told.losses import Losses, loss_row, told_once
 from thermodata.store.ingest.told.offset_apart import offsets_apart
@@ -88,7 +89,7 @@ def summarize(
             dict.fromkeys(
                 (
                     *same_content(files_of_tests, layers.files.hashes()),
-                    *_odd_ends(layers, inventory, rows["source"]),
+                    *_odd_ends(layers, inventory, rows),
                     *unanswered(campaign),
                     *conditions_without_unit(campaign, path),
                     *_left_out(path, files_of_tests),
@@ -112,17 +113,26 @@ def _losses(layers: Layers, notes: Mapping[str, TestNote]) -> Losses:
     ]
 
 
-def _odd_ends(layers: Layers, inventory: Inventory, looked_at: Mapping[str, list[Row]]) -> list[str]:
-    """looked_at: rows of the sources of those tests that were not left alone."""
-    known = {name: own for name, own in inventory.sources.items() if name in layers.left.tests}
-    campaign = layers.files.campaign
-    sources = {**known, **looked_at}
-    rows = {t.id: sources.get(t.id, []) for t in campaign.tests}
+def _odd_ends(layers: Layers, inventory: Inventory, of_layers: Mapping[str, Mapping[str, list[Row]]]) -> list[str]:
+    """of_layers: rows of the layers, of those tests that were not left alone."""
+    campaign, left = layers.files.campaign, layers.left.tests
+
+    def of_tests(known: Mapping[str, list[Row]], looked_at: Mapping[str, list[Row]]) -> dict[str, list[Row]]:
+        found = {**{name: own for name, own in known.items() if name in left}, **looked_at}
+        return {t.id: found.get(t.id, []) for t in campaign.tests}
+
+    rows = with_pauses(
+        of_tests(inventory.sources, of_layers["source"]),
+        of_tests(inventory.rows["quality_event"], of_layers["quality_event"]),
+    )
     declared = {t.id: t.clocks for t in campaign.tests}
     of_all = {
         name for name, s in campaign.sources.items() if s.clock.offset is not None or s.clock.align_to is not None
     }
-    hours = whole_hours(rows, {test: of_all.union(clocks) for test, clocks in declared.items()})
+    # what logs the displacement: another log is whole where it lasts as long as that
+    probes = {c.source for c in campaign.channels.values() if c.quantity == "displacement" and c.source}
+    apart_by_hours = whole_hours(rows, {test: of_all.union(clocks) for test, clocks in declared.items()})
+    hours = [one for one in apart_by_hours if {one.late, one.early} & probes]
     offsets = {name: by_s for name, s in campaign.sources.items() if (by_s := s.clock.offset)}
     dated = {
         t.id: [{**r, "clock": "absolute"} if t.start is not None else r for r in rows[t.id]] for t in campaign.tests
@@ -131,7 +141,7 @@ def _odd_ends(layers: Layers, inventory: Inventory, looked_at: Mapping[str, list
     odd = odd_clocks(rows)
     otherwise = {test for one in odd for test in one.tests}
     whole = {t.id: rows[t.id] for t in campaign.tests if t.window is None and t.id not in otherwise}
-    apart = [] if hours or moved else ends_apart(whole)  # logs whole hours apart do not end early
+    apart = [] if hours or moved else ends_apart(whole, probes)  # logs whole hours apart do not end early
     return [*map(str, moved), *map(str, hours), *(said for one in odd for said in one.beside(declared)), *apart]
 
 

@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from thermodata.errors import QuestionError
 from thermodata.plugin import Array, Int1D
 from thermodata.reader.text.cells.time_pattern import DAY_NS
 from thermodata.reader.text.times import timestamp
+from thermodata.reader.text.times.days import STANDS, Days, have_days, stands
 from thermodata.reader.text.times.local_clock import DayCount
 from thermodata.reader.text.times.second_sixty import at_second_sixty, said_of_sixty
 from thermodata.reader.text.times.time_formats import find_formats
@@ -44,6 +46,24 @@ def times_of_texts(cells: Sequence[str], timezone: str | None, declared: str | N
         return replace(found, notes=(*found.notes, *told))
     if form.zoned:
         return Stamps(ns, True, told)
+    utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
+    return Stamps(utc, True, (*notes, *told))
+
+
+def times_of_pairs(
+    days: Sequence[str], clocks: Sequence[str], timezone: str | None, declared: str | None, where: str
+) -> Stamps:
+    """The same of a column of dates and one of times of day: midnights are counted where the date stands still."""
+    try:
+        forms = () if declared else find_formats(["", ""], [list(days), list(clocks)], None, where)
+    except QuestionError:  # which both together may answer
+        forms = ()
+    if not have_days(forms):
+        cells = [f"{day} {clock}" if day and clock else "" for day, clock in zip(days, clocks, strict=True)]
+        return times_of_texts(cells, timezone, declared, where)
+    told = (STANDS,) if stands(list(zip(days, clocks, strict=True)), (0, 1), forms) else ()
+    day_ns, clock_ns = (timestamp.parse(list(c), f) for c, f in zip((days, clocks), forms, strict=True))
+    ns = Days().join(day_ns, clock_ns, np.zeros(len(days), np.bool_))
     utc, notes = local_to_utc_ns(ns.view("datetime64[ns]"), timezone)
     return Stamps(utc, True, (*notes, *told))
 

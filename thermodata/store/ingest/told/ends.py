@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import Any
 
 Rows = Mapping[str, Iterable[Mapping[str, Any]]]  # test -> its rows of the table `source`
+PAUSED_S = "paused_s"  # of a row: how long it logged nothing in between
 LEAST_S = 120.0  # by which two logs stand apart; people switch two loggers on within it
 
 
@@ -26,8 +27,29 @@ def ends_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, LogEnds]:
     for row in rows:
         if row["start_ns"] is not None and row["step_s"] and row["rows"] and row.get("clock") != "relative":
             first = row["start_ns"] / 1e9
-            found[row["source"]].append(LogEnds(first, first + row["step_s"] * (row["rows"] - 1)))
+            logged_s = row["step_s"] * (row["rows"] - 1) + row.get(PAUSED_S, 0.0)
+            found[row["source"]].append(LogEnds(first, first + logged_s))
     return {s: LogEnds(min(e.first for e in some), max(e.last for e in some)) for s, some in found.items()}
+
+
+def with_pauses(rows: Rows, events: Rows) -> dict[str, list[dict[str, Any]]]:
+    """The rows, each with its pauses. events: test -> rows of the table `quality_event`."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for test, of_test in rows.items():
+        gaps = {
+            (e["source"], e["stream"], e["from_s"], e["to_s"])
+            for e in events.get(test, ())
+            if e["flag"] == "gap" and e["from_s"] is not None and e["to_s"] is not None
+        }
+        found[test] = [
+            {**r, PAUSED_S: sum(to - begin for source, stream, begin, to in gaps if _is_of(r, source, stream))}
+            for r in of_test
+        ]
+    return found
+
+
+def _is_of(row: Mapping[str, Any], source: str, stream: str | None) -> bool:
+    return bool(row["source"] == source and row["stream"] == stream)
 
 
 def pairs(rows: Rows) -> Iterator[tuple[str, str, dict[str, tuple[float, float]]]]:

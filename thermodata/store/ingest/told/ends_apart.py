@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from thermodata.schema.words.sentences import with_count
@@ -12,14 +12,16 @@ LEAST_S = 300.0  # for so long a driver is carried on at its ends without a word
 _NAMED = 6
 
 
-def ends_apart(rows: Mapping[str, Iterable[Mapping[str, Any]]]) -> list[str]:
-    """A sentence for each two sources and each end. rows: test -> its rows of the table `source`."""
+def ends_apart(rows: Mapping[str, Iterable[Mapping[str, Any]]], responses: Collection[str]) -> list[str]:
+    """A sentence for each two sources and each end. rows: test -> its rows of the table `source`. responses: the
+    sources of displacements, which a log of drivers has to last as long as."""
     found: dict[tuple[str, str, str], list[str]] = {}
     for test, of_test in rows.items():
         ends = ends_of(of_test)
-        if len(ends) < 2:
+        of = [s for s in ends if s in responses]
+        if not of:
             continue
-        last, first = max(ends, key=lambda s: ends[s].last), min(ends, key=lambda s: ends[s].first)
+        last, first = max(of, key=lambda s: ends[s].last), min(of, key=lambda s: ends[s].first)
         for source, own in ends.items():
             for by_s, words, other in (
                 (ends[last].last - own.last, "ends {} before", last),

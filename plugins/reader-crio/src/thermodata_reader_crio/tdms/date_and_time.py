@@ -11,7 +11,7 @@ from thermodata.plugin import Source
 from thermodata.reader.text import split_unit
 from thermodata.reader.text.cells.cell import TIME_WORD
 from thermodata.reader.text.clocks.time_groups import one_time
-from thermodata.reader.text.times.in_memory import times_of_texts
+from thermodata.reader.text.times.in_memory import times_of_pairs
 from thermodata.reader.text.times.time_formats import find_format
 from thermodata_reader_crio.tdms.channels import Channel
 from thermodata_reader_crio.tdms.raw_values import read
@@ -37,10 +37,9 @@ class DateAndTime:
     def time_channel(self, file: BinaryIO, notes: list[str]) -> TimeChannel:
         """The times of all rows, as those of the channel of dates."""
         rows = min(self.date.length, self.time.length)
-        pairs = zip(*(_texts(file, c, rows) for c in self.members), strict=True)
-        cells = [f"{day} {time}" if day and time else "" for day, time in pairs]
+        days, clocks = (_texts(file, c, rows) for c in self.members)
         where = f"{self.date.signal.name}, {self.time.signal.name}"
-        told = times_of_texts(cells, self.source.timezone, self.form, where)
+        told = times_of_pairs(days, clocks, self.source.timezone, self.form, where)
         notes.extend(n for n in told.notes if n not in notes)
         return TimeChannel(self.date, None, told)
 
